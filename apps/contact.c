@@ -57,22 +57,22 @@ Exit code:\n\
 typedef struct {
   char scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN],
     checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
-  PetscInt  checkpoint_every; /* load steps; 0: only where a signal ends the run */
+  PetscInt  checkpoint_every; /* load steps between two checkpoints; 0: only when a signal ends the run */
   PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
 } AppOptions;
 
-/* What is known of an error by the time it reaches main() */
+/* What main() knows about an error */
 typedef struct {
-  MPI_Comm  meeting;   /* where the ranks that erred wait for each other */
-  int       said;      /* where errors are said, while files are written too, when stderr is mute */
+  MPI_Comm  meeting;   /* where ranks with an error wait for each other */
+  int       said;      /* file descriptor for errors, also while stderr is silenced during output */
   PetscBool traceback; /* PETSc's own is asked for */
   PetscBool silent;    /* another rank says it */
   int       end;       /* the exit code */
-  PetscBool alone;     /* no other rank can know of it */
+  PetscBool alone;     /* no other rank can know of the error */
   char      sentence[512];
 } AppError;
 
-/* What is wrong with the input is an error of most kinds; some are of the machine's or of the program's making */
+/* Most kinds of errors are caused by the input; those listed here by the machine or by the program */
 static RunEnd AppClassifyError(PetscErrorCode n)
 {
   static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC,
@@ -85,8 +85,8 @@ static RunEnd AppClassifyError(PetscErrorCode n)
   return RUN_REFUSED;
 }
 
-/* A collective error unwinds on every rank and is said once, by a sentence or by PETSc's traceback; an error of one
- * rank alone must end the others */
+/* A collective error unwinds on every rank and is printed once: one sentence, or PETSc's traceback. An error on one
+   rank alone must end the other ranks */
 static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
   PetscErrorType type, const char *message, void *ctx)
 {
@@ -112,8 +112,8 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
            : n;
 }
 
-/* HDF5 closes its files when MPI ends, prints pages and crashes over one that it could not write: nobody is to hear of
- * it, and the exit code stays */
+/* When MPI ends, HDF5 closes its files. If it could not write one, it prints pages and crashes. This hides both and
+   keeps the exit code */
 static int app_end;
 
 static void AppLeaveAtOnce(int sig)
@@ -132,11 +132,9 @@ static void AppLeaveFiles(int end)
 }
 
 /*
-   The end after an error, once it has unwound. Every rank comes here with a collective one. Where a rank comes alone
-   the others wait for it in the midst of their work, for ever if it does not end them. PETSc's traceback takes the same
-   ten seconds for it.
-
-   Objects are left as they are; PetscFinalize() would complain about them.
+   Ends the program after an error has unwound. With a collective error every rank comes here. If one rank comes
+   alone, the others may wait for it forever, so it ends them after ten seconds, as PETSc's traceback does. Objects
+   are not destroyed; PetscFinalize() would complain about them.
 */
 static void AppLeave(const AppError *error)
 {
@@ -162,7 +160,7 @@ static void AppLeave(const AppError *error)
   _Exit(error->end);
 }
 
-/* contact --help, contact -version: a text, and no run */
+/* contact --help, contact -version: print a text and do not run */
 static PetscBool AppAsksForText(int argc, char **argv)
 {
   return (PetscBool)(argc == 2 &&
@@ -191,7 +189,7 @@ static PetscErrorCode AppSayText(const char word[])
   PetscFunctionReturn(0);
 }
 
-/* A page shows fields and is made from the summary: files of its name, where no others are asked for */
+/* A page needs fields and a summary. Unless the user names files for them, they are named after the page */
 static PetscErrorCode AppCompleteReport(AppOptions *app)
 {
   char  base[PETSC_MAX_PATH_LEN];
@@ -211,7 +209,7 @@ static PetscErrorCode AppCompleteReport(AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* Without a scene -help is all that is asked for, and given by then */
+/* -help without a scene has already printed the help */
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
   PetscBool helped;
@@ -227,15 +225,15 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     app->checkpoint_every, &app->checkpoint_every, NULL, 0));
   PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
     sizeof(app->checkpoint), NULL));
-  PetscCall(PetscOptionsString("-restart", "Checkpoint to go on from", NULL, app->restart, app->restart,
+  PetscCall(PetscOptionsString("-restart", "Checkpoint to restart from", NULL, app->restart, app->restart,
     sizeof(app->restart), &app->restarts));
   PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
     &app->summarize));
-  PetscCall(PetscOptionsString("-report", "Page of the run for people, an HTML file", NULL, app->report, app->report,
-    sizeof(app->report), &app->page));
+  PetscCall(PetscOptionsString("-report", "HTML page of the run", NULL, app->report, app->report, sizeof(app->report),
+    &app->page));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
     &app->contact_free, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and attained", NULL, app->accuracy,
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and reached", NULL, app->accuracy,
     &app->accuracy, NULL));
   PetscCall(
     PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
@@ -251,7 +249,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* Words that are neither an option nor its value would be passed over */
+/* Refuses words that are neither an option nor its value; PETSc would ignore them */
 static PetscErrorCode AppCheckWords(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -267,8 +265,8 @@ static PetscErrorCode AppCheckWords(int argc, char **argv)
   PetscFunctionReturn(0);
 }
 
-/* One line a Newton step, unless the user has decided; the plugin's monitor is switched on by its option and by nothing
- * else */
+/* Prints one line per Newton step, unless the user has set the monitor's option. Only that option switches on the
+   plugin's monitor */
 static PetscErrorCode AppShowProgress(void)
 {
   PetscBool given;
@@ -366,7 +364,7 @@ static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Sim
   PetscFunctionReturn(0);
 }
 
-/* The first load step: 0, or that with which the run goes on; same: on the mesh that it was on */
+/* The first load step: 0, or the one with which a restarted run continues. same: on the same mesh as the checkpoint */
 static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation sim, PetscInt *step, PetscBool *same)
 {
   Checkpoint checkpoint;
@@ -380,13 +378,13 @@ static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation 
   PetscCall(CheckpointRead(scene, dm, app->restart, &checkpoint, same));
   PetscCall(SimulationSetCheckpoint(sim, checkpoint, step));
   if (!app->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Going on from %s at time %g%s\n", app->restart, (double)checkpoint->time,
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Continuing from %s at time %g%s\n", app->restart, (double)checkpoint->time,
       *same ? "" : ", interpolated to this mesh and these ranks"));
   PetscCall(CheckpointDestroy(&checkpoint));
   PetscFunctionReturn(0);
 }
 
-/* Load steps until one fails; true: none did */
+/* Solves load steps until one fails; converged: none did */
 static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, PetscInt first,
   Output output, CheckpointWriter writer, PetscBool *converged)
 {
@@ -407,7 +405,7 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
   PetscFunctionReturn(0);
 }
 
-/* All load steps on one mesh; again: -accuracy asks for another run of the scene, and has said how */
+/* Solves all load steps on one mesh. again: -accuracy asks for another run, with the settings that it has changed */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks,
   StepForecast *forecast, RunEnd *end, PetscBool *again)
 {
@@ -494,8 +492,8 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* What is misspelt, and what of a scene's own options has no use, is told by ourselves; PETSc since 3.19 would warn of
- * every option that this run did not need */
+/* We report misspelt options and unused options of a scene ourselves. PETSc since 3.19 would warn of every option that
+   this run did not need */
 static PetscErrorCode AppLeaveUnusedOptions(void)
 {
   PetscBool given;
@@ -506,7 +504,7 @@ static PetscErrorCode AppLeaveUnusedOptions(void)
   PetscFunctionReturn(0);
 }
 
-/* What the page is made from when all ranks have ended; only the first rank has the name of a file then */
+/* Collects what the page needs while MPI is still up. Only the first rank makes the page */
 static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **argv, ReportPage *page)
 {
   PetscMPIInt rank;
@@ -526,13 +524,13 @@ static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **ar
   PetscFunctionReturn(0);
 }
 
-/* The run is over, its exit code stands: a page that cannot be made is said */
+/* The run is over, and its exit code stays. If the page cannot be made, this prints why */
 static void AppMakePage(const ReportPage *page)
 {
   char sentence[512];
 
   if (page->file[0] && ReportPageMake(page, sentence, sizeof(sentence)))
-    fprintf(stderr, "contact: there is no page %s: %s\n", page->file, sentence);
+    fprintf(stderr, "contact: cannot write the page %s: %s\n", page->file, sentence);
 }
 
 static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
@@ -569,10 +567,8 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscFunctionReturn(0);
 }
 
-/*
-   The arrays of the AMG and of matrices come and go. glibc takes freed ones of up to 32 MB for a heap that fragments,
-   which two_block on mesh 2 pays for with 0.6 of 5.0 kB an unknown
-*/
+/* Large arrays of the AMG and of matrices are freed and allocated again. glibc would serve up to 32 MB of them from a
+   heap, which fragments: two_block on mesh 2 would need 0.6 of 5.0 kB an unknown more. This sends them to mmap() */
 static void AppLimitHeap(void)
 {
 #if defined(__GLIBC__)
@@ -580,8 +576,8 @@ static void AppLimitHeap(void)
 #endif
 }
 
-/* A crash is a fault of the program or of a library, and ends the other ranks, too; PETSc's handler would say a page
- * about it, and exit with a code of its own */
+/* Handles a crash of the program or of a library: one sentence, and the other ranks are ended. PETSc's handler would
+   print a page and use an exit code of its own */
 static PetscErrorCode AppCrash(int sig, void *ctx)
 {
   const PetscBool fault =
@@ -598,8 +594,8 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   _Exit(RUN_BROKEN);
 }
 
-/* Who reads no further wants no more, of -help too, which is printed in here: PETSc's signal handler would say a page
- * about it */
+/* If the reader of a pipe stops reading (contact -help | head), end silently. PETSc's signal handler would print a
+   page */
 static PetscErrorCode AppInitialize(int *argc, char ***argv)
 {
   static const char option[] = "-no_signal_handler";
@@ -615,9 +611,9 @@ int main(int argc, char **argv)
 {
   static ReportPage page; /* none */
 
-  RunEnd      end   = RUN_CONVERGED;
-  AppError    error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
-  const char *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* which PETSc would take for an option of its own */
+  RunEnd         end   = RUN_CONVERGED;
+  AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
+  const char    *word = AppAsksForText(argc, argv) ? argv[1] : NULL; /* PETSc would take this word for its own option */
   PetscErrorCode ierr;
 
   AppLimitHeap();
@@ -634,7 +630,7 @@ int main(int argc, char **argv)
   if (ierr) AppLeave(&error);
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
-    fprintf(stderr, "contact: error: what was to be printed is lost: %s\n", strerror(errno));
+    fprintf(stderr, "contact: error: cannot print: %s\n", strerror(errno));
     end = RUN_OUTPUT_LOST;
   }
   ierr = PetscFinalize();

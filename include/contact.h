@@ -1,6 +1,5 @@
-/*
-   Contact: the linearized gap between pairs of faces, c(u) = g + J (u - u_ref), one row a nonmortar vertex.
-*/
+/* Contact: the linearized gap between pairs of faces, c(u) = g + J (u - u_ref), with one row for each nonmortar
+   vertex. */
 #ifndef CONTACT_H
 #define CONTACT_H
 
@@ -10,21 +9,21 @@
 
 typedef struct _n_Contact *Contact;
 
-/* The constraints of one linearization. Rows are distributed as their nonmortar vertices are. */
+/* The constraints of one contact update. Rows are distributed as their nonmortar vertices are. */
 typedef struct {
-  Vec g;          /* gap at u_ref, weighted and divided by the lumped mass: a length */
-  Mat J;          /* m x n AIJ, dimensionless; columns are the DM's global rows */
-  Mat derivative; /* of the gap, the normals' turning included; J is that with the patches of smooth pairs keeping their
-                     shape. NULL where no pair is smooth */
-  Mat cover; /* J of the facets, in whose proportions an area is shared among vertices. NULL where no pair is smooth or
-                of order 2: it is J */
-  Vec mass;  /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  Mat slip; /* 2m x n AIJ, dimensionless: along both tangents of a row, what the mortar side moves along the other. Rows
-               of pairs that do not rub are empty; NULL: none does */
+  Vec g;          /* gap at u_ref, divided by the lumped mass [length] */
+  Mat J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
+  Mat derivative; /* derivative of the gap with the turning of the normals; J has patches of smooth pairs of fixed
+                     shape. NULL if no pair is smooth */
+  Mat cover;      /* J of the facets: an area is shared among vertices in proportion to it. NULL (use J) if no pair is
+                smooth or of order 2 */
+  Vec mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  Mat slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along both
+               tangents of a row. Rows of pairs without friction are empty; NULL: no pair has friction */
   PetscReal *tangent; /* [6 nlocal] of each row, and */
-  PetscReal *covered; /* [nlocal] int phi_A over what the mortar side covers [length^2]; 0 where the pair does not rub.
-                         NULL where there is no slip */
-  PetscReal *normal;  /* [3 nlocal] unit normal of each row, out of the nonmortar side */
+  PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
+                         pair has friction */
+  PetscReal *normal;  /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
   PetscInt   nlocal;  /* rows of this rank */
   PetscInt  *vertex;  /* nonmortar vertex (local DMPlex point) of each local row */
   PetscInt  *pair;    /* contact pair of each local row */
@@ -35,19 +34,19 @@ PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
-/* Collective. u: global displacement that deforms the reference coordinates; search, clip, integrate at that state */
+/* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
-/* Nodes of a pair's nonmortar face where friction cannot act though the faces slide, once the gap has been
-   linearized; of how many */
+/* Counts nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact update;
+   and all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
 /* Collective. How deep vertices of either face of each pair are in the other body at a displacement,
    and what that is known to [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
-/* Collective. An error where bodies overlap, undeformed, deeper than contact looks; the linearization is that at zero
-   displacement */
+/* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
+   search reaches */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
-/* Of each node of a nonmortar face the weights of those of the mortar face that it is tied to */
+/* For each node of a nonmortar face, the weights of the mortar face's nodes that it is tied to */
 PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const char what[], const SceneTie *, Mat *rows);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);

@@ -23,13 +23,13 @@ PETSC_EXTERN PetscErrorCode ElasticitySetMatType(Elasticity, MatType);
 /* Preallocated, values zero; BAIJ unless another type was set, marked symmetric; without a near null space */
 PETSC_EXTERN PetscErrorCode ElasticityCreateTangent(Elasticity, Mat *);
 PETSC_EXTERN PetscErrorCode ElasticitySetNearNullSpace(Elasticity, Mat);
-/* Bodies with a constant tangent are assembled the first time only, as long as they share no vertex with one that has
-   not, and the matrix is the one of the last call and unchanged since */
+/* Bodies with a constant tangent are assembled only once. This needs the same matrix, unchanged since, and that they
+   share no vertex with a body whose tangent varies */
 PETSC_EXTERN PetscErrorCode ElasticityTangent(Elasticity, Vec u, Mat);
-/* Whether no body's tangent depends on u; how often a body has been assembled into a tangent */
+/* Whether no body's tangent depends on u; how many times each body has been assembled into a tangent */
 PETSC_EXTERN PetscErrorCode ElasticityIsLinear(Elasticity, PetscBool *);
 PETSC_EXTERN PetscErrorCode ElasticityGetAssemblies(Elasticity, PetscInt body, PetscInt *);
-/* Energy stored at u [force length]; PETSC_INFINITY on every rank where an element is turned inside out */
+/* Energy stored at u [force length]; PETSC_INFINITY on every rank if an element is inverted */
 PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
 /* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
 PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
@@ -42,29 +42,29 @@ PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[],
   Mat slope);
 PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[], Vec areas);
 PETSC_EXTERN PetscErrorCode ElasticityAddBodyForce(Elasticity, PetscInt body, const PetscReal density[3], Vec force);
-/* The integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area;
-   the load of a traction with these resultants */
+/* Integral over a face of shape functions times a constant: the load of a dead traction, or a stiffness per area. Load
+   of a traction with the given resultants */
 PETSC_EXTERN PetscErrorCode ElasticityAddFaceField(Elasticity, const char face[], const PetscReal value[3], Vec total);
 PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], const PetscReal resultant[3],
   const PetscReal moment[3], const PetscReal point[3], Vec force);
 /* Stiffness of springs to the ground, one a row, in energy, force and tangent, and of springs between unknowns, in
    energy and force; NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness, Mat between);
-/* Temperature of bodies that expand, linear in each cell: 4 values a local cell, value at its centre and gradient;
-   fitted to a function of the place, and set, NULL for none */
+/* Temperatures of bodies that expand, linear in each cell: 4 values a local cell (at its centre, and the gradient).
+   Fits them to a function of space, and sets them; NULL: none */
 PETSC_EXTERN PetscErrorCode ElasticityGetCellCount(Elasticity, PetscInt *ncells);
 PETSC_EXTERN PetscErrorCode ElasticityFitTemperature(Elasticity, PetscInt                 body,
   PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[]);
 PETSC_EXTERN PetscErrorCode ElasticitySetTemperature(Elasticity, const PetscReal fits[]);
-/* Lumped mass: integral of each node's shape function, or where that is negative of its square, scaled; for each of
-   its 3 components [length^3] */
+/* Lumped mass: integral of each node's shape function. If one is negative, integral of its square, scaled. One value
+   for each of the 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values a local cell [force/length^2] */
 /* Of each body of a small-strain law: principal strain, rotation */
 PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][2]);
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
-/* Fields to look at: stress at the nodes of the local section, by recovery, and at quadrature points; strain energy
-   of cells per volume */
+/* Output fields: recovered stress at the nodes of the local section, stress at quadrature points, strain energy per
+   volume of cells */
 PETSC_EXTERN PetscErrorCode ElasticityNodalStress(Elasticity, Vec u, PetscReal *stress[]);
 PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *npoints, PetscReal *places[],
   PetscReal *stress[]);

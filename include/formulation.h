@@ -27,7 +27,7 @@ typedef enum {
 } GapType;
 PETSC_EXTERN const char *const GapTypes[];
 
-/* How the energy of a load step is minimized; the two are the same where every body is linear */
+/* How the energy of a load step is minimized. Both are the same if every body is linear */
 typedef enum {
   MODEL_ENERGY,   /* the true energy, equilibrium on exit */
   MODEL_QUADRATIC /* its quadratic model about the last state: one tangent a load step */

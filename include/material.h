@@ -24,19 +24,21 @@ PETSC_EXTERN const char *const MaterialTypes[];
 
 typedef struct {
   MaterialType type;
-  PetscReal young; /* Young's modulus E > 0; of laws with other constants about their stiffness, from MaterialSetScale()
-                      [force/length^2] */
-  PetscReal poisson;                /* Poisson's ratio, -1 < nu < 1/2 */
-  PetscReal c10, c01, bulk;         /* Mooney-Rivlin: of I1 and of I2, not negative; bulk modulus [force/length^2] */
-  PetscReal youngs[3], poissons[3]; /* orthotropic: E1 E2 E3 [force/length^2]; nu12 nu23 nu13 */
-  PetscReal shears[3],
-    axes[2][3]; /* G12 G23 G13 [force/length^2]; first axis, and one with which it spans the first two; 0: x, y */
+  PetscReal    young;   /* Young's modulus E > 0; laws with other constants get a value of about their stiffness from
+                      MaterialSetScale() [force/length^2] */
+  PetscReal    poisson; /* Poisson's ratio, -1 < nu < 1/2 */
+  PetscReal    c10, c01, bulk;         /* Mooney-Rivlin: constants of I1 and I2, not negative; bulk modulus
+                                       [force/length^2] */
+  PetscReal    youngs[3], poissons[3]; /* orthotropic: E1 E2 E3 [force/length^2]; nu12 nu23 nu13 */
+  PetscReal    shears[3],
+    axes[2][3]; /* G12 G23 G13 [force/length^2]; first axis, and a second vector in the plane of axes 1 and 2; 0: x, y
+                   */
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
   PetscReal own[MATERIAL_OWN];
 } Material;
 
-/* What a law is evaluated with [force/length^2] */
+/* The constants with which a law is evaluated [force/length^2] */
 typedef struct {
   PetscReal lambda, mu;    /* Lame parameters */
   PetscReal bulk;          /* kappa = lambda + 2 mu/3 */
@@ -56,14 +58,11 @@ typedef struct {
 } MaterialConstant;
 
 /*
-   A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j: small strains
-   then keep all their digits.
-
-   Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa and the dilatation theta; the
-   isochoric moduli of MaterialGetModuli() leave W_iso alone.
-
-   Where the material is turned inside out (det F <= 0; linear laws do not know it) the energy is PETSC_INFINITY, and
-   stress, tangent and Cauchy stress return PETSC_FALSE and write nothing.
+   A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j, so that small
+   strains keep all digits. Every law has the form W = W_iso + kappa/2 theta(H)^2 with the bulk modulus kappa and the
+   dilatation theta; W_iso alone has the isochoric moduli of MaterialGetModuli(). If the material is inverted (det F
+   <= 0; linear laws do not check it) the energy is PETSC_INFINITY, and stress, tangent and Cauchy stress return
+   PETSC_FALSE and write nothing.
 */
 typedef struct {
   PetscBool constant;  /* the tangent does not depend on H */
@@ -92,11 +91,11 @@ typedef struct {
 PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
-/* Sets young of a material whose law has other constants */
+/* Sets an equivalent Young's modulus for a material with other constants */
 PETSC_EXTERN PetscErrorCode MaterialSetScale(Material *);
 /* Linear thermal expansion along the axes of space, a symmetric tensor */
 PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9]);
-/* What its law is evaluated with, and the same for the isochoric part alone */
+/* The constants for the law, and for its isochoric part alone */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
 

@@ -35,50 +35,50 @@ static inline PetscInt MeshCorners(PetscInt nnodes)
 
 /* The mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
-/* Cells marked mesh after mesh, as numbers on the first rank; those marked last are the last */
+/* Cells marked for refinement on one mesh after another, as cell numbers on the first rank */
 typedef struct {
   PetscInt   n, *count; /* rounds, and the cells of each */
   PetscInt **cells;
 } MeshMarks;
-/* A scene's, refined where it says so, and then where marks are; NULL: there will be none */
+/* The mesh of a scene: refined where the scene says so, then where cells are marked; NULL: no cell will be marked */
 PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, const MeshMarks *, DM *);
 PETSC_EXTERN PetscErrorCode MeshMarksAdd(DM, const PetscBool marked[], MeshMarks *);
 PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
-/* Which vertices hang amid an edge or a facet of a coarser cell, and of which others they are the mean; NULL: none */
+/* Hanging vertices, in the middle of an edge or a facet of a coarser cell, and the vertices whose mean they are; NULL:
+   none */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
-/* Of the facets of this rank, from the first on, those that bound the bodies */
+/* The facets of this rank that bound the bodies */
 PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
-/* Are the shape's parameters sound, or does the mesh file have the volume? Are the faces that the body cuts out of
-   others sound? */
+/* Checks the shape's parameters, or that the mesh file has the volume, and the parts of faces that the body names */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
-/* Names of a body's faces, without the body's: the shape's, or the physical surfaces of the Gmsh file; then those
-   that it cuts out of them */
+/* Names of a body's faces, without the body's name: those of the shape or the physical surfaces of the Gmsh file, then
+   the parts of them */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
-/* Do the faces that a scene refers to have facets, and is every body held by displacements or contact? */
+/* Checks that the faces of a scene have facets, and that every body is held by displacements or contact */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
 /* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
-/* Local vertices (DMPlex points) in the closure of a face, also those on facets owned by other ranks */
+/* Local vertices (DMPlex points) in the closure of a face, also of facets that other ranks own */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 4 vertices of a facet, counterclockwise seen from outside the body, the last of a triangle's twice; the 8 of a
-   hexahedron in tensor order, x fastest */
+/* The 4 vertices of a facet, counterclockwise seen from outside the body (a triangle repeats the last one). The 8
+   vertices of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
-/* The nodes of a facet: 4 as above, or 9 with the edges and itself, of a triangle 3 or 6; of a hexahedron: 8, or 27,
-   in tensor order; of a tetrahedron 4, or 10 */
+/* The nodes of a facet: its 4 vertices, or 9 with edge and facet nodes; of a triangle 3 or 6. The nodes of a
+   hexahedron, 8 or 27 in tensor order, or of a tetrahedron, 4 or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
-/* The bilinear facets that its nodes cut a facet into: itself, or 4, each with 4 nodes counterclockwise seen from
-   outside, the last of a triangle's twice */
+/* Cuts a facet by its nodes into bilinear facets: 1, or 4 of order 2. Each has 4 nodes, counterclockwise seen from
+   outside; a triangle repeats the last one */
 #define MESH_MAX_FACET_PIECES 4
 PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n,
   PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
-/* The corners that each node of a tetrahedron is between; values and derivatives of its shape functions */
+/* The two corners that each node of a tetrahedron lies between; values and derivatives of its shape functions */
 PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
 PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[],
             PetscReal dN[3][MESH_MAX_NODES]);
@@ -86,13 +86,14 @@ PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[
 PETSC_EXTERN void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[]);
 /* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
 PETSC_EXTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
-/* The order of every body, on all ranks: the one it asks for, or that of its cells */
+/* The order of every body on all ranks: the requested one, or that of its cells */
 PETSC_EXTERN PetscErrorCode MeshGetOrders(DM, PetscInt nbodies, PetscInt orders[]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
-/* Where a point is in a mesh: a cell, and the values there of its nodes' shape functions, in the order of the nodes */
+/* The place of a point in a mesh: a cell, and the values of its nodes' shape functions there, in the order of the
+   nodes */
 typedef struct {
   PetscReal distance; /* of the point from the cell [length] */
   PetscReal size;     /* of the cell: diagonal of its box [length] */

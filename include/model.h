@@ -1,7 +1,5 @@
-/*
-   The model: what is to be simulated, as plain structs. Everybody knows them, and they know nobody. Lengths, forces and
-   pressures are in any consistent set of units.
-*/
+/* The model: what is simulated, as plain structs. All other parts use them; they use none. Lengths, forces and
+   pressures are in any consistent set of units. */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -37,11 +35,12 @@ typedef struct {
   PetscReal extent[2]; /* from, to along the axis [length] */
 } SceneTubeArc;
 
-/* Prism over half an ellipse, or over the half of that on one side of its plane of symmetry */
+/* Prism over half an ellipse, or over one half of that, cut at its plane of symmetry */
 typedef struct {
   PetscInt  axis;      /* of the prism: 0, 1, 2 */
   PetscInt  depth;     /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
-  PetscInt  half;      /* direction from the plane of symmetry to the half that is meant; PETSC_DECIDE: both halves */
+  PetscInt  half;      /* direction from the plane of symmetry to the half that is modelled; PETSC_DECIDE: both halves
+                          */
   PetscReal center[3]; /* a point on the line where the flat side meets the plane of symmetry [length] */
   PetscReal semi_axes[2]; /* along depth, and across [length] */
   PetscReal extent[2];    /* from, to along the axis [length] */
@@ -59,7 +58,7 @@ typedef struct {
   SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
   PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */
   PetscReal   outer_axes[3];
-  PetscReal   layer_grading; /* thickness of the outermost layer over the innermost; 0 stands for 1 */
+  PetscReal   layer_grading; /* thickness of the outermost layer over the innermost; 0: 1 */
   PetscInt    layer_even;    /* equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
@@ -69,7 +68,7 @@ typedef struct {
   char *volume; /* physical name */
 } SceneGmsh;
 
-/* Facets of a face that lie in a box at refinement level 0, as a face of its own */
+/* A part of a face: its facets that lie in a box at refinement level 0 */
 typedef struct {
   char     *name;               /* "<body>.<name>" is a face */
   char     *of;                 /* the face, without its body */
@@ -85,7 +84,7 @@ typedef struct {
   PetscInt    cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
   Material    material;
   ElementType element;
-  PetscInt  order; /* of the displacements in a cell, 1 or 2; 0: as suits the cells, 1 of hexahedra, 2 of tetrahedra */
+  PetscInt  order; /* order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra, 2 for tetrahedra */
   PetscReal grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
                                half_ellipse:     core along depth, core across, ring to the arc; 0: 1 */
   PetscInt  even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
@@ -112,28 +111,30 @@ typedef enum {
   DISPLACEMENT_EDGE
 } DisplacementPlace;
 
-#define SCENE_WHOLE_BODY ".*" /* in place of a face: the boundary and all that it holds, of a rigid body */
+#define SCENE_WHOLE_BODY ".*" /* instead of a face: a whole rigid body */
 
 typedef struct {
   char     *name;
-  char     *face;     /* "<body>.<face>", the name of a facet label of the mesh; or all of a rigid body, "<body>"
-                         SCENE_WHOLE_BODY */
+  char     *face;     /* "<body>.<face>", the name of a facet label of the mesh; or "<body>" SCENE_WHOLE_BODY: a whole
+                         rigid body */
   PetscBool fixed[3]; /* which components are prescribed */
   PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
-  PetscBool moves;    /* a rigid motion: that of a rigid body, or with a rotation; those of one face or body add up */
-  PetscReal rotation[3]; /* about an axis through the center, by its length, at factor 1 [degrees] */
+  PetscBool moves;    /* a rigid motion of a rigid body, or of a face with a rotation; motions of one face or body add
+                         up */
+  PetscReal rotation[3]; /* rotation vector about an axis through the center, at factor 1 [degrees] */
   PetscReal center[3];   /* which moves by value [length] */
-  PetscBool released[6]; /* of a rigid body: its motions along, and about, the axes through the center that are free,
-                            for forces to drive */
-  PetscBool inclined;  /* a symmetry plane along no axis: no component is prescribed, but that along the normal is 0 */
+  PetscBool released[6]; /* of a rigid body: its translations and rotations (about the center) that are free and driven
+                            by forces */
+  PetscBool inclined;  /* an inclined symmetry plane: no component is prescribed, but the displacement along the normal
+                          is 0 */
   PetscReal normal[3]; /* of any length */
   DisplacementPlace at;
   PetscInt          body;           /* of a point or an edge */
-  PetscReal         from[3], to[3]; /* ends of the edge; of a point the same [length] */
+  PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
   PetscInt          ramp;
 } SceneDisplacement;
 
-/* -value x normal of the reference face, a dead load, or of the deformed one */
+/* force -value x normal: of the reference face (a dead load), or of the deformed one */
 typedef struct {
   char     *name;
   char     *face;
@@ -142,14 +143,14 @@ typedef struct {
   PetscInt  ramp;
 } ScenePressure;
 
-/* Dead load on a face, uniform; or with a resultant, and then linear where there is a moment */
+/* Dead load on a face: a uniform traction, or one with the given resultant, linear if there is a moment */
 typedef struct {
   char     *name;
-  char     *face;      /* of a resultant also all of a rigid body, "<body>" SCENE_WHOLE_BODY */
+  char     *face;      /* with a resultant also a whole rigid body, "<body>" SCENE_WHOLE_BODY */
   PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
   PetscReal value[3];
-  PetscReal moment[3]; /* of a resultant, about the point where it acts, at factor 1 [force length] */
-  PetscBool placed;    /* it acts at a point that is given, else at the face's centroid */
+  PetscReal moment[3]; /* moment of a resultant about the point where it acts, at factor 1 [force length] */
+  PetscBool placed;    /* the point is given; else it is the face's centroid */
   PetscReal point[3];  /* [length] */
   PetscInt  ramp;
 } SceneTraction;
@@ -170,7 +171,7 @@ typedef struct {
   PetscInt  ramp;
 } SceneBodyForce;
 
-/* Temperature above that without stress, of bodies that expand; those of one body add up */
+/* Temperature above the stress-free one, of bodies that expand; those of one body add up */
 typedef struct {
   char    *name;
   PetscInt body;  /* index, or PETSC_DECIDE: every body that expands */
@@ -184,12 +185,12 @@ typedef struct {
   char     *nonmortar; /* "<body>.<face>": carries the constraints */
   GapType   gap;
   PetscReal distance;          /* facets further apart never pair [length]; 0: chosen from the size of the faces */
-  PetscReal interference;      /* largest overlap at the start that is meant [length]; 0: none, PETSC_INFINITY: any */
-  PetscInt  interference_ramp; /* that it follows; PETSC_DECIDE: all of it is there from the start */
-  PetscReal friction;          /* coefficient; 0: none, PETSC_INFINITY: any force, which sticks */
+  PetscReal interference;      /* largest intended overlap at the start [length]; 0: none, PETSC_INFINITY: any */
+  PetscInt  interference_ramp; /* ramp of the interference; PETSC_DECIDE: all of it from the start */
+  PetscReal friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks with any force */
   PetscReal shear_limit;       /* largest shear of the contact [force/length^2]; PETSC_INFINITY: none */
   PetscInt  friction_ramp;     /* that the coefficient follows; PETSC_DECIDE: none */
-  PetscBool smooth;            /* whether the gap is that of the smooth surfaces which curved faces stand for */
+  PetscBool smooth;            /* measure the gap between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
 static inline PetscBool SceneContactPairRubs(const SceneContactPair *pair)
@@ -205,17 +206,17 @@ typedef struct {
   PetscReal distance;  /* facets further apart are not joined [length]; 0: chosen from their size */
 } SceneTie;
 
-/* Cells that are refined more often than the others: near a face, near both faces of a contact pair, or in a box */
+/* A zone of finer cells: near a face, near both faces of a contact pair, or in a box */
 typedef struct {
   char     *name;
   char     *face[2];            /* "<body>.<face>"; NULL: none */
   PetscInt  body;               /* PETSC_DECIDE: any */
   PetscReal lower[3], upper[3]; /* where there is no face [length] */
-  PetscReal distance;           /* from each face, or from the box [length] */
+  PetscReal distance;           /* distance from each face, or from the box [length] */
   PetscInt  levels;             /* refinements beyond the uniform ones */
 } SceneRefinement;
 
-/* Where results are wanted: a point, or points of equal distance along a line, of the undeformed bodies */
+/* A probe: a point, or equally spaced points along a line, of the undeformed bodies */
 typedef struct {
   char     *name;
   PetscInt  body; /* PETSC_DECIDE: any */
@@ -227,12 +228,12 @@ typedef struct {
 /* A PETSc option, without its dash */
 typedef struct {
   char     *name, *value;
-  PetscBool set; /* by the scene: neither the command line nor an options file has it */
+  PetscBool set; /* the scene set the option; the command line or an options file had not */
 } SceneOption;
 
 typedef struct {
   char              *name;
-  char              *units; /* a note for tables; NULL: not said */
+  char              *units; /* a note for tables; NULL: none */
   PetscInt           nbodies;
   SceneBody         *bodies;
   PetscInt           ndisplacements;
@@ -243,8 +244,8 @@ typedef struct {
   SceneTraction     *tractions;
   PetscInt           nsprings;
   SceneSpring       *springs;
-  PetscReal weak_springs; /* bodies that move freely are held by springs worth this times Young's modulus times the cube
-                             root of the volume; 0: they are not */
+  PetscReal weak_springs; /* stiffness of weak springs on bodies that move freely, relative to Young's modulus times
+                             the cube root of the volume; 0: no weak springs */
   PetscInt  nforces;
   SceneBodyForce   *forces;
   PetscInt          ntemperatures;
@@ -258,12 +259,13 @@ typedef struct {
   PetscInt          nprobes;
   SceneProbe       *probes;
   PetscInt          nsteps; /* load steps, at least 1 */
-  PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for whatever names no ramp */
+  PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for everything that names no ramp */
   SceneRamp        *ramps;
   PetscInt          refine; /* uniform refinements of level 0 */
   StepModel         model;
-  PetscInt contact_updates; /* linearizations of the gap a load step at most; 1: one, whether its gap is true or not */
-  PetscInt displacement_bounds; /* first load step (from 1) bounded by the largest increment so far; 0: none */
+  PetscInt contact_updates;     /* largest number of contact updates a load step; 1: one update, whatever the gap */
+  PetscInt displacement_bounds; /* first load step (from 1) whose displacements are bounded by the largest increment so
+                                   far; 0: none */
   PetscInt noptions;            /* of the solver */
   SceneOption *options;
 } * Scene;

@@ -1,17 +1,16 @@
-/* The names of options: which are known, and which known one is nearest to another. Knows no more than PETSc's
-   options database. */
+/* The names of options: which are known, and which known one is nearest to another. Depends on PETSc's options
+   database only. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
 #include <petscsys.h>
 
-/* Not collective. The known name with the fewest letters to change; "" of none */
+/* Not collective. The known name with the fewest different letters; "": none is near */
 PETSC_EXTERN PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[],
   const char **nearest);
-/* Collective. An error where an option of ours has a value, not asked for so far, of another kind than it needs */
+/* Collective. An error if an option of ours that nothing has read yet has a value of the wrong type */
 PETSC_EXTERN PetscErrorCode OptionsCheckValues(MPI_Comm);
-/* Collective. An error where the options database has a name, not asked for so far, that is neither ours nor of
-   PETSc's kinds */
+/* Collective. An error if an option that nothing has read yet is neither ours nor begins like one of PETSc's */
 PETSC_EXTERN PetscErrorCode OptionsCheck(MPI_Comm);
 
 #endif

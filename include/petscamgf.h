@@ -12,7 +12,7 @@
 #include <petscksp.h>
 #include <petsctao.h>
 
-/* The release of this header; PetscAMGFGetVersion() says which library runs */
+/* The release of this header; PetscAMGFGetVersion() gives that of the library */
 #define PETSCAMGF_VERSION_MAJOR    0
 #define PETSCAMGF_VERSION_MINOR    1
 #define PETSCAMGF_VERSION_SUBMINOR 0
@@ -64,23 +64,26 @@ typedef enum {
 } PCAMGFFactorUse;
 PETSC_EXTERN const char *const PCAMGFFactorUses[];
 
-/* What a PCAMGF has done since it was created; kept over PCReset() */
+/* What a PCAMGF has done since it was created; PCReset() keeps the counts */
 typedef struct {
-  PetscInt amg_setups;     /* set-ups of the AMG, or factorizations in its place */
+  PetscInt amg_setups;     /* set-ups of the AMG, or factorizations that replace it */
   PetscInt amg_applies;    /* applications of the AMG, or solves with the factors */
   PetscInt filter_setups;  /* numerical factorizations of the filtered matrix */
   PetscInt filter_applies; /* solves with the filtered matrix */
 } PCAMGFCounts;
 
-/* What a TaoSolve() did where a Krylov method by itself did not solve a Newton system */
+/* What a TaoSolve() did for Newton systems that a Krylov method alone did not solve */
 typedef struct {
-  PetscInt  refinements;    /* solves continued from the attained iterate, whose true residual was too large */
-  PetscInt  amg_rebuilds;   /* the AMG, kept from an older matrix, was rebuilt */
-  PetscInt  filters;        /* the filter was switched on, or took in the neighbours of the constraints' unknowns */
+  PetscInt  refinements;    /* solves continued from the iterate reached, because its true residual was too large */
+  PetscInt  amg_rebuilds;   /* times that an AMG of an older matrix was rebuilt */
+  PetscInt  filters;        /* times that the filter was switched on, or extended to the neighbours of the constraints'
+                               unknowns */
   PetscInt  direct;         /* systems solved by MUMPS on the whole matrix */
   PetscInt  failures;       /* systems that nothing solved */
-  PetscReal backward_error; /* largest of a direction that was used: ||b - A d|| / (||diag(A) d|| + ||b||) */
-  PetscInt  subspaces;      /* the filtered subspace method was begun, and left for the interior point method */
+  PetscReal backward_error; /* largest backward error of a direction that was used: ||b - A d|| / (||diag(A) d|| +
+                               ||b||) */
+  PetscInt  subspaces;      /* times that the filtered subspace method began, and gave way to the interior point method
+                               */
 } TaoIPFilterFallbacks;
 
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);

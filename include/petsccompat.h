@@ -1,5 +1,5 @@
-/* What differs between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of
-   August 2026 (3.25). */
+/* Differences between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of August
+   2026 (3.25). */
 #ifndef PETSCCOMPAT_H
 #define PETSCCOMPAT_H
 
@@ -23,7 +23,7 @@ typedef PetscOptionItems AMGFOptionItems;
   #define MPI_PETSCBOOL MPI_C_BOOL
 #endif
 
-/* What a destructor is passed: the context, or where the pointer to it stands */
+/* The argument of a destructor: the context, or a pointer to the pointer */
 #if PETSC_VERSION_LT(3, 23, 0)
 typedef PetscErrorCode PetscCtxDestroyFn(void *);
   #define PetscContainerSetCtxDestroy(container, destroy) PetscContainerSetUserDestroy(container, destroy)
@@ -32,19 +32,19 @@ typedef PetscErrorCode PetscCtxDestroyFn(void *);
   #define AMGFDestroyed(argument) (*(void **)(argument))
 #endif
 
-/* A vector that tells the solver which asked for it of a failure */
+/* Marks a vector so that the solver which asked for it sees a failure */
 #if PETSC_VERSION_LT(3, 22, 0)
   #define VecFlag(vector, failed) ((failed) ? VecSetInf(vector) : (PetscErrorCode)0)
 #endif
 
-/* What a shell matrix's operation is passed as */
+/* The type of a shell matrix's operation */
 #if PETSC_VERSION_LT(3, 24, 0)
 typedef void AMGFOperation(void);
 #else
 typedef PetscErrorCodeFn AMGFOperation;
 #endif
 
-/* Defaults of a type that do not overrule the user's values */
+/* Defaults of a type that do not override the user's values */
 #if PETSC_VERSION_LT(3, 22, 0)
   #define PetscObjectParameterSetDefault(object, name, value) \
     do { \
@@ -52,7 +52,7 @@ typedef PetscErrorCodeFn AMGFOperation;
     } while (0)
 #endif
 
-/* Names that took the place of others, each by its first release; in front of that it stands for the old one */
+/* Functions that were renamed, each with the first release of the new name; older releases use the old name */
 #if PETSC_VERSION_LT(3, 21, 0)
   #define TaoMonitorSet(tao, monitor, context, destroy) TaoSetMonitor(tao, monitor, context, destroy)
 #endif
@@ -74,7 +74,7 @@ typedef PetscCount       PetscSegBufferCount;
   #define AMGF_LINESEARCH_NONE SNESLINESEARCHNONE
 #endif
 
-/* The edges' weights, which no mesh of ours has, came to what a partitioner is passed */
+/* Newer releases pass edge weights to a partitioner; our meshes have none */
 #if PETSC_VERSION_LT(3, 21, 0)
   #define AMGF_EDGE_SECTION
 #else

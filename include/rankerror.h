@@ -1,7 +1,5 @@
-/*
-   What fails on one rank fails on all: work that is not collective, and may fail on some ranks only (the first one
-   reads a file, or has no memory for what it makes), stands between RankErrorBegin() and RankErrorEnd().
-*/
+/* Makes a failure on one rank a failure on all. Work that is not collective and may fail on some ranks only (the first
+   rank reads a file, or has no memory) stands between RankErrorBegin() and RankErrorEnd(). */
 #ifndef RANKERROR_H
 #define RANKERROR_H
 
@@ -9,12 +7,12 @@
 
 typedef struct {
   PetscErrorCode code;          /* 0: no rank failed */
-  char           message[1024]; /* what the first rank that failed said of it */
+  char           message[1024]; /* the message of the first rank that failed */
 } RankError;
 
-/* PETSc's errors are kept in the RankError from here on, and not printed */
+/* From here on PETSc's errors are kept in the RankError and not printed */
 PETSC_EXTERN PetscErrorCode RankErrorBegin(RankError *);
-/* Collective. code: what the work on this rank returned; the RankError is the same on every rank then */
+/* Collective. code: the return value of the work on this rank. Afterwards the RankError is the same on every rank */
 PETSC_EXTERN PetscErrorCode RankErrorEnd(MPI_Comm, PetscErrorCode code, RankError *);
 
 #endif

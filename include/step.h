@@ -1,7 +1,5 @@
-/*
-   Load stepping: brings elasticity and contact together. Each load step minimizes the elastic energy subject to the
-   linearized gap: by TAO, or by one PCG solve where the energy is quadratic and there is neither contact nor a bound.
-*/
+/* Load stepping with elasticity and contact. Each load step minimizes the elastic energy subject to the linearized
+   gap: by TAO, or by one PCG solve if the energy is quadratic and there is neither contact nor a bound. */
 #ifndef STEP_H
 #define STEP_H
 
@@ -13,15 +11,16 @@
 
 typedef struct _n_Simulation *Simulation;
 
-/* What the solvers of a run are asked for; what an option says wins */
+/* Tolerances of the solvers of a run; options override them */
 typedef struct {
-  PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's own */
-  PetscReal linear;     /* relative residual of PCG where a load step needs no TAO */
-  PetscReal gap_change; /* change of the gap that ends its linearizations, relative to the largest displacement */
-  PetscReal gap_untrue; /* the same, beyond which a load step has not converged */
+  PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's default */
+  PetscReal linear;     /* relative residual of PCG for a load step without TAO */
+  PetscReal gap_change; /* change of the gap that ends the contact updates, relative to the largest displacement */
+  PetscReal gap_untrue; /* change of the gap above which a load step has not converged, relative to the largest
+                           displacement */
 } StepTolerances;
 
-/* What load steps ended with on a mesh: displacement and, of each contact pair, pressures. Begins as zeros */
+/* The solution of each load step on a mesh: displacement, and the pressures of each contact pair. Initially zero */
 typedef struct {
   DM       dm;
   PetscInt nsteps, nfields;
@@ -36,20 +35,20 @@ PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
-/* Where load steps start, found on another mesh; then what they end with on this one */
+/* The solutions from which load steps start, found on another mesh; afterwards those of this mesh */
 PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
 PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
-/* Cells for the next mesh, by the errors of these load steps: how much it grows, and marks for it */
+/* Marks cells for the next mesh by the errors of these load steps; and how much the mesh grows */
 PETSC_EXTERN PetscErrorCode SimulationPropose(Simulation, PetscReal *growth);
 PETSC_EXTERN PetscErrorCode SimulationMark(Simulation, MeshMarks *);
-/* The state, to be written; and one to go on from, before any load step: with which step */
+/* The state for a checkpoint. Sets a state from one before the first load step, and gives the next step */
 PETSC_EXTERN PetscErrorCode SimulationGetCheckpoint(Simulation, Checkpoint *);
 PETSC_EXTERN PetscErrorCode SimulationSetCheckpoint(Simulation, Checkpoint, PetscInt *step);
-/* How the faces of the contact pairs stand to each other before a run; dm: the scene's mesh */
+/* Describes the contact pairs before a run: gaps, overlaps, sizes of facets; dm: the scene's mesh */
 PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);

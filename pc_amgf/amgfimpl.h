@@ -21,7 +21,7 @@ typedef struct {
   PetscObjectState state, pattern;
 } AMGFStamp;
 
-/* Values of PCAMGFSetAMGLag() with a meaning of their own; unset: the default of the cycle */
+/* Special values of PCAMGFSetAMGLag(); unset: the default of the cycle */
 #define AMGF_LAG_AUTO  0
 #define AMGF_LAG_NEVER (-1)
 #define AMGF_LAG_UNSET (-2)
@@ -30,11 +30,12 @@ typedef struct {
 typedef struct {
   PetscInt every; /* as PCAMGFSetAMGLag() */
   PetscReal
-    ratio; /* automatic: growth of the cost, or of the diagonal outside the subspace, that calls for a rebuild */
+    ratio; /* automatic lag: ratio of the costs, or of diagonal entries outside the subspace, above which the AMG is
+              rebuilt */
   PetscBool built;
   PetscInt  age;      /* changed operators since the last rebuild */
   AMGFStamp seen;     /* operator at the last set-up */
-  Vec       diagonal; /* diagonal of the operator the AMG was built from; automatic only */
+  Vec       diagonal; /* diagonal of the operator from which the AMG was built; automatic lag only */
   PetscBool overdue;  /* the last solve cost too much */
   PetscInt  its;      /* reference: iterations, */
   PetscReal digits;   /* and digits of residual reduction */
@@ -46,9 +47,9 @@ typedef struct {
   PCAMGFFactorUse use;
   PetscBool       on;     /* B is the factorization */
   PetscBool       failed; /* the last one did */
-  PetscReal       share;  /* of the machine's memory that it may take where it is chosen */
+  PetscReal       share;  /* largest share of the machine's memory for the factors, with automatic choice */
   Mat             F;
-  AMGFStamp       analysed;               /* the operator that MUMPS has analysed, and its estimates: */
+  AMGFStamp       analysed;               /* the operator that MUMPS has analysed, and the estimates of the analysis: */
   PetscReal       flops, entries, memory; /* of the factors; [bytes] */
   char            why[160];               /* the last choice */
 } AMGFFactor;
@@ -56,13 +57,14 @@ typedef struct {
 /* The filtered system on the first few ranks */
 typedef struct {
   PetscInt    wanted; /* as PCAMGFSetFilterRanks() */
-  PetscMPIInt nranks; /* that solve it; 0: not set up */
+  PetscMPIInt nranks; /* number of ranks that solve; 0: not set up */
   PetscBool   solves; /* this rank does */
   AMGFStamp   stamp;  /* of A_w */
-  MPI_Comm    comm;   /* of those that solve, and of the others */
-  PC          pc;     /* of those that solve, as A, b and x are */
+  MPI_Comm    comm;   /* communicators of the ranks that solve, and of the others */
+  PC          pc;     /* on the ranks that solve, like A, b and x */
   Mat         moved, rows, A;
-  Vec         at, b, x; /* at: of all ranks, its entries on those that solve; NULL: all do, with the matrix as it is */
+  Vec         at, b, x; /* at: moves vectors of all ranks to the ranks that solve; NULL: all ranks solve, with the
+                           matrix as it is */
   VecScatter  scatter;
 } AMGFFewRanks;
 
@@ -77,9 +79,10 @@ typedef struct {
   AMGFSource source;
   IS         rows; /* owned rows of A that enter R: sorted, unique; the filtered unknowns if P is NULL */
   Mat        P;
-  AMGFStamp  stamp; /* of the Mat P was taken from */
+  AMGFStamp  stamp; /* state of the Mat from which P was taken */
 
-  PetscObjectId    composed_id; /* of what was composed on the operator when it was looked for; 0: nothing */
+  PetscObjectId    composed_id; /* state of what was composed on the operator when the subspace was looked up; 0:
+                                   nothing */
   PetscObjectState composed_state;
   PetscInt         nlocal, n;
 } AMGFSubspace;
@@ -89,8 +92,8 @@ typedef struct {
   PC           amg;
   KSP          filter;
   PetscBool    configured; /* inner solvers have read their options */
-  PetscBool    active;     /* the subspace is looked for, set up and solved; else the AMG alone */
-  PetscBool    optional;   /* no subspace is no mistake, and not warned of */
+  PetscBool    active;     /* use the subspace; else the AMG alone */
+  PetscBool    optional;   /* a missing subspace is intended: no warning */
   PetscBool    warned;
   PCAMGFCounts counts;
 

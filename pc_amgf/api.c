@@ -3,7 +3,7 @@
 
 const char *const PCAMGFCycles[] = {"bfb", "fbf", "additive", "PCAMGFCycle", "PC_AMGF_", NULL};
 
-/* The next PCSetUp() must look at the subspace again although the operator may be unchanged */
+/* Makes the next PCSetUp() look up the subspace again, even if the operator is unchanged */
 static void PCAMGFRequestSetUp_Private(PC pc)
 {
   pc->setupcalled = 0;

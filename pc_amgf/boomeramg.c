@@ -16,7 +16,7 @@ static PetscErrorCode BoomerAMGOptionName(PetscObject obj, const char name[], ch
   PetscFunctionReturn(0);
 }
 
-/* Puts an option into the data base unless the user has; *set says whether */
+/* Sets an option in the database unless the user has set it; *set: it did */
 static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption *option, PetscBool *set)
 {
   PetscOptions options;
@@ -32,7 +32,7 @@ static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption
   PetscFunctionReturn(0);
 }
 
-/* PCSetFromOptions() but for -pc_type: the prefix may be that of the PC which holds this one */
+/* PCSetFromOptions() without -pc_type, because the prefix may be that of the PC that holds this one */
 static PetscErrorCode BoomerAMGReadOptions(PC pc)
 {
   PetscFunctionBegin;
@@ -42,8 +42,8 @@ static PetscErrorCode BoomerAMGReadOptions(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCHYPRE has no calls for most parameters, so its defaults pass through the options data base and are taken out
-   again */
+/* PCHYPRE has no functions for most parameters. Its defaults are therefore set in the options database and removed
+   afterwards */
 static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMGOption defaults[])
 {
   PetscBool   *set;
@@ -92,7 +92,7 @@ PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
 
   PetscFunctionBegin;
   if (bs == 3) defaults[4].value = "0.7";
-  /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overruled */
+  /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overridden */
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
   PetscCall(BoomerAMGOptionName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
   PetscCall(PetscOptionsHasName(options, NULL, full, &all));

@@ -14,9 +14,11 @@ static PetscErrorCode CycleConjugate(Vec x)
   PetscFunctionReturn(0);
 }
 
-/* PCApply() of the AMG. An error of its library may be one rank's alone: z is zero there then, and the PC says that
-   it has failed, which all ranks hear of where they next reduce what came of it. So it is where the set-up of the AMG
-   has failed: KSPs go on to here before they look. */
+/*
+   PCApply() of the AMG. An error in its library may occur on one rank only. Then z is zero there and the PC is marked
+   as failed; all ranks learn it at the next reduction. The same holds if the set-up of the AMG has failed, because
+   KSPs apply the PC before they check.
+*/
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
 {
   PC_AMGF       *amgf   = (PC_AMGF *)pc->data;
@@ -187,7 +189,7 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
   PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
   if (stale) PetscCall(PCSetUp_AMGF(pc));
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
-  PetscCall(VecFlag(z, pc->failedreason)); /* the KSP that owns it then asks why */
+  PetscCall(VecFlag(z, pc->failedreason)); /* the KSP that owns it then asks for the reason */
   PetscFunctionReturn(0);
 }
 

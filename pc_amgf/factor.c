@@ -1,7 +1,7 @@
 /*
-   B by a Cholesky factorization of the operator in place of the AMG: what that would take, by MUMPS's analysis,
-   whether it is the cheaper of the two for what is said to come, and the factorization itself. The estimates are of
-   counts, not of clocks, so that a run does the same twice.
+   Uses a Cholesky factorization of the operator by MUMPS instead of the AMG. MUMPS's analysis gives the cost; the
+   cheaper of the two for the expected number of applications is chosen. The estimates use counts, not clocks, so that
+   a run does the same twice.
 */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime() */
 #include "amgfimpl.h"
@@ -20,8 +20,8 @@ PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
   PetscFunctionReturn(0);
 }
 
-/* The operator as MUMPS takes a symmetric matrix; NULL where nothing of the kind is there. A copy may be said to be
-   positive definite. */
+/* The operator in a format that MUMPS accepts as symmetric; NULL if there is none. A copy may be marked positive
+   definite. */
 static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
 {
   PetscBool baij, mumps;
@@ -44,7 +44,7 @@ static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
   PetscFunctionReturn(0);
 }
 
-/* Analysis of the pattern, with its estimates; failed ones are infinite */
+/* Analyses the pattern and stores its estimates; infinite if the analysis fails */
 static PetscErrorCode FactorAnalyse(PC pc, Mat A)
 {
   AMGFFactor    *f = &((PC_AMGF *)pc->data)->factor;
@@ -67,13 +67,13 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
   PetscCall(AMGFMumpsGetInfog(f->F, 20, &entries));
   PetscCall(AMGFMumpsGetInfog(f->F, 17, &memory));
   f->entries =
-    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS counts large ones in millions, with a minus */
+    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS gives large counts in millions, as negative numbers */
   f->memory = 1e6 * memory;
   if (error) f->flops = f->entries = f->memory = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
-/* CPU time [s] of the calling thread, which no other thread of the process or process of the machine adds to */
+/* CPU time of the calling thread [s]; other threads and processes do not change it */
 static PetscReal FactorThreadTime(void)
 {
   struct timespec now;
@@ -106,13 +106,13 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
   PetscFunctionReturn(0);
 }
 
-/* Seconds of either solver on one core, as measured on elastic bodies of 2,000 to 200,000 unknowns; ranks share the
-   work alike */
+/* Time of either solver on one core [s], fitted to elastic bodies of 2,000 to 200,000 unknowns. Ranks are assumed to
+   share the work equally */
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const AMGFFactor *f        = &((PC_AMGF *)pc->data)->factor;
-  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* an entry of the matrix */
-  const PetscReal   cached       = 2e6;                  /* entries; of far more an application takes twice as long */
+  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* time per entry of the matrix */
+  const PetscReal   cached       = 2e6;                  /* entries above which an application takes twice as long */
   const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* an entry of the factors */
   MatInfo           info;
   PetscReal         rate;
@@ -130,8 +130,8 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
   PetscFunctionReturn(0);
 }
 
-/* What -pc_amgf_factor auto goes by: whether the factorization fits, and takes less than the AMG for as many
-   applications as are to come */
+/* -pc_amgf_factor auto: whether the factorization fits into memory, and takes less time than the AMG for the expected
+   number of applications */
 static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal solves, PetscBool *cheaper)
 {
   PC_AMGF    *amgf  = (PC_AMGF *)pc->data;
@@ -156,13 +156,13 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   PetscFunctionReturn(0);
 }
 
-/* Chooses B for what is to come with the operator that is set: so many applications of an AMG, or so many solves with
-   factors */
+/* Chooses B for the given number of applications of an AMG, or of solves with factors, with the present operator */
 static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solves)
 {
   PC_AMGF        *amgf    = (PC_AMGF *)pc->data;
   AMGFFactor     *f       = &amgf->factor;
-  const PetscReal largest = 5e5; /* unknowns: the analysis alone takes minutes and as much memory as the AMG */
+  const PetscReal largest = 5e5; /* above so many unknowns the analysis alone takes minutes, and as much memory as the
+                                    AMG */
   AMGFStamp       now;
   PetscInt        n;
   Mat             A;
@@ -184,7 +184,7 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   PetscFunctionReturn(0);
 }
 
-/* Numerical factorization, with more work space each time that MUMPS finds its own estimate too small */
+/* Numerical factorization; repeated with more work space if MUMPS's own estimate was too small */
 static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
 {
   PetscInt      relaxation = 0;
@@ -221,7 +221,7 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
   if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
-  PetscCall(PetscInfo(pc, "Cholesky factorization in place of the AMG: error %d\n", (int)error));
+  PetscCall(PetscInfo(pc, "Cholesky factorization instead of the AMG failed with error %d\n", (int)error));
   f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
   PetscCall(MatDestroy(&A));
   PetscFunctionReturn(0);

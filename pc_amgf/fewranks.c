@@ -1,12 +1,12 @@
 /*
-   The filtered system on the first few ranks. Its factors are small: shared by all ranks, their messages would take
-   longer than the arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors; the direct solver on those
-   ranks reads the options of the filter's prefix.
+   The filtered system on the first few ranks. Its factors are small; on all ranks, messages would take longer than
+   arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors. The direct solver on those ranks reads the
+   options of the filter's prefix.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
 
-/* A_w on fewer ranks than it has comes to them row by row, and their part of it stays */
+/* Moves A_w to fewer ranks, row by row */
 static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool reuse)
 {
   const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -52,9 +52,7 @@ static PetscErrorCode FewRanksCreateVecs(AMGFFewRanks *few, Mat Aw)
   PetscFunctionReturn(0);
 }
 
-/*
-  PCAMGFFewRanksReset_Private - frees the solver and all that it was moved by; the number of ranks asked for stays
-*/
+/* PCAMGFFewRanksReset_Private - frees the solver and its communication; keeps the requested number of ranks */
 PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
 {
   PetscFunctionBegin;
@@ -72,7 +70,7 @@ PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
   PetscFunctionReturn(0);
 }
 
-/* By size: below so many rows a rank, more ranks take longer than one */
+/* Number of ranks by size: with fewer rows a rank than this, one rank is faster than several */
 static PetscErrorCode FewRanksChoose(const AMGFFewRanks *few, Mat Aw, PetscMPIInt *nranks)
 {
   const PetscInt rows_per_rank = 10000;
@@ -112,7 +110,7 @@ static PetscErrorCode FewRanksCreate(PC shell, Mat Aw, PetscMPIInt nranks, AMGFF
   PetscFunctionReturn(0);
 }
 
-/* A failure on the ranks that solve is one of all */
+/* A failure on the ranks that solve becomes one of all ranks */
 static PetscErrorCode FewRanksShareFailure(PC shell, const AMGFFewRanks *few)
 {
   PCFailedReason reason = PC_NOERROR;

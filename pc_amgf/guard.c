@@ -1,8 +1,8 @@
-/* Errors of libraries inside a call, hypre's say, that are to end no program: taken between begin and end. */
+/* Catches errors of libraries (hypre) between begin and end of a call, so that they do not end the program. */
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* Takes errors of libraries for itself, with what is said of them; others go the way they went before it was pushed.
+/* Error handler: keeps errors of libraries and their messages, and passes all other errors to the previous handler.
    PETSc calls it at every level that an error passes. */
 static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file,
   PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
@@ -19,7 +19,8 @@ static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *func
   return error;
 }
 
-/* hypre remembers an error, and every later call would return it. PETSc is linked with hypre, this library is not. */
+/* Clears hypre's error flag; otherwise every later call would return the error. PETSc is linked with hypre, this
+   library is not. */
 static PetscErrorCode GuardClearHypre(void)
 {
   union {
@@ -33,10 +34,8 @@ static PetscErrorCode GuardClearHypre(void)
   PetscFunctionReturn(0);
 }
 
-/*
-  PCAMGFGuardBegin_Private - before a call, with the right-hand side b where it has one, else NULL, whose error goes
-  to PCAMGFGuardEnd_Private() and nowhere else
-*/
+/* PCAMGFGuardBegin_Private - before a call; b is its right-hand side, or NULL. Errors of the call are passed to
+   PCAMGFGuardEnd_Private() only */
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* Errors of libraries inside a call, hypre's say, that are to end no program */
+/* Catches errors of libraries inside a call, so that they do not end the program */
 #ifndef AMGF_GUARD_H
 #define AMGF_GUARD_H
 

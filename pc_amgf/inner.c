@@ -1,8 +1,7 @@
 /* Defaults and options of the inner solvers */
 #include "amgfimpl.h"
 
-/* PCGAMG restricts with P^T: of a complex operator that makes a Hermitian B for as long as P is real, which it is
-   unless it is smoothed */
+/* PCGAMG restricts with P^T. For a complex operator B is Hermitian only if P is real, that is, not smoothed */
 static PetscErrorCode InnerConfigureGAMG(PC amg)
 {
   PetscFunctionBegin;
@@ -37,7 +36,7 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* By MUMPS, as many ranks as its size asks for; all where the user chose another solver, or PETSc has no MUMPS */
+/* MUMPS on as many ranks as the size needs; on all ranks if the user chose another solver or PETSc has no MUMPS */
 static PetscErrorCode InnerSetFilterSolver(PC pc, PC inner)
 {
   PetscOptions options;

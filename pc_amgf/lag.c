@@ -1,11 +1,10 @@
 /* When to rebuild the AMG */
 #include "amgfimpl.h"
 
-/* Iterations a solve may take beyond the allowed growth before it counts: they are whole numbers, and small ones jump
- */
+/* Iterations above the allowed growth that do not count: iterations are whole numbers, and small ones vary */
 #define LAG_FREE_ITERATIONS 2
 
-/* bfb needs A < 2 B^-1, which an old B does not promise; the other cycles are positive definite with any B */
+/* bfb needs A < 2 B^-1, which an old B does not guarantee. The other cycles are positive definite with any B */
 PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
 {
   if (amgf->lag.every != AMGF_LAG_UNSET) return amgf->lag.every;
@@ -44,7 +43,7 @@ static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *d
   PetscFunctionReturn(0);
 }
 
-/* Too many iterations at the last solve, or the operator has changed where only the AMG looks after it */
+/* The last solve took too many iterations, or the operator has changed outside the filtered subspace */
 static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
@@ -59,7 +58,7 @@ static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
     PetscCall(LagDiagonalDrift(amgf, diagonal, &drift));
     PetscCall(VecDestroy(&diagonal));
     if (drift > amgf->lag.ratio) *rebuild = PETSC_TRUE;
-  } else *rebuild = PETSC_TRUE; /* automatic only since the AMG was built: nothing to compare with */
+  } else *rebuild = PETSC_TRUE; /* automatic lag was set after the AMG was built: there is nothing to compare with */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rebuild, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   PetscFunctionReturn(0);
 }
@@ -90,7 +89,7 @@ PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
   PetscFunctionReturn(0);
 }
 
-/* The solve later ones are compared with; its = 0: none yet, digits = 0: unknown */
+/* The solve with which later ones are compared; its = 0: none yet, digits = 0: unknown */
 static void LagSetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   lag->its    = its;
@@ -128,7 +127,7 @@ PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
   PetscFunctionReturn(0);
 }
 
-/* Sees to it that the initial residual is recorded: one entry of history, unless the user keeps one */
+/* Makes KSP record the initial residual: a history of one entry, unless the user keeps a history */
 PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
 {
   PC_AMGF         *amgf = (PC_AMGF *)pc->data;
@@ -146,7 +145,7 @@ PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Digits by which the solve that just ended reduced its residual; 0 if unknown */
+/* Number of digits by which the last solve reduced its residual; 0: unknown */
 static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 {
   const PetscReal *history;
@@ -163,10 +162,10 @@ static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 }
 
 /*
-   Tolerances vary from solve to solve (inexact Newton), so what is compared with the first solve after the last
-   rebuild is iterations per digit of residual reduction; plain iterations where the residual is unknown. The first
-   digits come cheaply: a reference of a few digits is replaced by the first solve of many, unless that one is out of
-   all proportion.
+   Tolerances vary from solve to solve (inexact Newton). Therefore iterations per digit of residual reduction are
+   compared with those of the first solve after the last rebuild; iterations alone if the residual is unknown. The
+   first digits are cheap: a reference of few digits is replaced by the first solve of many, unless that one is much
+   more expensive.
 */
 static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
@@ -195,8 +194,8 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(LagGetDigits(ksp, lag->history, &digits));
-  /* an AMG of the very operator may be to blame, too: one that is not definite; the next operator may be. Not for a
-     failed subspace. */
+  /* the solve failed: the AMG may be the cause even if it was built from this operator, for example because the
+     operator is not definite. Rebuilds for the next operator, unless the subspace failed */
   if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0 || reason != KSP_DIVERGED_PC_FAILED);
   else if (its > 0 && lag->its == 0) LagSetReference(lag, its, digits);
   else if (its > 0 && lag->age > 0) lag->overdue = LagTooManyIterations(lag, its, digits);

@@ -5,7 +5,7 @@
 
 #define MEMORY_LINE 4096
 
-/* The number in a file of a control group; infinite where there is none, as "max" is */
+/* The number in a file of a control group; infinite if there is no file or it says "max" */
 static PetscReal MemoryReadLimit(const char folder[], const char file[])
 {
   char   path[2 * MEMORY_LINE];

@@ -42,27 +42,28 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
     PetscCall(ISDestroy(&amgf->file_is));
     if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
   }
-  PetscCall(PetscOptionsInt("-pc_amgf_filter_ranks", "Ranks that solve the filtered system; 0: by its size",
-    "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
+  PetscCall(
+    PetscOptionsInt("-pc_amgf_filter_ranks", "Number of ranks that solve the filtered system; 0: chosen by its size",
+      "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
   if (flg) PetscCall(PCAMGFSetFilterRanks(pc, ranks));
   PetscCall(PetscOptionsReal("-pc_amgf_detect",
-    "Filter unknowns whose diagonal entry exceeds this many times the median; 0: off", "PCAMGF", amgf->detect, &detect,
-    NULL));
+    "Filter the unknowns whose diagonal entry exceeds this multiple of the median; 0: off", "PCAMGF", amgf->detect,
+    &detect, NULL));
   PetscCheck(detect >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
     "-pc_amgf_detect must be positive, or 0 for off, not %g", (double)detect);
   amgf->detect = detect;
   PetscCall(PetscOptionsString("-pc_amgf_amg_lag",
-    "Rebuild the AMG every so many changed operators; -1: never; 0 or auto: when the cost grows", "PCAMGFSetAMGLag",
-    amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
+    "Number of operator changes after which the AMG is rebuilt; -1: never; 0 or auto: when the cost grows",
+    "PCAMGFSetAMGLag", amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
   if (flg) PetscCall(LagFromString(pc, lag));
-  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: growth of the cost that calls for a rebuild",
+  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: ratio of the costs at which the AMG is rebuilt",
     "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
   PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
     "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
-  PetscCall(PetscOptionsEnum("-pc_amgf_factor", "A factorization in place of the AMG", "PCAMGFSetFactor",
+  PetscCall(PetscOptionsEnum("-pc_amgf_factor", "Use a factorization instead of the AMG", "PCAMGFSetFactor",
     PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
   if (flg) PetscCall(PCAMGFSetFactor(pc, use));
-  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "auto: share of the machine's memory that the factors may take",
+  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "For auto: largest share of the machine's memory for the factors",
     "PCAMGFSetFactor", amgf->factor.share, &amgf->factor.share, NULL));
   PetscCheck(amgf->factor.share >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
     "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.share);

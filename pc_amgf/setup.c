@@ -29,8 +29,8 @@ static PetscErrorCode SetUpWarn(PC pc)
       (double)amgf->detect));
   else
     PetscCall(PetscFPrintf(PetscObjectComm((PetscObject)pc), PETSC_STDERR,
-      "Warning: PCAMGF runs without a filter, for none was named: compose an IS or a Mat on the matrix under \"%s\", "
-      "or see -pc_amgf_filter_file, -pc_amgf_detect\n",
+      "Warning: PCAMGF runs without a filter, because none was named: compose an IS or a Mat on the matrix under "
+      "\"%s\", or see -pc_amgf_filter_file, -pc_amgf_detect\n",
       PCAMGF_FILTER_KEY));
   PetscFunctionReturn(0);
 }
@@ -85,7 +85,7 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
   if (!*failed) PetscFunctionReturn(0);
   PetscCheck(!pc->erroriffailure, PetscObjectComm((PetscObject)pc), PETSC_ERR_NOT_CONVERGED,
     "The set-up of the AMG failed: %s", guard.why);
-  PetscCall(PetscInfo(pc, "An error in the set-up of the AMG: %s\n", guard.why));
+  PetscCall(PetscInfo(pc, "Error in the set-up of the AMG: %s\n", guard.why));
   PetscCall(PCReset(amgf->amg));
   PetscFunctionReturn(0);
 }
@@ -144,8 +144,8 @@ PetscErrorCode PCSetUp_AMGF(PC pc)
     "PCAMGF needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
   PetscCall(MatHasOperation(pc->pmat, MATOP_GET_DIAGONAL, &has));
   PetscCheck(has, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
-    "PCAMGF needs the operator's entries, and one of type %s has none: give KSPSetOperators() a matrix that has them "
-    "as the second",
+    "PCAMGF needs the operator's entries, but an operator of type %s has none: pass a matrix that has them as the "
+    "second one to KSPSetOperators()",
     ((PetscObject)pc->pmat)->type_name);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   PetscCall(PCAMGFConfigureInner_Private(pc));

@@ -60,7 +60,8 @@ PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
     " filter set-ups, %" PetscInt_FMT " filter solves\n",
     counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
   if (amgf->factor.why[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "  chosen: %s\n", amgf->factor.why));
-  PetscCall(PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization in place of the AMG:\n" : "  AMG:\n"));
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization is used instead of the AMG:\n" : "  AMG:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   if (!amgf->factor.on) PetscCall(PCView(amgf->amg, viewer));
   else if (amgf->factor.F) PetscCall(MatView(amgf->factor.F, viewer));

@@ -10,7 +10,7 @@ SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -f
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
 TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
-FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/fuzz tests/stress share/bench,$(folder)/*.c $(folder)/*.h))
+FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
 linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
@@ -36,9 +36,9 @@ MEMCHECK := OPENBLAS_CORETYPE=Haswell valgrind --quiet --error-exitcode=1 --leak
 memcheck:
 	@$(call linked_tree,build/memcheck)
 	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
-	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -scene_check > /dev/null
-	$(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
-	mpiexec --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact_patch.yaml -quiet
+	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -scene_check > /dev/null
+	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -quiet
+	mpiexec --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -quiet
 	@echo 'memcheck: clean'
 
 # Writes the sources in the style of .clang-format
@@ -82,7 +82,7 @@ nlp: all
 GRID ?=
 grid: all
 	@mkdir -p build/grid
-	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/ipfilter_grid.c -o build/grid/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
+	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/tao_ipfilter/ipfilter_grid.c -o build/grid/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
 	gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(shell pkg-config --cflags ipopt) tests/stress/grid_ipopt.c -o build/grid/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/grid.py --folder build/grid $(GRID)
 

@@ -119,41 +119,42 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
 
     PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
   }
-  PetscCall(
-    PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged: -tao_gatol by another name",
-      TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
+  PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
+    TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "starting slacks and multipliers", TAOIPFILTER, IPStarts,
     (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "update of the barrier parameter", TAOIPFILTER, IPBarrierRules,
-    (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "How the barrier parameter is updated", TAOIPFILTER,
+    IPBarrierRules, (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures,
     (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
-  PetscCall(
-    PetscOptionsEnum("-tao_ipfilter_forcing", "tolerance of the linear solver: from the KKT error, or the KSP's own",
-      TAOIPFILTER, IPForcings, (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing",
+    "Tolerance of the linear solver: derived from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings,
+    (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling",
-    "scale-free constants, IPOPT's after scaling by gradients at the start, or constants in the problem's units",
+    "Scaling of the constants: free of units, by gradients at the start as in IPOPT, or in the problem's units",
     TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_equality",
-    "equality constraints in an augmented system that MUMPS factors, or condensed with proximal updates", TAOIPFILTER,
+    "Equality constraints: in an augmented system factored by MUMPS, or condensed with proximal updates", TAOIPFILTER,
     IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "most reductions of mu at the first iteration",
-    TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "most reductions of mu at later iterations", TAOIPFILTER,
-    opt->max_mu_later, &opt->max_mu_later, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "most second-order corrections a step", TAOIPFILTER, opt->max_soc,
-    &opt->max_soc, NULL));
+  PetscCall(
+    PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "Largest number of reductions of mu at the first iteration",
+      TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "Largest number of reductions of mu at a later iteration",
+    TAOIPFILTER, opt->max_mu_later, &opt->max_mu_later, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections a step", TAOIPFILTER,
+    opt->max_soc, &opt->max_soc, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it",
-    "iterates in a row within the acceptable tolerance that end the solve", TAOIPFILTER, opt->acceptable_it,
-    &opt->acceptable_it, NULL));
+    "Number of successive iterates within the acceptable tolerance that ends the solve", TAOIPFILTER,
+    opt->acceptable_it, &opt->acceptable_it, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
-    "MUMPS on the whole matrix, with its inertia, in place of the Krylov method", TAOIPFILTER, opt->direct_always,
+    "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,
     &opt->direct_always, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "filtered subspace method in place of the interior point method",
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Filtered subspace method instead of the interior point method",
     TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
   PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max",
-    "directions that the filtered subspace method keeps; 0: by memory", TAOIPFILTER, opt->subspace_max,
-    &opt->subspace_max, NULL, 0));
+    "Largest number of Largest number of Largest number of Largest number of Largest number of directions that the "
+    "filtered subspace method keeps; 0: by memory",
+    TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 0));
   PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),
     PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT,
     fewest, opt->subspace_max);

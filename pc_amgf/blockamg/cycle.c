@@ -12,10 +12,8 @@
   #include <xmmintrin.h>
 #endif
 
-/*
-   Numbers below the smallest normal float take a hundred times as long as others on many processors: they are zero
-   until CycleRestoreTiny()
-*/
+/* Denormal numbers are a hundred times slower than others on many processors. They are set to zero until
+   CycleRestoreTiny() */
 static unsigned CycleFlushTiny(void)
 {
 #if defined(__SSE__)

@@ -99,7 +99,7 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
 */
 PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool *finite)
 {
-  float largest = 0.0f, nan = 0.0f; /* 0 times what is not finite is no number */
+  float largest = 0.0f, nan = 0.0f; /* 0 times a value that is not finite is NaN */
 
   PetscFunctionBegin;
   for (int i = 0; i < h->nlevels; i++) {

@@ -96,9 +96,9 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
 }
 
 /*
-   Other ranks' columns have l, the sum of their absolute values, in a row, and the diagonal block exceeds its own
-   off-diagonal entries by g: with (l - 0.9 g)/2 added to the diagonal, where that is positive, the sweeps of all ranks
-   together converge, and the cycle stays positive definite.
+   Let l be the sum of the absolute entries of a row in columns of other ranks, and g the excess of the diagonal block
+   over its own off-diagonal entries. With (l - 0.9 g)/2 added to the diagonal, where that is positive, the sweeps of
+   all ranks together converge, and the cycle stays positive definite.
 */
 static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
 {
@@ -193,7 +193,7 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Sums over all ranks, for whoever looks at the preconditioner */
+/* Sums over all ranks, for PCView() */
 static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 {
   const int    B      = level->B;

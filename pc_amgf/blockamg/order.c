@@ -1,4 +1,4 @@
-/* The places of a level's unknowns: which share a block, and in which order the blocks come */
+/* Positions of a level's unknowns: which unknowns form a block, and the order of the blocks */
 #include "blockamgimpl.h"
 
 /*

@@ -3,7 +3,7 @@
 #include "blockamgimpl.h"
 #include "pc_amgf/guard.h"
 
-/* The preconditioner has failed, on all ranks */
+/* Marks the preconditioner as failed on all ranks */
 static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
@@ -64,7 +64,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscFunctionReturn(0);
 }
 
-/* What is left of hypre's memory goes before the finest level is converted */
+/* Frees hypre's memory before the finest level is converted */
 static PetscErrorCode SetUpConvert(PC pc)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
@@ -118,7 +118,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   if (finite) PetscFunctionReturn(0);
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFail(pc, PC_FACTOR_OTHER,
-    "entries of the operator, or of the coarse ones, differ by a factor of more than 1e30, which "
-    "single precision does not hold"));
+    "entries of the operator or of a coarse one differ by a factor of more than 1e30, which single precision cannot "
+    "represent"));
   PetscFunctionReturn(0);
 }

@@ -100,10 +100,8 @@ VEC4_INLINE void Vec4Store(float *p, Vec4 a)
   memcpy(p, &a, sizeof(a));
 }
 
-/*
-   A function is compiled for several processors, of which the loader chooses; a sanitizer is not up yet where the
-   loader does
-*/
+/* Compiles a function for several processors; the loader chooses. Not with sanitizers, which are not initialized when
+   the loader chooses */
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && \
   !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
   #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -75,7 +75,7 @@ def boomeramg(prefix, threshold, down, up):
 
 THRESHOLD = AMG + "pc_hypre_boomeramg_strong_threshold"
 ELASTIC_THRESHOLD = THRESHOLD.replace(IP, "-elasticity_")  # where there is no contact
-# option: what contact has built in, so that one run serves all studies; tests/bench.sh holds this against the program
+# option: what contact has built in, so that one run serves all studies; tests/doc/bench.sh holds this against the program
 BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
 TUNED = (BUILT_IN[THRESHOLD], "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
 PUBLISHED = ("0.5", "l1scaled-SOR/Jacobi", "l1scaled-SOR/Jacobi")

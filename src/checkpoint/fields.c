@@ -140,7 +140,7 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
     "the state is damaged: its previous_time %g is later than its time %g", (double)checkpoint->previous_time,
     (double)checkpoint->time);
   PetscCheck((PetscReal)checkpoint->step == PetscFloorReal(checkpoint->time), comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its step %" PetscInt_FMT " does not go with its time %g", checkpoint->step,
+    "the state is damaged: its step %" PetscInt_FMT " does not match its time %g", checkpoint->step,
     (double)checkpoint->time);
   PetscFunctionReturn(0);
 }

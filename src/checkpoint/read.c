@@ -1,4 +1,4 @@
-/* The way back from a checkpoint: to the mesh that it was taken on, or to another one of the same bodies. */
+/* Restores a checkpoint on the mesh it was written for, or on another mesh of the same bodies. */
 #include "checkpointimpl.h"
 #include <mesh.h>
 #include <stdio.h>
@@ -98,7 +98,7 @@ static PetscErrorCode RestartLoadIndices(Restart *r, const char name[], IS *all)
   PetscFunctionReturn(0);
 }
 
-/* The scene's text, and what this scene has not in common with it */
+/* Compares the scene's text with that in the file, and finds the first difference */
 static PetscErrorCode RestartCompare(Restart *r)
 {
   IS              is;
@@ -116,11 +116,11 @@ static PetscErrorCode RestartCompare(Restart *r)
   PetscCall(ISDestroy(&is));
   PetscCall(SceneCompare(r->scene, text, difference, sizeof(difference)));
   PetscCall(PetscFree(text));
-  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it is of another scene: in %s", difference);
+  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it belongs to another scene: in %s", difference);
   PetscFunctionReturn(0);
 }
 
-/* The numbers, and whether the load is now where it was then */
+/* Reads the numbers, and checks that the load at that time is the same */
 static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 {
   PetscFunctionBegin;
@@ -196,14 +196,15 @@ static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nin
     mesh->first[c]  = at;
     for (PetscInt i = at; i < at + n; ++i) {
       PetscCheck(mesh->c[i] >= 0 && mesh->c[i] < mesh->nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT ", and there are %" PetscInt_FMT,
+        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT
+        ", but there are only %" PetscInt_FMT,
         c, mesh->c[i], mesh->nvertices);
     }
     at += n;
   }
   sound = (PetscBool)(at == nindices && (!mesh->ncells || mesh->nnodes[mesh->ncells - 1]));
   PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its %" PetscInt_FMT " cells do not go with the numbers of their nodes", mesh->ncells);
+    "the state is damaged: its %" PetscInt_FMT " cells do not match the numbers of their nodes", mesh->ncells);
   PetscFunctionReturn(0);
 }
 
@@ -255,7 +256,7 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Forces stay at the vertices that they are on: what is interpolated would be another sum */
+/* Forces stay at their vertices: interpolation would change their sum */
 static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
 {
   if (!force) return place->N[a];
@@ -323,8 +324,8 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Is it HDF5, and all of it, as the first rank sees it? The library would print a page of its own. The file's end
-   stands at byte 40 of a superblock of version 0 */
+/* Checks that the file is HDF5 and complete, on the first rank; the library would print a page. The file's end is at
+   byte 40 of a superblock of version 0 */
 static PetscErrorCode RestartCheckFile(const Restart *r)
 {
   unsigned char head[48]  = {0};
@@ -443,7 +444,7 @@ PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint 
   PetscCall(RankErrorBegin(&error));
   ierr = RestartReadFile(&r, *checkpoint, same);
   PetscCall(RankErrorEnd(r.comm, ierr, &error));
-  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot go on from the checkpoint \"%s\": %s", file,
+  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot continue from the checkpoint \"%s\": %s", file,
     error.message);
   PetscCall(RestartDestroy(&r));
   PetscFunctionReturn(0);

@@ -1,4 +1,4 @@
-/* The state of a simulation, to go on from: the path, and what the contact remembers. */
+/* The state of a simulation for a restart: displacement path and contact history. */
 #include <checkpoint.h>
 #include "src/measure/measureimpl.h"
 

@@ -25,7 +25,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
     PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
-      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: exchange the two faces of one of them",
+      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: swap mortar and nonmortar of one of them",
       c->bodies.scene->ties[twice].name, tie->name);
     if (*all) {
       PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));
@@ -35,7 +35,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
   PetscFunctionReturn(0);
 }
 
-/* A node that others are tied to must not be tied itself */
+/* A node to which others are tied must not be tied itself */
 static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const PetscInt tied[])
 {
   Vec                is_tied, held;
@@ -57,14 +57,14 @@ static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const Pet
   PetscCall(VecRestoreArrayRead(held, &h));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
   PetscCheck(chained < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
-    "tie \"%s\": vertices of its mortar face %s are tied themselves: exchange the two faces of one of the ties",
+    "tie \"%s\": vertices of its mortar face %s are tied themselves: swap mortar and nonmortar of one of the ties",
     c->bodies.scene->ties[PetscMax(chained, 0)].name, c->bodies.scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
   PetscCall(VecDestroy(&held));
   PetscFunctionReturn(0);
 }
 
-/* Nor hang: the forces that it ties would not be those of a uniform stress */
+/* It must not hang either: a uniform stress would not pass */
 static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt tied[])
 {
   PetscInt start, end, hangs = -1;
@@ -83,8 +83,7 @@ static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt ti
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
   PetscCheck(hangs < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
-    "tie \"%s\": its nonmortar face %s is finer in one place than in another: refine all of it or none, or exchange "
-    "the two faces",
+    "tie \"%s\": its nonmortar face %s is locally refined: refine all of it or none, or swap mortar and nonmortar",
     c->bodies.scene->ties[PetscMax(hangs, 0)].name, c->bodies.scene->ties[PetscMax(hangs, 0)].nonmortar);
   PetscFunctionReturn(0);
 }

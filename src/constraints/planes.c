@@ -1,7 +1,6 @@
-/*
-   Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
-   the others, by Gauss-Jordan elimination; those with the largest coefficients, and none that is prescribed.
-*/
+/* Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
+   the others, by Gauss-Jordan elimination; those with the largest coefficients are chosen, and none that is
+   prescribed. */
 #include "constraintsimpl.h"
 
 typedef struct {
@@ -104,7 +103,7 @@ static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes no
   PetscCall(VecRestoreArrayRead(given, &u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, constraints->bodies.comm));
   PetscCheck(worst <= 1e-9 * size, constraints->bodies.comm, PETSC_ERR_USER_INPUT,
-    "symmetry: displacements that faces prescribe on vertices of a symmetry plane lead off it by %g", (double)worst);
+    "symmetry: prescribed displacements move vertices of a symmetry plane off the plane by %g", (double)worst);
   PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);

@@ -90,7 +90,7 @@ static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Faces share edges: one value a row remains, and two that differ are an error on every rank */
+/* Faces share edges: one value per row remains. Two values that differ are an error on every rank */
 static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
 {
   PetscInt        unique   = 0;
@@ -163,10 +163,8 @@ PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/*
-   Sum of each component over the driven rows, those whose prescribed value is not zero; over all prescribed rows where
-   none is driven. The sum over all rows would only say that the bodies are in equilibrium.
-*/
+/* Sum of each component over the driven rows, whose prescribed value is not zero; over all prescribed rows if none is
+   driven. The sum over all rows would always be zero in equilibrium */
 PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
 {
   const PetscScalar *a;

@@ -1,11 +1,11 @@
 /*
-   Rigid bodies that forces drive. Where a motion is free the displacements of all nodes follow those of as many rows
-   as there are free motions: u = R x + o, o being what is prescribed of the other motions. Free rotations are those
-   of small angles, u = r x (X - center).
+   Rigid bodies driven by forces. If a motion is free, the displacements of all nodes follow those of as many rows as
+   there are free motions: u = R x + o, where o comes from the prescribed motions. Free rotations are small, u = r x
+   (X - center).
 */
 #include "constraintsimpl.h"
 
-/* Where the displacements of a rotation are off by 6e-4 of its arm */
+/* Angle at which small rotations have an error of 6e-4 of the arm */
 static const PetscReal largest_angle = 2.0; /* [degrees] */
 
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
@@ -310,7 +310,7 @@ PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat 
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged where a free rotation is no small one */
+/* A solve has not converged if a free rotation is not small */
 PetscErrorCode RigidTest(const Constraints *c, Vec u, StepReport *report)
 {
   const PetscScalar *a, *given;
@@ -340,8 +340,8 @@ PetscErrorCode RigidTest(const Constraints *c, Vec u, StepReport *report)
     degrees = PetscSqrtReal(square) * 180.0 / PETSC_PI;
     if (!(degrees > largest_angle)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "displacement \"%s\": the rigid body turns by %.3g degrees, and rotations that are free may be %.0f degrees at "
-      "most: prescribe the rotation, or let more hold the body",
+      "displacement \"%s\": the rigid body turns by %.3g degrees, but a free rotation may be at most %.0f degrees: "
+      "prescribe the rotation, or add supports",
       c->bodies.scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }

@@ -1,8 +1,8 @@
 /*
-   Tied faces, symmetry planes along no axis, hanging vertices and rigid bodies that forces drive: displacements there
-   are those that others give them, u = C x + o, and no unknowns. x is u with other numbers at their rows, which mean
-   nothing: energy, forces and gaps are those of C x + o, forces C^T f, the stiffness C^T K C with a diagonal in those
-   rows. o, which rigid bodies alone have, is what is prescribed of their motions. Prescribed rows are not tied.
+   Tied faces, inclined symmetry planes, hanging vertices and rigid bodies driven by forces. Displacements there
+   follow other displacements, u = C x + o, and are no unknowns. x has the entries of u, with meaningless numbers in
+   the dependent rows. Energy, forces and gaps are those of C x + o; forces become C^T f, the stiffness C^T K C with a
+   diagonal in the dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed rows are not tied.
 */
 #include "constraintsimpl.h"
 
@@ -56,8 +56,8 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* What is tied follows nodes on symmetry planes and hanging ones, and may be such a node itself: these come first and
-   last. What hangs does so between nodes on planes */
+/* Tied nodes follow nodes on symmetry planes and hanging ones, and may be such nodes themselves. So planes come first
+   and hanging nodes last, since these hang between nodes on planes */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
@@ -175,9 +175,9 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
 }
 
 /*
-   Forces on the rows that follow go to the others; ties: the forces on the bodies that this makes, but for those
-   between hanging vertices and the cells that they hang on; rigid: on rigid bodies that forces drive, what keeps them
-   rigid and to the motions that are prescribed. NULL where nothing follows
+   Moves forces on dependent rows to the others. ties: the forces on the bodies that result, except between hanging
+   vertices and their cells. rigid: on rigid bodies driven by forces, the forces that keep them rigid and to the
+   prescribed motions. NULL if nothing depends
 */
 PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *rigid)
 {

@@ -1,9 +1,9 @@
-/* The life of the object: pairs of faces, options, how far apart facets pair */
+/* The contact object: creation, pairs of faces, options, search distances */
 #include "contactimpl.h"
 
-/* Facets pair by default within this part of the size of the smaller face, the square root of its area */
+/* Default search distance, as a part of the size of the smaller face (the square root of its area) */
 #define SEARCH_FRACTION 0.25
-/* and never deeper in one another than this part of what both bodies are thick */
+/* largest penetration that is searched, as a part of the thickness of both bodies */
 #define THROUGH_FRACTION 0.9
 /* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and
    7 points */
@@ -32,7 +32,7 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
     PetscCheck(pairs[p].gap == GAP_MORTAR || pairs[p].gap == GAP_NODE, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "Contact pair \"%s\" asks for gap formulation %d, which there is not", name, (int)pairs[p].gap);
+      "Contact pair \"%s\" has the unknown gap formulation %d", name, (int)pairs[p].gap);
     PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
       "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
     PetscCall(DMHasLabel(dm, pairs[p].nonmortar, &has));
@@ -51,10 +51,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
   PetscFunctionReturn(0);
 }
 
-/*
-  Depth to which facets of two bodies pair. A body's own faces, or those of thin bodies, would see one another through
-  the bodies: touching plates at the depth of both together, so not much less than that may be asked for.
-*/
+/* Penetration up to which facets of two bodies pair. If it were larger, a body's own faces, or those of thin bodies,
+   would pair through the bodies: two touching plates would do so at the sum of their thicknesses. */
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
   const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
@@ -63,8 +61,7 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* How far apart, and how deep in one another, facets still pair: constant lengths, whatever the mesh; what else its
-   gap needs */
+/* Search distance and depth of a pair: constant lengths that do not depend on the mesh */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;
@@ -207,31 +204,30 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
   PetscCall(PetscOptionsEnum("-contact_gap", "How the gap of every pair is measured", "ContactSetFromOptions", GapTypes,
     (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
-  PetscCall(PetscOptionsBool("-contact_smooth", "Whether the gap of every pair is that of smooth surfaces",
+  PetscCall(PetscOptionsBool("-contact_smooth", "Measure the gap of every pair between smooth surfaces",
     "ContactSetFromOptions", smooth, &smooth, &set_smooth));
-  PetscCall(PetscOptionsReal("-contact_feature_angle", "Edges sharper than this stay sharp, in degrees",
+  PetscCall(PetscOptionsReal("-contact_feature_angle", "Angle between facets above which an edge stays sharp [degrees]",
     "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
-  PetscCall(PetscOptionsEnum("-contact_normals", "Along what mortar gaps are measured", "ContactSetFromOptions",
-    ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
+  PetscCall(PetscOptionsEnum("-contact_normals", "Direction along which mortar gaps are measured",
+    "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature",
-    "Degree of polynomials that mortar integrals are exact for on every triangle of an overlap",
-    "ContactSetFromOptions", degree, &degree, NULL));
-  PetscCall(PetscOptionsReal("-contact_search_distance",
-    "Facets of every pair farther apart than this length do not pair (0: from the size of the faces)",
-    "ContactSetFromOptions", distance, &distance, &set_distance));
+    "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
+    degree, &degree, NULL));
+  PetscCall(
+    PetscOptionsReal("-contact_search_distance", "Largest distance of facets that pair (0: from the size of the faces)",
+      "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth",
-    "Facets deeper in one another than this length do not pair (0: from the thickness of the bodies)",
-    "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
+    "Largest penetration of facets that pair (0: from the thickness of the bodies)", "ContactSetFromOptions",
+    contact->depth, &contact->depth, NULL));
   PetscCall(
-    PetscOptionsReal("-contact_normal_cosine", "Facets pair when the cosine between their normals is at most this",
+    PetscOptionsReal("-contact_normal_cosine", "Facets pair if the cosine between their normals is at most this",
       "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
-  PetscCall(
-    PetscOptionsReal("-contact_overlap_drop", "Overlaps below this part of the smaller facet's area are left out",
-      "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
-  PetscCall(PetscOptionsReal("-contact_row_drop", "Rows whose 1-norm is below this part of the largest are left out",
+  PetscCall(PetscOptionsReal("-contact_overlap_drop", "Relative area below which an overlap is ignored",
+    "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
+  PetscCall(PetscOptionsReal("-contact_row_drop", "Relative 1-norm below which a row is ignored",
     "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
-  PetscCall(
-    PetscOptionsViewer("-contact_view", "View the contact after every linearization", "ContactView", NULL, NULL, NULL));
+  PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every contact update", "ContactView", NULL,
+    NULL, NULL));
   PetscOptionsEnd();
   PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_distance must not be negative, but is %g", (double)distance);

@@ -1,8 +1,8 @@
-/* Bodies that overlap at the start deeper than contact looks would pass for bodies that are not in contact: that is
-   an error */
+/* Reports bodies that overlap at the start deeper than the contact search reaches; otherwise they would count as not
+   in contact */
 #include "contactimpl.h"
 
-/* A row only a deeper search has: its nonmortar vertex and the point of the mortar face it would belong to */
+/* A row that only a deeper search finds: its nonmortar vertex, and its point on the mortar face */
 typedef struct {
   PetscReal pair, depth, x[3], y[3];
 } InitialOverlapRow;
@@ -16,7 +16,7 @@ static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal 
   return PETSC_TRUE;
 }
 
-/* The length of the diagonal of all boxes if those of any pair's bodies overlap in more than a face, else 0 */
+/* The diagonal of the box about all bodies if the boxes of any pair's bodies overlap in more than a face; else 0 */
 static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
 {
   PetscReal low[3]  = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
@@ -44,8 +44,8 @@ static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, 
   return any ? diagonal : 0.0;
 }
 
-/* The rows of `wide` that `usual` has not, deeper than their pair looks, where a body's box holds the other's point;
-   free `deep` */
+/* The rows that `wide` has and `usual` has not, deeper than their pair searches, if a body's box contains the other's
+   point; the caller frees `deep` */
 static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
   ContactLinearization wide, PetscInt *n, InitialOverlapRow **deep)
 {
@@ -101,7 +101,7 @@ static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, Initi
   PetscFunctionReturn(0);
 }
 
-/* The deepest row where one body's point is inside the other body, not only behind its face; of depth 0: none */
+/* The deepest row whose point is inside the other body, not only behind its face; depth 0: none */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
 {
@@ -124,7 +124,7 @@ static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBo
   PetscFunctionReturn(0);
 }
 
-/* The deepest row that a search over this distance finds and `usual` does not have */
+/* The deepest row that a search over this distance finds and the usual one does not */
 static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
   PetscReal distance, ContactLinearization usual, InitialOverlapRow *deepest)
 {
@@ -184,9 +184,8 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];
   PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. "
-    "That is deeper than the contact search looks, %g: move them apart, or search deeper with -contact_search_depth "
-    "%.2g",
+    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. The contact search "
+    "reaches only %g deep: move the bodies apart, or use -contact_search_depth %.2g",
     pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,
     1.1 * (double)deepest.depth);
   PetscFunctionReturn(0);

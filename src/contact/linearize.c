@@ -130,7 +130,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* the maximum norm of BLAS passes over NaN */
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
   PetscCall(ContactDeform(contact, u));

@@ -6,7 +6,7 @@
 */
 #include "contactimpl.h"
 
-/* What a facet may be left uncovered by, in all and at a vertex: rounding, or the sagitta of curved faces */
+/* Part of a facet that may stay uncovered, in all and at a vertex: rounding, or the sagitta of curved faces */
 static const PetscReal tie_uncovered = 1e-3, tie_uncovered_vertex = 0.3;
 
 /* What is added up: rows of nodes, and of each [covered, whole] area */
@@ -195,12 +195,12 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
   PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT,
-    "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance says how far away they may be", what,
+    "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance sets how far away they may be", what,
     tie->name, tie->mortar, (double)distance, tie->nonmortar);
   PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm,
     PETSC_ERR_USER_INPUT,
-    "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, which is to be covered wholly: exchange "
-    "the two, or cut it to size under faces",
+    "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, but must cover all of it: swap the two, "
+    "or cut out a part of the nonmortar face under faces",
     what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
   PetscFunctionReturn(0);
 }

@@ -23,7 +23,7 @@ static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, con
   }
 }
 
-/* Whether the matrix still holds what the last assembly left in it */
+/* Whether the matrix still has the values of the last assembly */
 static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscBool *holds)
 {
   PetscObjectId    id;
@@ -56,7 +56,8 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
     }
   }
   PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN,
-    PETSC_TRUE)); /* what was set before the first assembly, the blocks of an MPIBAIJ matrix do not have */
+    PETSC_TRUE)); /* options that were set before the first assembly are not passed to the blocks of an MPIBAIJ matrix
+                     */
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
   PetscCall(PetscFree(rows));

@@ -54,7 +54,7 @@ static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks
   PetscFunctionReturn(0);
 }
 
-/* A body stays kept only if none of its rows is zeroed for another; that may take the next body along */
+/* A body stays kept only if none of its rows is zeroed for another body; that may exclude the next body, too */
 PetscErrorCode ElasticitySetUpKept(Elasticity e)
 {
   PetscBool *marks;

@@ -1,4 +1,4 @@
-/* The life of the object: creation, options, prescribed displacements */
+/* The elasticity object: creation, options, prescribed displacements */
 #include "elasticityimpl.h"
 #include <mesh.h>
 #include <rankerror.h>
@@ -39,7 +39,7 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
   PetscFunctionReturn(0);
 }
 
-/* Nodes and body of every cell of this rank: as many as hexahedra of order 1 have, or more as they come */
+/* Nodes and body of every cell of this rank; the array grows if cells have more nodes than hexahedra of order 1 */
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;
@@ -158,8 +158,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       b);
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
       PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
-      "Body %" PetscInt_FMT
-      ": Saint Venant-Kirchhoff's dilatation tr E is no change of volume, of which a mean would do",
+      "Body %" PetscInt_FMT ": bbar is not for Saint Venant-Kirchhoff: its dilatation tr E is not the change of volume",
       b);
   }
   PetscCall(ElasticityReadOptions(e));

@@ -1,8 +1,5 @@
-/*
-   A file that was written under another name takes its own: at once, or, where it must be on the disk before, by a
-   thread of the first rank. A disk takes longer for that than a small load step does; the thread knows neither MPI
-   nor PETSc.
-*/
+/* Gives a file that was written under another name its own name: at once, or, if it must be on disk before, by a
+   thread of the first rank. A disk takes longer than a small load step; the thread uses neither MPI nor PETSc. */
 #define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
 #include "filesimpl.h"
 #include <errno.h>

@@ -1,7 +1,5 @@
-/*
-   One run at a time writes the files of a name: its first rank holds a lock of the mesh's file while it lives. It is
-   a record lock, of which HDF5 and those who read know nothing; where the file system has none, nobody is kept out.
-*/
+/* Only one run at a time writes the files of a name: its first rank locks the mesh's file while it runs. It is a
+   record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
 #include "filesimpl.h"
 #include <errno.h>
@@ -36,6 +34,6 @@ PetscErrorCode LockFileBegin(MPI_Comm comm, const char file[], int *descriptor)
   if (taken) LockFileEnd(descriptor);
   PetscCallMPI(MPI_Bcast(&taken, 1, MPI_INT, 0, comm));
   PetscCheck(!taken, comm, PETSC_ERR_FILE_OPEN,
-    "another run is writing \"%s\": let it end, or give -output another name", file);
+    "another run is writing \"%s\": wait for it to end, or give -output another name", file);
   PetscFunctionReturn(0);
 }

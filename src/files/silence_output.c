@@ -1,4 +1,4 @@
-/* What libraries print of their own accord while a file is written: HDF5 a page for each error, MPI's files a line. */
+/* Suppresses what libraries print while a file is written: HDF5 prints a page for each error, MPI's files a line. */
 #define _POSIX_C_SOURCE 200809L /* dup(), dup2() */
 #include "filesimpl.h"
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-/* Quadratic terms of the energy about a centre of their own */
+/* Quadratic terms of the energy about a centre */
 #include "loadsimpl.h"
 
 /* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this

@@ -59,8 +59,8 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
   PetscFunctionReturn(0);
 }
 
-/* On the bodies that are not held. They take as little from the bodies' deformation as they are worth, and from the
-   forces on them what is out of balance. */
+/* Weak springs on the bodies that are not held. They take almost nothing from the bodies' deformation, and carry the
+   forces that are out of balance */
 static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 {
   PetscBool   *unheld;

@@ -87,7 +87,7 @@ PetscErrorCode MaterialGetExpansion(const Material *material, PetscReal A[9])
   for (int i = 0; i < 9; ++i) A[i] = i % 4 ? 0 : material->expansion[0];
   if (material->type != MATERIAL_ORTHOTROPIC) PetscFunctionReturn(0);
   PetscCheck(OrthotropicAxes(material, R), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-    "The axes of an orthotropic material are not two");
+    "The two axes of an orthotropic material are parallel");
   for (int i = 0; i < 9; ++i) {
     A[i] = 0;
     for (int a = 0; a < 3; ++a) A[i] += R[a][i / 3] * R[a][i % 3] * material->expansion[a];

@@ -149,7 +149,7 @@ static PetscErrorCode MaterialModuli_Orthotropic(const Material *material, Mater
 {
   PetscFunctionBegin;
   PetscCheck(OrthotropicModuli(material, moduli), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-    "There is no orthotropic material with these constants, or its axes are not two");
+    "No orthotropic material has these constants, or its two axes are parallel");
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,4 @@
-/* A body that nothing stops lets the energy fall without end: which one it is, and how it moves. */
+/* If nothing stops a body, the energy falls without limit. Finds the body and describes its motion. */
 #include "measureimpl.h"
 
 /* Sums over the nodes of a body, at X, displaced by u; all of them reals, summed over ranks at once */
@@ -104,7 +104,7 @@ static void RigidFitFit(RigidFitSums *sums, RigidFit *flight)
     PetscSqrtReal(PetscMax(1.0 - (turned + RigidFitDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
 }
 
-/* To a power of ten below the unit, and no minus zero: rounding is not printed */
+/* Rounds to a power of ten below the unit, and avoids minus zero: rounding errors are not printed */
 static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
 {
   const PetscReal power = PetscPowReal(10.0, PetscFloorReal(PetscLog10Real(unit)));

@@ -1,5 +1,5 @@
-/* What friction dissipates: the work of its forces on the vertices. What covers a row, and which rows there are,
-   changes from one load step to the next; the forces on the vertices are those of all of them. */
+/* Work dissipated by friction: the work of its forces on the vertices. Covered areas and rows change from one load
+   step to the next; the forces on the vertices include all of them. */
 #include "measureimpl.h"
 
 /* Of a pair at this time: 0 without friction, PETSC_INFINITY where pressure does not limit it */

@@ -1,5 +1,4 @@
-/* How the faces of the contact pairs stand to each other before anything moves, and what of it a scene should have
-   said. */
+/* State of the contact pairs before anything moves, and warnings about what the scene does not declare. */
 #include "measureimpl.h"
 #include <math.h>
 
@@ -76,8 +75,8 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   if (nfrictionless)
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT
-      " nodes of %s along the axes that both faces are driven by there, unlike one another, while the pair is to "
-      "stick: prescribe the displacement away from the contact, or give the pair a coefficient of friction",
+      " nodes of %s along axes in which the two faces have different prescribed displacements, although the pair must "
+      "stick: prescribe displacements away from the contact, or give the pair a coefficient of friction",
       pair->name, nfrictionless, nnodes, pair->nonmortar));
   PetscFunctionReturn(0);
 }
@@ -136,8 +135,8 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
   PetscFunctionBegin;
   if (!start->n) {
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  %s: no vertex of %s has %s within reach; WARNING: unless they come nearer the pair does nothing\n", pair->name,
-      pair->nonmortar, pair->mortar));
+      "  %s: no vertex of %s has %s within reach; WARNING: the pair does nothing unless the faces come closer\n",
+      pair->name, pair->nonmortar, pair->mortar));
     PetscFunctionReturn(0);
   }
   PetscCall(PetscViewerASCIIPrintf(viewer,

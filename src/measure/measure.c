@@ -109,9 +109,9 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 }
 
 /*
-   All taken from the elements and the contact rows, not from the solver: energy; the residual of equilibrium; the
-   reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the discretization
-   error
+   All figures are computed from the elements and the contact rows, not taken from the solver: energy; residual of
+   equilibrium; reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the
+   discretization error
 */
 PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
   StepReport *report)

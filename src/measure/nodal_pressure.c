@@ -1,10 +1,10 @@
 /*
-   The pressure of a row is its force over the area that the other side covers about its vertex. Where that is a
-   sliver, it is the quotient of two small numbers: such a vertex hands force and area on to the better covered
-   vertices of its facets, in proportion to their areas. And where the other side ends in an edge the pressure is
-   singular, and vertices at and behind the edge over- and undershoot in turn: those within two facets of vertices
-   covered in part exchange force in proportion to what their pressures differ. Both leave the sums over a side as
-   they are, no pressure negative, and vertices elsewhere alone.
+   The pressure of a row is its force over the area that the other side covers about its vertex. If that area is tiny,
+   the pressure is the quotient of two small numbers. Such a vertex passes force and area on to the better covered
+   vertices of its facets, in proportion to their areas. Where the other side ends in an edge, the pressure is
+   singular, and vertices at and behind the edge over- and undershoot in turn. Vertices within two facets of partly
+   covered ones exchange force in proportion to their differences of pressure. Both keep the sums over a side, make no
+   pressure negative, and change nothing elsewhere.
 */
 #include "measureimpl.h"
 

@@ -39,7 +39,7 @@ PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, Petsc
   return (PetscBool)(pressure / young > gap / length);
 }
 
-/* Friction gives way where the slip is more than rounding makes of the displacements */
+/* A row slips if the slip is larger than rounding of the displacements */
 static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;

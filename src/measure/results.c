@@ -1,5 +1,4 @@
-/* Fields that a scene's probes or its files call for: stress at the nodes and at the quadrature points, strain
-   energy. */
+/* Fields for probes and files: stress at the nodes and at the quadrature points, strain energy. */
 #include "measureimpl.h"
 
 static PetscReal ResultsVonMises(const PetscReal s[6])

@@ -1,5 +1,5 @@
-/* The work of the forces from outside, dead loads and the reactions where displacements are prescribed, and of those
-   in the contacts. */
+/* Work of the external forces, of dead loads and of reactions at prescribed displacements, and of the contact forces.
+   */
 #include "measureimpl.h"
 
 /* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */

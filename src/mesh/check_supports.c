@@ -1,7 +1,7 @@
 /*
-   Does something hold every body? Each body has six rigid modes. A prescribed displacement holds its component at the
-   vertices of its face; a contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
-   facets, with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
+   Checks that every body is held. Each body has six rigid modes. A prescribed displacement holds its component at the
+   vertices of its face. A contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
+   facets; with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
    for it.
 */
 #include "meshimpl.h"
@@ -454,8 +454,8 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
-/* What to call a free motion: a mode that is one by itself, else a rotation, whose axis may be anywhere, else a
-   translation; none: PETSC_DECIDE */
+/* Names a free motion: a mode that is free by itself; else a rotation, whose axis may be anywhere; else a translation.
+   PETSC_DECIDE: none */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -505,12 +505,12 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscCall(ISDestroy(&facets));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
   PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
-    "%s \"%s\" names the face \"%s\", but that surface of the mesh file does not bound the body", what, owner, face);
+    "%s \"%s\" names the face \"%s\", but that surface of the mesh file is not on the boundary of the body", what,
+    owner, face);
   PetscFunctionReturn(0);
 }
 
-/* An error where a body is not held, unless weak springs are asked for; unheld, or NULL: which bodies are not, set to
-   false before */
+/* An error if a body is not held, unless weak springs are requested. unheld, or NULL: the bodies that are not held */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};

@@ -87,8 +87,8 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   PetscFunctionReturn(0);
 }
 
-/* Level 0, parted before it is a mesh where it has a file's many cells; a small one of shapes, or one that PETSc's
-   partitioners are to part, is not; frees the bodies' grids */
+/* Level 0. Many cells of a file are partitioned before the DMPlex is built; a small mesh of shapes, or one that
+   PETSc's partitioners shall partition, is not. Frees the bodies' grids */
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
   PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {
@@ -139,8 +139,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
     PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
-      "Body \"%s\" is of tetrahedra, and refinements are for scenes of hexahedra alone: refine uniformly, or in the "
-      "mesh file",
+      "Body \"%s\" has tetrahedra, but refinements need hexahedra: refine uniformly, or in the mesh file",
       bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));

@@ -1,7 +1,7 @@
 /*
-   The grids of all bodies, distributed from the first rank to all before any of it is a DMPlex: no rank ever
-   holds more of that, which takes several times the memory of the grids, than its own part. METIS parts the cells of
-   the first rank by their dual graph; each part goes out with its vertices, facets and curves.
+   Distributes the grids of all bodies from the first rank before a DMPlex is built, which needs several times the
+   memory of the grids. So no rank holds more than its own part of the DMPlex. METIS partitions the cells by their
+   dual graph; each part is sent with its vertices, facets and curves.
 */
 #include "meshimpl.h"
 #include <metis.h>
@@ -46,7 +46,7 @@ static PetscErrorCode DistributePartition(Distribute *deal)
 
   PetscFunctionBegin;
   PetscCheck(deal->ncells <= PETSC_MPI_INT_MAX / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "METIS's numbers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
+    "METIS's integers are too small for %" PetscInt_FMT " cells; read a coarser mesh and refine it", deal->ncells);
   PetscCall(PetscMalloc2(deal->ncells + 1, &start, 8 * deal->ncells, &nodes));
   start[0] = 0;
   for (PetscInt b = 0; b < deal->nbodies; ++b) {
@@ -110,8 +110,8 @@ static PetscBool DistributeCellHas(const ShapeGrid *grid, PetscInt c, const Pets
   return PETSC_TRUE;
 }
 
-/* A facet goes where a cell of its goes, found among those at its first vertex. first: cell and facet of the body
-   among those of all */
+/* A facet belongs to the part of a cell that has it; candidates are the cells at its first vertex. first: first cell
+   and facet of the body in the numbering of all */
 static PetscErrorCode DistributeFacets(Distribute *deal, const ShapeGrid *grid, PetscInt firstcell, PetscInt firstfacet)
 {
   const PetscInt n = grid->ncorners;
@@ -131,7 +131,7 @@ static PetscErrorCode DistributeFacets(Distribute *deal, const ShapeGrid *grid, 
       if (DistributeCellHas(grid, cells[i], facet)) deal->facetpart[firstfacet + q] = deal->part[firstcell + cells[i]];
     }
     PetscCheck(deal->facetpart[firstfacet + q] >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB,
-      "Facet %" PetscInt_FMT " is of no cell", q);
+      "Facet %" PetscInt_FMT " belongs to no cell", q);
   }
   PetscCall(PetscFree(start));
   PetscCall(PetscFree(cells));
@@ -294,7 +294,7 @@ static PetscErrorCode DistributeUnpack(const DistributePart *part, PetscInt body
   PetscFunctionReturn(0);
 }
 
-/* This rank's part in the place of the grids */
+/* Replaces the grids by this rank's part */
 static PetscErrorCode DistributeTake(PetscInt nbodies, const DistributePart *part, MeshBody meshes[],
   MeshOwners *owners)
 {
@@ -312,8 +312,7 @@ static PetscErrorCode DistributeTake(PetscInt nbodies, const DistributePart *par
   PetscFunctionReturn(0);
 }
 
-/* From the first rank to another, which says first whether it has room; a part of no size at all is none, and the end
-   of it */
+/* From the first rank to another, which first reports whether it has memory. A part of size zero ends the transfer */
 static PetscErrorCode DistributeSend(MPI_Comm comm, PetscInt nbodies, const DistributePart *part, PetscMPIInt to)
 {
   PetscInt    counts[2] = {part->sizes ? part->nints : PETSC_DECIDE, part->nreals};
@@ -351,8 +350,8 @@ static PetscErrorCode DistributeReceive(MPI_Comm comm, PetscInt nbodies, Distrib
   PetscFunctionReturn(0);
 }
 
-/* One part after another leaves the first rank, which keeps the first. Where one cannot be filled the other ranks get
-   none, for they wait for something */
+/* Sends the parts one after another; the first rank keeps the first. If one cannot be made, the remaining ranks get
+   empty parts, because they wait for a message */
 static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
 {
   PetscErrorCode ierr;
@@ -371,7 +370,7 @@ static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
   PetscFunctionReturn(0);
 }
 
-/* On every rank, and not collective but for its messages: what fails is told to all afterwards */
+/* On every rank; not collective except for its messages. Errors are passed to all ranks afterwards */
 static PetscErrorCode DistributeExchange(Distribute *deal, MeshOwners *owners)
 {
   DistributePart part = {.sizes = NULL};
@@ -398,7 +397,8 @@ PetscErrorCode MeshDistributeGrids(MPI_Comm comm, PetscInt nbodies, MeshBody mes
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = DistributePrepare(&deal);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot part the mesh of all bodies: %s", error.message);
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot partition the mesh of all bodies: %s",
+    error.message);
   PetscCall(RankErrorBegin(&error));
   ierr = DistributeExchange(&deal, owners);
   PetscCall(RankErrorEnd(comm, ierr, &error));

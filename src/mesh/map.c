@@ -37,7 +37,7 @@ PetscErrorCode MeshMapNodes(DM dm, PetscInt nbodies, const SceneBody bodies[], P
   }
   PetscCall(VecRestoreArray(places.x, &x));
   PetscCall(PetscBTDestroy(&done));
-  /* The global coordinates, if they were made, are those from before */
+  /* Updates the global coordinates, if they exist, which are still those from before */
   if (!curved) PetscCall(DMSetCoordinatesLocal(dm, places.x));
   PetscFunctionReturn(0);
 }

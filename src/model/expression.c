@@ -160,6 +160,6 @@ PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3],
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);
-  PetscCheck(!e.wrong, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The expression \"%s\" makes no sense", expression);
+  PetscCheck(!e.wrong, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The expression \"%s\" cannot be evaluated", expression);
   PetscFunctionReturn(0);
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* All that pc_amgf, tao_ipfilter, src and apps ask for; tests/options.py holds the list against their sources */
+/* All that pc_amgf, tao_ipfilter, src and apps ask for; tests/doc/options.py holds the list against their sources */
 const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
   "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_feature_angle",
   "contact_free", "contact_gap", "contact_gap_tol", "contact_normal_cosine", "contact_normals", "contact_overlap_drop",

@@ -1,4 +1,4 @@
-/* What -accuracy chose and attained, as a table for people */
+/* What -accuracy chose and reached, as a table for people */
 #include "outputimpl.h"
 
 /*@C
@@ -25,15 +25,14 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
 
   PetscFunctionBegin;
   if (!acc) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\nNo accuracy asked for: -accuracy <target>\n"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\nNo accuracy requested: use -accuracy <target>\n"));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nAccuracy %g asked for, of which the solver may leave %g\n",
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nRequested accuracy %g; the solver may leave an error of %g\n",
     (double)acc->target, (double)(acc->share * acc->target)));
   if (acc->contact)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  optimizer's tolerance %g, at most %" PetscInt_FMT
-      " linearizations of the gap, until it changes by less than %g\n",
+      "  optimizer's tolerance %g, at most %" PetscInt_FMT " contact updates, until the gap changes by less than %g\n",
       (double)acc->tolerance, acc->updates, (double)acc->update_tolerance));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
   PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));
@@ -52,8 +51,8 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
   PetscFunctionBegin;
   for (PetscInt l = 0; l < acc->nlevels; ++l) all += acc->levels[l].time;
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns leaves %g%s, the solver %g, after %.1f s; ", (double)acc->target,
-    now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
+    "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns has an error of %g%s, the solver %g, after %.1f s; ",
+    (double)acc->target, now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
   if (acc->mesh > now->mesh)
     PetscCall(PetscViewerASCIIPrintf(viewer, "the next has about %" PetscInt_FMT "\n", (PetscInt)next));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "next, a tighter tolerance\n"));
@@ -85,11 +84,11 @@ PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscVie
   if (acc->adaptive) PetscCall(AccuracyViewAdapted(acc, how, viewer));
   else if (acc->order && !now->mesh && acc->mesh)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "Accuracy %g: the mesh leaves %g%s, the solver %g; next, order %" PetscInt_FMT "\n", (double)acc->target,
+      "Accuracy %g: error of the mesh %g%s, of the solver %g; next order %" PetscInt_FMT "\n", (double)acc->target,
       (double)now->error, how, (double)now->algebraic, acc->order));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "Accuracy %g: the mesh leaves %g%s, the solver %g; next, refinement %" PetscInt_FMT "\n", (double)acc->target,
+      "Accuracy %g: error of the mesh %g%s, of the solver %g; next refinement %" PetscInt_FMT "\n", (double)acc->target,
       (double)now->error, how, (double)now->algebraic, refine));
   PetscFunctionReturn(0);
 }

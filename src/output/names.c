@@ -2,7 +2,7 @@
 #include "outputimpl.h"
 #include <string.h>
 
-/* What names a folder would make files that have no name */
+/* A base name that is a folder would give files without a name */
 PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
 {
   const char     *slash = strrchr(base, '/'), *last = slash ? slash + 1 : base;

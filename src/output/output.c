@@ -105,7 +105,7 @@ PetscErrorCode OutputSetUnits(Output output, const char units[])
   PetscFunctionReturn(0);
 }
 
-/* Which fields the steps have, the first tells. One pair has its fields without its name */
+/* The first step decides which fields the steps have. A single pair has its fields without its name */
 static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 {
   const StepReport *report = state->report;
@@ -167,8 +167,8 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
   PetscFunctionReturn(0);
 }
 
-/* Steps beyond this one are those of an older run of the same name; only the first rank looks. What is no file, but a
-   link or a device, was put there by somebody and stays. */
+/* Files of later steps belong to an older run of the same name. Only the first rank looks. Links and devices stay,
+   because somebody put them there */
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
   char        file[PETSC_MAX_PATH_LEN];

@@ -8,12 +8,12 @@
 #include <unistd.h>
 
 #if !defined(CONTACT_PYTHON)
-  #define CONTACT_PYTHON "python3" /* the makefile has the one that it found */
+  #define CONTACT_PYTHON "python3" /* the makefile sets the one that it found */
 #endif
 
 extern char **environ;
 
-/* The script beside the program: in the sources, or where `make install` put it */
+/* Finds the script beside the program: in the sources, or where `make install` put it */
 static PetscBool PageFindScript(char script[], size_t length)
 {
   static const char *const places[] = {"/../share/amgf/report/report.py", "/../share/report/report.py"};
@@ -31,8 +31,8 @@ static PetscBool PageFindScript(char script[], size_t length)
   return PETSC_FALSE;
 }
 
-/* Runs the script. What it prints on the error stream comes into the sentence, as far as there is room, as one line.
-   0: it ended well */
+/* Runs the script and returns 0 if it ended well. The last line that it prints on the error stream goes into the
+   sentence, as far as there is room */
 static int PageRun(const char *const words[], char sentence[], size_t length)
 {
   posix_spawn_file_actions_t actions;
@@ -95,7 +95,8 @@ PetscErrorCode ReportPageCheck(MPI_Comm comm, const char file[])
       status = PageRun(words, sentence, sizeof(sentence));
     } else {
       status = -1;
-      PetscCall(PetscStrncpy(sentence, "share/report/report.py is not beside the program", sizeof(sentence)));
+      PetscCall(
+        PetscStrncpy(sentence, "share/report/report.py is missing; it belongs beside the program", sizeof(sentence)));
     }
   }
   PetscCallMPI(MPI_Bcast(&status, 1, MPI_INT, 0, comm));
@@ -130,6 +131,6 @@ int ReportPageMake(const ReportPage *page, char sentence[], size_t length)
     page->command, page->versions, NULL};
 
   if (PageFindScript(script, sizeof(script))) return PageRun(words, sentence, length);
-  (void)snprintf(sentence, length, "share/report/report.py is not beside the program");
+  (void)snprintf(sentence, length, "share/report/report.py is missing; it belongs beside the program");
   return -1;
 }

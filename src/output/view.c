@@ -10,7 +10,7 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
-/* Who pushes whom at the end: a row a contact pair, a row a face that is held or driven */
+/* Forces at the end: a row per contact pair, a row per face that is held or driven */
 static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -44,7 +44,7 @@ static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Nothing is said of load steps whose linear systems the Krylov method solved by itself */
+/* Load steps whose linear systems the Krylov method solved alone are not listed */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -66,7 +66,8 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     }
     if (linear->subspaces)
       PetscCall(PetscViewerASCIIPrintf(viewer,
-        "; the filtered subspace left %" PetscInt_FMT " times for the interior point method", linear->subspaces));
+        "; the filtered subspace method gave up %" PetscInt_FMT " times and the interior point method took over",
+        linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   PetscFunctionReturn(0);
@@ -83,13 +84,13 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   }
   if (n)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "MUMPS in place of AMG, from load step %" PetscInt_FMT
+      "MUMPS instead of AMG, from load step %" PetscInt_FMT
       " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n",
       first));
   PetscFunctionReturn(0);
 }
 
-/* How wrong the energy is, by the solver's doing and by the mesh's */
+/* Relative errors in energy of the solver and of the mesh */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -117,7 +118,7 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The yardstick beside the largest count of any Newton system */
+/* The reference cost without contact, beside the largest count of any Newton system */
 static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
 {
   PetscInt  largest = 0;

@@ -2,7 +2,7 @@
 #include "reportimpl.h"
 #include <stdarg.h>
 
-/* Collective. Said once on stderr, at once, and kept for the summary */
+/* Collective. A warning: printed on stderr at once, and kept for the summary */
 PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
 {
   char    sentence[512];

@@ -1,4 +1,4 @@
-/* As accurate as asked and no more: which tolerances, and which mesh. */
+/* Chooses tolerances and mesh for a requested accuracy, and no more than that. */
 #include <accuracy.h>
 #include <math.h>
 
@@ -66,17 +66,17 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   acc->comm  = comm;
   acc->share = 0.1;
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
-  PetscCall(PetscOptionsReal("-accuracy", "Relative error wanted in energy and contact force", "AccuracyPlan",
+  PetscCall(PetscOptionsReal("-accuracy", "Requested relative error in energy and contact force", "AccuracyPlan",
     acc->target, &acc->target, &set));
-  PetscCall(PetscOptionsEList("-accuracy_of", "What is to be accurate", "AccuracyAssess", AccuracyTargets,
+  PetscCall(PetscOptionsEList("-accuracy_of", "Quantity that must be accurate", "AccuracyAssess", AccuracyTargets,
     ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine cells where the error is", "AccuracyAssess", acc->adaptive,
-    &acc->adaptive, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_share", "What of it the solver may leave", "AccuracyPlan", acc->share,
+  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only the cells where the error is", "AccuracyAssess",
+    acc->adaptive, &acc->adaptive, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_share", "Share of it that the solver may leave", "AccuracyPlan", acc->share,
     &acc->share, NULL));
   PetscCall(
     PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
-  PetscCall(PetscOptionsInt("-accuracy_order", "Order of all bodies from the second mesh on", "AccuracyAssess",
+  PetscCall(PetscOptionsInt("-accuracy_order", "Element order of all bodies from the second mesh on", "AccuracyAssess",
     acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
   PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT,
@@ -340,8 +340,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refined once more, unless two meshes say that the error is within a factor 2 of the target, or the unknowns do not
-   allow it */
+/* Refines once more, unless two meshes show that the error is within a factor 2 of the target, or the limit on
+   unknowns forbids it */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
@@ -355,7 +355,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   else if (!*refine)
     PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
       "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT,
-      single ? "one mesh alone tells no error; " : "", (double)next, acc->max_dofs));
+      single ? "one mesh alone gives no error estimate; " : "", (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 

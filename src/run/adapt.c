@@ -1,5 +1,5 @@
-/* Which cells the next mesh has refined: those that hold a fixed share of the error of all load steps, and those at
-   the contact as the last one has it */
+/* Chooses the cells to refine for the next mesh: those that hold a fixed share of the error of all load steps, and
+   those at the contact of the last one */
 #include "runimpl.h"
 
 #define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */

@@ -1,5 +1,5 @@
-/* Which cells at the contact the next mesh has refined, as the last load step has it: recovery sees neither facets in
-   place of curves nor where the faces meet */
+/* Chooses the cells at the contact to refine for the next mesh, as in the last load step: recovery sees neither the
+   facets of curved surfaces nor where the faces meet */
 #include "runimpl.h"
 
 /* Of each vertex of a face, in its local vector */

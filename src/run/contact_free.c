@@ -1,4 +1,4 @@
-/* The yardstick: what the same mesh and the same AMG cost without contact. */
+/* Reference cost: what the same mesh and the same AMG cost without contact. */
 #include "runimpl.h"
 #include <petsctime.h>
 

@@ -11,8 +11,8 @@ PetscErrorCode MemoryUsageGet(MPI_Comm comm, PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-/* The peak of the resident set of this program. Linux tells it by VmHWM; what getrusage() says elsewhere may be the
-   peak of the process that started this one */
+/* Peak of the resident set of this program. Linux gives it as VmHWM; getrusage() elsewhere may give the peak of the
+   process that started this one */
 static PetscErrorCode MemoryUsagePeakOfRank(PetscLogDouble *bytes)
 {
   FILE         *status = fopen("/proc/self/status", "r");

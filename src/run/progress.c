@@ -1,4 +1,4 @@
-/* How far a run is, now and then: load step, time so far, what is left. */
+/* Progress of a run at intervals: load step, time so far, estimated rest. */
 #include "runimpl.h"
 #include <petsctime.h>
 

@@ -155,26 +155,25 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
-  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the path and the pressures of the last",
+  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the rate and the pressures of the last one",
     "SimulationStep", sim->warm, &sim->warm, NULL));
-  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "How often a load step that fails is halved", "SimulationStep",
-    sim->maxcuts, &sim->maxcuts, NULL, 0));
-  PetscCall(
-    PetscOptionsBool("-load_monitor", "Say why a load step is cut, and how the gap changes when it is linearized again",
-      "SimulationStep", sim->monitor, &sim->monitor, NULL));
-  PetscCall(PetscOptionsReal("-progress_every", "Seconds after which the run says again how far it is, 0: never",
-    "SimulationStep", sim->progress.every, &sim->progress.every, NULL));
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
+    "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
+  PetscCall(PetscOptionsBool("-load_monitor",
+    "Print why a load step is cut, and the change of the gap with each contact update", "SimulationStep", sim->monitor,
+    &sim->monitor, NULL));
+  PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
+    sim->progress.every, &sim->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
     "SimulationStep", sim->estimate, &sim->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol",
-    "Change of the gap, relative to the largest displacement, that ends its updates", "SimulationStep",
+    "Change of the gap, relative to the largest displacement, that ends the contact updates", "SimulationStep",
     sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
   PetscCall(PetscOptionsReal("-contact_gap_tol",
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
     "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty",
-    "Solve by the penalty method: stiffness of the contact by that of the bodies at a row (0: by the interior point "
-    "method)",
+    "Penalty method: stiffness of the contact relative to that of the bodies at a row (0: no penalty)",
     "SimulationStep", sim->penalty, &sim->penalty, NULL));
   PetscOptionsEnd();
   PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE,

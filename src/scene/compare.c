@@ -1,4 +1,4 @@
-/* Is a scene the one that a text was made of? What may change between two runs of one simulation is left out. */
+/* Compares a scene with the text of another one. What may change between two runs of one simulation is left out. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream() */
 #include "sceneimpl.h"
 #include <petscviewer.h>

@@ -253,7 +253,7 @@ static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscVi
   for (PetscInt i = 0; i < 2; ++i) size[i] = n[i] ? area[i] / n[i] : 0.0;
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1],
-    size[1] > 4.0 * size[0] ? ": the coarser side has the constraints, the finer one would be better" : ""));
+    size[1] > 4.0 * size[0] ? ": the coarser side carries the constraints; the finer one would be better" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -267,7 +267,9 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar,
       here->nonmortar, GapTypes[here->gap]));
     if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
-    else PetscCall(PetscViewerASCIIPrintf(viewer, "facets within a distance chosen from the size of the faces\n"));
+    else
+      PetscCall(
+        PetscViewerASCIIPrintf(viewer, "facets pair within a distance that is chosen from the size of the faces\n"));
     PetscCall(DescribeSides(dm, here, viewer));
   }
   PetscFunctionReturn(0);
@@ -305,7 +307,7 @@ static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer
         (double)here->lower[2], (double)here->upper[2]));
   }
   PetscCall(MeshCountHanging(dm, &nhanging));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  vertices that hang between coarser and finer cells: %" PetscInt_FMT "\n",
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  hanging vertices between coarser and finer cells: %" PetscInt_FMT "\n",
     nhanging));
   PetscFunctionReturn(0);
 }
@@ -419,7 +421,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
-    scene->npairs ? "on, where the constraints are stiff enough to need it" : "off: no constraints"));
+    scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));
   PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, orders, "every material is linear"));
   if (finite)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));

@@ -55,14 +55,14 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscOptionsBegin(comm, NULL, "Scene", NULL);
   PetscCall(
     PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
-  PetscCall(PetscOptionsInt("-load_steps", "Load steps: equal parts of the scene's program", "SceneLoad", nsteps,
-    &nsteps, &set));
+  PetscCall(PetscOptionsInt("-load_steps", "Number of equal load steps into which the scene's load program is divided",
+    "SceneLoad", nsteps, &nsteps, &set));
   PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model,
     (PetscEnum *)&scene->model, NULL));
-  PetscCall(PetscOptionsInt("-contact_updates", "Linearizations of the gap a load step", "SceneLoad",
+  PetscCall(PetscOptionsInt("-contact_updates", "Largest number of contact updates a load step", "SceneLoad",
     scene->contact_updates, &scene->contact_updates, NULL));
-  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step whose displacements are bounded, 0: none",
-    "SceneLoad", bounds, &bounds, &bounded));
+  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step with bounded displacements; 0: none", "SceneLoad",
+    bounds, &bounds, &bounded));
   PetscOptionsEnd();
   PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1",
     file, nsteps);

@@ -1,8 +1,8 @@
 /* When the iteration ends, and with what reason. */
 #include "driverimpl.h"
 
-/* A starting point where the gradient vanishes and no constraint is violated is stationary with all multipliers zero.
-   Nothing there gives a scale to measure errors by, so it is not left to the iteration to find out. */
+/* A starting point with zero gradient and no violated constraint is stationary with all multipliers zero. Nothing
+   there gives a scale for errors, so this is checked before the iteration */
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
@@ -21,11 +21,12 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
   ip->mu = 0.0;
   PetscCall(PetscMemzero(&ip->kkt, sizeof(ip->kkt)));
   PetscCall(IPSetMultipliers(tao));
-  PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and violates nothing"));
+  PetscCall(
+    IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and meets all constraints"));
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints are violated beside their first values, which do not grow with x */
+/* Whether the violation is significant compared with the constraints' first values, which do not grow with x */
 static PetscBool Violated(const TAO_IPFILTER *ip)
 {
   const PetscReal small = 1e-3;
@@ -50,7 +51,8 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
   return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
 }
 
-/* Counts steps in a row that rounding makes of x, or of a small fraction of the first x where x goes to zero */
+/* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
+   goes to zero */
 static PetscErrorCode CountTinySteps(Tao tao)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -64,8 +66,8 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The KKT error is within the tolerance: converged, unless the multipliers it was measured by run away, or what the
-   constraints were relaxed by is worth more than the tolerance at these multipliers */
+/* Converged if the KKT error is within the tolerance. Exceptions: the multipliers by which it is measured grow without
+   limit, or the relaxation of the constraints is worth more than the tolerance */
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -80,12 +82,12 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
     PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
   if (times > limit)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, but by multipliers %g times larger than what they balance: bounded ones may not "
-      "exist",
+      "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
+      "bounded multipliers may not exist",
       (double)ip->kkt.error, relaxed, (double)times));
   else if (work > ip->tol)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, which have no interior: that is worth %g times what the tolerance admits",
+      "acceptable: KKT error %g%s, which have no interior: the relaxation is worth %g times the tolerance",
       (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
   else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
@@ -93,8 +95,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Where the gradient is zero and no constraint violated, all multipliers may be zero, whatever they have come to:
-   there is nothing that they could balance, or be measured by */
+/* If the gradient is zero and no constraint is violated, all multipliers may be zero, whatever their present values */
 static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -127,8 +128,8 @@ PetscErrorCode IPTestNumbers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints are met to what TaoSetConstraintTolerances() asks for, if it has been called: catol bounds
-   the largest violation, crtol the one that the KKT error holds. As for all of TAO's tolerances 0 is none. */
+/* Whether the constraints meet the tolerances of TaoSetConstraintTolerances(), if it was called. catol bounds the
+   largest violation, crtol the one in the KKT error. As for all tolerances of TAO, 0 means none */
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
@@ -173,7 +174,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
   PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG,
-    "The convergence test of TAOIPFILTER is none for a solver of type %s", ((PetscObject)tao)->type_name);
+    "The convergence test of TAOIPFILTER cannot be used by a solver of type %s", ((PetscObject)tao)->type_name);
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
@@ -184,8 +185,8 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(ConvergeUnlessDegenerate(tao));
   } else if (fritz_john && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g, but gradients of the constraints vanish where these are met, and multipliers outgrow "
-      "all they could balance: bounded ones may not exist",
+      "acceptable: KKT error %g, but gradients of the constraints vanish where the constraints are met, and the "
+      "multipliers grow without limit: bounded multipliers may not exist",
       (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g",
@@ -215,19 +216,18 @@ static PetscErrorCode TestLimits(Tao tao)
   if (ip->rec.ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding at KKT error %g, but the violation %g, relative %g, is not within "
-        "catol %g and crtol %g",
+        "steps are as small as rounding at KKT error %g, but the violation %g, relative %g, is not within catol %g and "
+        "crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
     else if (IPAcceptable(ip))
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-        "acceptable: steps have become as small as rounding at KKT error %g, not within %g", (double)error,
-        (double)ip->tol));
+        "acceptable: steps are as small as rounding at KKT error %g, not within %g", (double)error, (double)ip->tol));
     else if (Violated(ip))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding beside x, at constraint violation %g", (double)k->inf_pr));
+        "steps are as small as the rounding error of x, at constraint violation %g", (double)k->inf_pr));
     else
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps have become as small as rounding at KKT error %g: multipliers may not exist", (double)error));
+        "steps are as small as rounding at KKT error %g: multipliers may not exist", (double)error));
   } else if (tao->niter - ip->rec.ndirections >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
       tao->max_it, (double)error));
@@ -249,7 +249,8 @@ PetscErrorCode IPTestConvergence(Tao tao)
   PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
   if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
   else if (!ip->rec.reason[0])
-    PetscCall(IPSetReason(tao, tao->reason, "the test of TaoSetConvergenceTest() says %s, at KKT error %g",
-      TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
+    PetscCall(
+      IPSetReason(tao, tao->reason, "the test set by TaoSetConvergenceTest() ended the solve with %s, at KKT error %g",
+        TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

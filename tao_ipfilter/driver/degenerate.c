@@ -1,4 +1,4 @@
-/* Signs that a solution has no bounded multipliers: the KKT error, which is measured by them, means nothing then. */
+/* Signs that a solution has no bounded multipliers. The KKT error is measured by them and then means nothing. */
 #include "driverimpl.h"
 
 /* r += |J|^T |M multiplier|, M = 1 where it is NULL */
@@ -31,7 +31,7 @@ static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec mul
   PetscFunctionReturn(0);
 }
 
-/* Largest force of all the constraints at an unknown, as if none cancelled another */
+/* Largest sum of the sizes of the constraints' forces at an unknown */
 static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -55,8 +55,8 @@ static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* How many times larger the constraints' forces are than the gradient that they balance together. Large where they
-   cancel one another: no bounded multipliers need exist then, and errors measured by multipliers mean nothing. */
+/* Ratio of the sizes of the constraints' forces to the gradient that they balance together. If it is large, the forces
+   cancel one another: no bounded multipliers need exist, and errors measured by multipliers mean nothing */
 PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
 {
   const PetscReal vanishing = 1e-3; /* of the first gradient */
@@ -70,7 +70,7 @@ PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
   PetscFunctionReturn(0);
 }
 
-/* What the multipliers would transmit through the gradients that the constraints had at the start */
+/* Forces of the multipliers with the constraints' gradients of the starting point */
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -85,9 +85,8 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* Whether the conditions of Fritz John hold without the objective: the gradients of equality constraints that are met
-   vanish, so that their multipliers outgrow all there is to balance. To that size the stationarity residual is
-   nothing. */
+/* Whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
+   vanish, so that their multipliers grow without limit. The stationarity residual is small compared with them */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

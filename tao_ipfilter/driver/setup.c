@@ -1,4 +1,4 @@
-/* Memory: vectors of the problem's sizes, made in TaoSetUp(), made anew when the sizes change, and freed. */
+/* Vectors of the problem's sizes: created in TaoSetUp(), created again when the sizes change, and destroyed */
 #include "driverimpl.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
@@ -63,7 +63,7 @@ static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
   PetscFunctionReturn(0);
 }
 
-/* All that has the sizes of the problem; what the caller gave and chose stays */
+/* Destroys everything that has the sizes of the problem; keeps what the caller gave and chose */
 static PetscErrorCode FreeSizes(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -95,8 +95,8 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Without TaoSetHessian(): differences of gradients for a small problem, a limited-memory approximation for a large
-   one. Either is made anew with other sizes. */
+/* Without TaoSetHessian(): finite differences of gradients for a small problem, a limited-memory approximation for a
+   large one. Both are created again for other sizes */
 static PetscErrorCode SetUpHessian(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -172,7 +172,7 @@ static PetscErrorCode SetUpSides(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets up again where the caller has replaced the solution or the constraints by others of another size since */
+/* Sets up again if the caller has replaced the solution or the constraints by others of another size */
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

@@ -19,7 +19,7 @@ static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
   PetscFunctionReturn(0);
 }
 
-/* Drops what was made from another set of fixed variables or with other scales of the rows */
+/* Drops matrices that were made for another set of fixed variables or other row scales */
 static PetscErrorCode ForgetSystem(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -30,7 +30,7 @@ static PetscErrorCode ForgetSystem(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the scales of the rows, and sees constraints and derivatives through them */
+/* Chooses the scales of the rows, and scales constraints and derivatives */
 static PetscErrorCode ScaleRows(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -98,7 +98,8 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Forgets the last solve, but for what the next one may reuse: matrices, scratch vectors, and room for records */
+/* Resets the state of the last solve; keeps what the next one may reuse: matrices, scratch vectors, and memory for
+   records */
 static PetscErrorCode ResetSolve(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -125,9 +126,11 @@ static PetscErrorCode ResetSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the iterate is better than the best one: it violates the constraints less, or both do so by no more than
-   the tolerance and its KKT error is no larger, which is all that counts where one of them is acceptable; of two that
-   differ in no digit the later one is better */
+/*
+   Whether the iterate is better than the best one: it violates the constraints less, or both violate them by no more
+   than the tolerance and its KKT error is no larger. If one of them is acceptable, only the KKT error counts. Of two
+   equal ones the later is better
+*/
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
   const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
@@ -211,11 +214,12 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionBegin;
   if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-      "the constraints seem infeasible: their violation has a minimum, of %g", (double)ip->kkt.inf_pr));
+      "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt.inf_pr));
   else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
   else if (!solved)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "no direction of sufficient curvature, with the Hessian shifted by up to %g; the linear solver's last word: %s",
+      "no direction of sufficient curvature, with the Hessian shifted by up to %g; last result of the linear solver: "
+      "%s",
       (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
   else if (violated)
     PetscCall(
@@ -226,8 +230,8 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/* No direction, or no step along it. Mehrotra's choice of mu is given up for a while first; then constraints without
-   an interior are relaxed, then the violation is reduced by itself. */
+/* There is no direction, or no step along it. Remedies in this order: give up Mehrotra's choice of mu for a while;
+   relax constraints without an interior; reduce the violation alone */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -237,9 +241,9 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
 
   PetscFunctionBegin;
   if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
-    PetscCall(
-      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: no step reduces the KKT error %g further; %g was asked for",
-        (double)IPBothErrors(ip), (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
+      (double)ip->tol));
     PetscFunctionReturn(0);
   }
   if (!solved && ip->lin.failed) {
@@ -265,8 +269,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of equality constraints whose forces have outgrown the gradient they balance, as those of constraints
-   that cannot be met do, drown the objective in the Hessian: they are estimated anew */
+/* If forces of equality constraints have become much larger than the gradient that they balance (constraints that
+   cannot be met), their multipliers dominate the Hessian. Then they are estimated again */
 static PetscErrorCode RenewMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -336,7 +340,7 @@ static PetscErrorCode BeginMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Goes on from the best iterate by the interior point method, where the other one does not lead to the end */
+/* Continues from the best iterate with the interior point method, if the other method does not converge */
 static PetscErrorCode LeaveMethod(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -344,7 +348,7 @@ static PetscErrorCode LeaveMethod(Tao tao)
   Vec           s = NULL, z = NULL;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The %s gives nothing more at KKT error %g: the interior point method goes on\n",
+  PetscCall(PetscInfo(tao, "The %s makes no more progress at KKT error %g: the interior point method continues\n",
     ip->method.ops->name, (double)ip->rec.best_error));
   PetscCall(EndMethod(tao));
   ip->rec.fallbacks.subspaces++;
@@ -372,9 +376,9 @@ static PetscErrorCode EndTerms(Tao tao)
 
   PetscFunctionBegin;
   if (ip->rec.best_error <= ip->opt.acceptable_tol)
-    PetscCall(
-      IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: nothing reduces the KKT error %g further; %g was asked for",
-        (double)ip->rec.best_error, (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec.best_error,
+      (double)ip->tol));
   else if (ip->rec.best_error < PETSC_INFINITY)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
@@ -437,7 +441,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "Norm terms: this library was built without the laws that they follow");
+    "Norm terms: this library was built without the laws of friction (folder tao_ipfilter/friction)");
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
   PetscCall(BeginMethod(tao));
@@ -450,7 +454,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* What the caller sees: the best iterate, in its units */
+/* Returns the best iterate, in the caller's units */
 static PetscErrorCode EndSolve(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,16 +1,15 @@
 /* An objective that falls without end. */
 #include "driverimpl.h"
 
-/* Fall of the objective, against its first value and against what a Newton step from the start would gain, that only
-   an unbounded one has */
+/* Decrease of the objective, relative to its first value and to the gain of a Newton step from the start, that
+   indicates an unbounded one */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
   return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
                                       PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
-/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x,
-   that says nothing */
+/* Whether the iterate indicates an unbounded objective. Not if constraints are significantly violated */
 static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
 {
   const PetscReal fall = UnboundedFall(ip), small = 1e-3;
@@ -18,8 +17,8 @@ static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
   return (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
 }
 
-/* Counts whole steps in a row that a shift of the Hessian alone has kept short, and along which the objective fell as
-   a straight line does */
+/* Counts successive full steps that only a shift of the Hessian kept short, and along which the objective fell
+   linearly */
 static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -39,8 +38,7 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   PetscFunctionReturn(0);
 }
 
-/* Whether the trial point, `far` from the iterate, keeps bounds and constraints but for what rounding leaves at that
-   distance */
+/* Whether the trial point, `far` from the iterate, satisfies bounds and constraints up to rounding at that distance */
 static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -71,8 +69,8 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
   PetscFunctionReturn(0);
 }
 
-/* Whether the last step, as many times longer as it takes, leads to a point that shows it: Newton's method would
-   creep there, as each of its steps is as long as the shift lets it be */
+/* Whether a multiple of the last step leads to a point that indicates an unbounded objective. Newton's method alone
+   would approach it slowly, since the shift limits its steps */
 static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

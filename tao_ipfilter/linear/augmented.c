@@ -72,8 +72,8 @@ static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
   PetscFunctionReturn(0);
 }
 
-/* A as AIJ, with all diagonal entries: without one, PETSc 3.18 hands MUMPS on several ranks none of its row's upper
-   triangle */
+/* A as AIJ with all diagonal entries. Without a diagonal entry, PETSc 3.18 passes none of its row's upper triangle to
+   MUMPS on several ranks */
 static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 {
   PetscBool missing;
@@ -91,8 +91,8 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* K becomes the given matrix: its values, if the pattern is K's, so that MUMPS's analysis of it serves again; else
-   the matrix itself */
+/* Copies the values into K if the pattern is the same, so that MUMPS's analysis is reused; else K becomes the given
+   matrix */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
@@ -142,8 +142,8 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* Set-up of the KSP, with an ordering unless the user has chosen one: PETSc takes that of MUMPS from the options data
-   base alone */
+/* Sets up the KSP, with an ordering unless the user has chosen one. PETSc reads MUMPS's ordering from the options
+   database only */
 static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 {
   PetscOptions options;
@@ -163,9 +163,9 @@ static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 }
 
 /*
-  One factorization. Approximate minimum fill: where there is no METIS, MUMPS's own choice is PORD, whose analysis of
-  the blocks of zeros takes longer than some factorizations, and gains little in them. Pivots are taken by as small a
-  threshold as IPOPT's: rows that wait for a better one cost work space.
+   One factorization. Ordering: approximate minimum fill; without METIS, MUMPS would choose PORD, whose analysis of
+   the zero blocks takes longer than some factorizations and gains little. Pivots: a threshold as small as IPOPT's,
+   because delayed pivots cost work space
 */
 static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
@@ -193,7 +193,7 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   PetscFunctionReturn(0);
 }
 
-/* Factors, with more work space each time that MUMPS finds it too small */
+/* Factors; repeats with more work space if MUMPS had too little */
 static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
 {
   const PetscInt  first = 100; /* per cent of work space beyond the estimate */
@@ -204,7 +204,7 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   if (aug->pivot == 0.0) aug->pivot = pivot;
   PetscCall(AugmentedFactorOnce(aug, failed));
   while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
-    PetscCall(KSPReset(aug->ksp)); /* PETSc takes an error of MUMPS for one of its analysis from then on */
+    PetscCall(KSPReset(aug->ksp)); /* PETSc treats an error of MUMPS as one of its analysis from then on */
     PetscCall(AugmentedFactorOnce(aug, failed));
   }
   /* a factorization that failed is not to be reused */
@@ -212,8 +212,8 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   PetscFunctionReturn(0);
 }
 
-/* Factors, and tells whether the inertia is that of a minimum and whether the matrix was singular. Where MUMPS fails
-   for want of memory, or otherwise, that says nothing about the matrix: ip->lin.failed. */
+/* Factors, and checks whether the inertia is that of a minimum and whether the matrix was singular. If MUMPS fails for
+   lack of memory or another reason, that says nothing about the matrix: ip->lin.failed */
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
@@ -273,9 +273,9 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* residual = rhs - K sol, and its norm; *needless: it is far below what convergence asks of forces and of
-   constraints, or, while that is far off, as far below the present KKT error and next to nothing of the right-hand
-   side */
+/* residual = rhs - K sol, and its norm. *needless: it is far below what convergence requires of forces and
+   constraints; or, while that is far off, far below the present KKT error and negligible against the right-hand side
+   */
 static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -302,8 +302,8 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscFunctionReturn(0);
 }
 
-/* sol += K^-1 (rhs - K sol) while that halves the residual, which is left in residual, until it is next to nothing of
-   the right-hand side, or needless */
+/* Iterative refinement, sol += K^-1 (rhs - K sol), as long as it halves the residual and the residual is neither
+   negligible nor needless */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -346,7 +346,7 @@ static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* Assembles K and factors it, with a regularization of dependent constraints where it is singular without */
+/* Assembles and factors K; if it is singular, again with a regularization of dependent constraints */
 static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -365,7 +365,7 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscFunctionReturn(0);
 }
 
-/* K sol = rhs, refined; factored again with a larger threshold of pivots where that leaves too much */
+/* K sol = rhs, refined. Factors again with a larger pivot threshold if the residual stays too large */
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -389,8 +389,8 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* K (top, bottom) = (b, -ce), refined; a regularization draws the multipliers to the present ones, so that none is
-   left of it at a solution */
+/* K (top, bottom) = (b, -ce), refined. A regularization draws the multipliers to the present ones, so that it vanishes
+   at a solution */
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;

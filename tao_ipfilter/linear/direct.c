@@ -15,8 +15,8 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* The present matrix as MUMPS takes a symmetric one, AIJ or SBAIJ: direct.A, NULL where PETSc has no MUMPS for it.
-   The factor, whose analysis serves as long as the pattern stays, goes where it is another one. */
+/* The present matrix in a format that MUMPS accepts as symmetric, AIJ or SBAIJ: direct.A; NULL if PETSc has no MUMPS
+   for it. Drops the factor if the matrix is another one; its analysis is reused as long as the pattern stays */
 static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 {
   PetscBool        baij, mumps;
@@ -65,7 +65,7 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscCall(MatSetOptionsPrefix(direct->F, own));
   PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* nothing of the analysis is to depend on values, which change: */
   PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scaled by the diagonal of the matrix that is factored */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would keep the inertia of the root to itself */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would hide the inertia of the root */
   PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
@@ -77,7 +77,7 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What the matrix itself takes, which the factors exceed, in 1e6 bytes: too much of that needs no analysis */
+/* Memory of the matrix itself [1e6 bytes]. The factors need more, so if this is too much no analysis is made */
 static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 {
   MatInfo info;
@@ -88,19 +88,20 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
   PetscFunctionReturn(0);
 }
 
-/* Whether factors of that many 1e6 bytes are allowed, for which the record else has a reason */
+/* Whether factors of this size [1e6 bytes] are allowed; if not, records the reason */
 static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
 {
   PetscFunctionBegin;
   *allows = (PetscBool)(memory <= ip->opt.direct_memory);
   if (!*allows)
-    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "the whole matrix by MUMPS takes %g MB, allowed are %g",
-      (double)memory, (double)ip->opt.direct_memory));
+    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why),
+      "MUMPS would need %g MB for the whole matrix, more than the %g MB allowed", (double)memory,
+      (double)ip->opt.direct_memory));
   PetscFunctionReturn(0);
 }
 
-/* The factors of the matrix that was taken; more work space each time that MUMPS finds its own estimate too small,
-   with which the next matrix begins. A factorization that failed is not to be reused. */
+/* Factors the matrix; repeats with more work space if MUMPS's own estimate was too small, and starts the next matrix
+   with that. A failed factorization is not reused */
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

@@ -1,7 +1,7 @@
 /*
-   How equality constraints enter the Newton system: condensed with proximal updates where their rows touch few
-   unknowns, else in the augmented system that MUMPS factors. The first gives way to the second for the rest of a
-   solve where it does not reach the constraints.
+   How equality constraints enter the Newton system: condensed with proximal updates if their rows involve few
+   unknowns, else in the augmented system that MUMPS factors. If proximal updates do not meet the constraints, the
+   rest of the solve uses the augmented system.
 */
 #include "linearimpl.h"
 #include "pc_amgf/mumps.h"
@@ -43,8 +43,8 @@ PetscErrorCode IPEqualityChoose(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Gives the proximal method up: the matrix loses the equality constraints' rows. *possible is false where MUMPS is
-   not to factor the whole matrix. */
+/* Gives up the proximal method: removes the equality constraints' rows from the matrix. *possible is false if MUMPS
+   may not factor the whole matrix */
 static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -56,8 +56,8 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
   if (!*possible) PetscFunctionReturn(0);
   ip->prox.condensed = PETSC_FALSE;
   ip->rec.fallbacks.direct++;
-  PetscCall(
-    PetscInfo(tao, "Equality constraints are not reached by proximal updates: the augmented system takes over\n"));
+  PetscCall(PetscInfo(tao,
+    "Proximal updates do not meet the equality constraints: the augmented system is used from now on\n"));
   PetscCall(IPCondenseMatrix(tao, ip->cond.rows.inequality));
   PetscFunctionReturn(0);
 }

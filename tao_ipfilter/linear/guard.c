@@ -1,10 +1,10 @@
-/* An error of a library inside a solver, hypre's say, is a failure of that solver, for which there are remedies: it
-   ends no program. */
+/* Treats an error of a library inside a solver, such as hypre, as a failure of that solver, for which there are
+   remedies. It does not end the program. */
 #include "linearimpl.h"
 #include "pc_amgf/guard.h"
 
-/* A new PC of the same type and options in the place of one whose library was interrupted, and which PETSc can
-   neither use again nor take apart: that one is left alone, with a reference that nobody gives back */
+/* Replaces a PC whose library was interrupted by a new one of the same type and options. PETSc can neither reuse nor
+   destroy the old one, so a reference to it is never released */
 static PetscErrorCode GuardReplacePC(Tao tao)
 {
   KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin.flexible};
@@ -30,7 +30,7 @@ static PetscErrorCode GuardReplacePC(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether PCAMGF met the error inside, on any rank: it says so of itself, and the KSP has ended with that on all */
+/* Whether PCAMGF caught the error inside, on any rank. It reports that itself, and the KSP has ended on all ranks */
 static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
 {
   PC             pc;
@@ -65,7 +65,7 @@ PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
     if (!*failed) PetscFunctionReturn(0);
     PetscCall(PetscStrncpy(ip->lin.why, "an error inside the multigrid", sizeof(ip->lin.why)));
   }
-  PetscCall(PetscInfo(tao, "An error inside the linear solver: %s\n", ip->lin.why));
+  PetscCall(PetscInfo(tao, "Error inside the linear solver: %s\n", ip->lin.why));
   PetscCall(GuardReplacePC(tao));
   PetscCall(VecSet(x, 0.0));
   PetscFunctionReturn(0);

@@ -2,7 +2,7 @@
    record of iterations. */
 #include "linearimpl.h"
 
-/* The KSP's own convergence test, and what tells that a run is not worth going on with */
+/* The KSP's own convergence test, and what ends a run early */
 typedef struct {
   PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
   PetscErrorCode (*destroy)(void *);
@@ -28,8 +28,8 @@ PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
   PetscFunctionReturn(0);
 }
 
-/* Limit of the next solve: an indefinite matrix may keep a Krylov method busy for long without showing a
-   negative product. Ten times the longest successful solve is taken as a sign of it. */
+/* Iteration limit of the next solve. An indefinite matrix may keep a Krylov method busy without showing a negative
+   product. Ten times the longest successful solve is taken as a sign of that */
 static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
 {
   const PetscInt factor = 10;
@@ -37,7 +37,7 @@ static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
   return ip->lin.longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin.longest)) : given;
 }
 
-/* Ends a run, too, that gains less than a digit in so many iterations close to the end */
+/* Also ends a run that gains less than one digit in so many iterations close to the end */
 static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
 {
   StallTest      *s        = (StallTest *)ctx;
@@ -103,10 +103,10 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 }
 
 /*
-  KrylovRun() for a correction, by flexible CG in place of CG. Where J^T D J is stiff, what PCAMGF returns carries
-  rounding errors that these terms make large: relative to the residual they are the same at every step, so that the
-  preconditioner is not quite linear. CG's recurrence does not bear that; flexible CG does, but is blind to negative
-  curvature.
+   KrylovRun() for a correction, by flexible CG instead of CG. If J^T D J is stiff, PCAMGF's result has rounding
+   errors that these terms amplify. Relative to the residual they are the same in every step, so that the
+   preconditioner is not quite linear. CG's recurrence fails then. Flexible CG works, but does not detect negative
+   curvature
 */
 static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
 {
@@ -139,8 +139,8 @@ static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* Drops a guess so bad that the KSP would take it for divergence. Its residual may well exceed b's: what the filter
-   or the first iterations correct does no harm. */
+/* Drops a guess that is so bad that the KSP would report divergence. Its residual may exceed b's if the filter or the
+   first iterations correct it */
 static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -169,7 +169,7 @@ static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
   PetscFunctionReturn(0);
 }
 
-/* Whether J^T D J is so large beside the Hessian that rounding may have changed the signs of pivots */
+/* Whether J^T D J is so large compared with the Hessian that rounding may have changed the signs of pivots */
 static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -191,9 +191,11 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
   PetscFunctionReturn(0);
 }
 
-/* Whether the factors of the filter's matrix, a principal part of A, have negative pivots: then A is indefinite,
-   which a Krylov method that the filter leaves few iterations may not meet. Looked at only where the problem has
-   shown that it is not convex, and its constraints have an interior. */
+/*
+   Whether the factors of the filter's matrix, a principal submatrix of A, have negative pivots. Then A is indefinite,
+   and a Krylov method with few iterations may not notice. Checked only if the problem has shown that it is not convex
+   and its constraints have an interior
+*/
 static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

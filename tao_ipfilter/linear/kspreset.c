@@ -1,7 +1,7 @@
-/* KSPReset() for any KSP, as PETSc's flexible CG does not bear it. */
+/* KSPReset() for any KSP; PETSc's flexible CG fails after KSPReset(). */
 #include "linearimpl.h"
 
-/* Flexible CG would go on with directions that are no longer there: it is made anew */
+/* Flexible CG would use directions that no longer exist, so it is created again */
 PetscErrorCode IPKSPReset(KSP ksp)
 {
   PetscBool flexible;

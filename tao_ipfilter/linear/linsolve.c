@@ -1,7 +1,5 @@
-/*
-   The condensed system by whatever solves it: the Krylov method, and where that fails, one remedy after the other.
-   None of them shifts the Hessian: a solver that fails is not negative curvature.
-*/
+/* Solves the condensed system by the Krylov method, and if that fails, by one remedy after another. None of them
+   shifts the Hessian: failure of a solver is not negative curvature. */
 #include "linearimpl.h"
 
 /* The PC, if it is a PCAMGF, else NULL */
@@ -32,7 +30,7 @@ static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Filters, where the constraints were left to the AMG */
+/* Switches the filter on, if the AMG alone was used */
 static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -49,7 +47,7 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Takes the neighbours into the subspace of this matrix, as long as that stays a small part of it */
+/* Adds the neighbours to the subspace of this matrix, as long as it stays a small part of it */
 static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -78,8 +76,8 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Krylov method failed as it does on indefinite matrices, where nothing tells for certain. A limit of few
-   iterations is the caller's choice and tells nothing. */
+/* Whether the Krylov method failed as it does on indefinite matrices, if there is no certain sign. A limit of few
+   iterations is the caller's choice and no sign */
 static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 {
   switch (ip->lin.reason) {
@@ -92,7 +90,7 @@ static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
   }
 }
 
-/* Where nothing helped, a direction that reduces the residual tenfold is still one for an inexact Newton method */
+/* If nothing helped, a direction that reduces the residual tenfold is still good enough for an inexact Newton method */
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!IPUndefined(ip->lin.norm) &&
@@ -111,7 +109,7 @@ static const struct {
   {NULL, IPDirectSolve},
 };
 
-/* Whether only MUMPS is tried: by the user's choice, or since the last solves all had to be done by it */
+/* Whether only MUMPS is tried: by the user's choice, or because only MUMPS could do the last solves */
 static PetscBool DirectOnly(const TAO_IPFILTER *ip)
 {
   const PetscInt in_vain = 2;
@@ -171,9 +169,9 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
 }
 
 /*
-  Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess
-  hold. *usable is false where the matrix is not positive definite, and where no solver gave a direction worth having:
-  ip->lin.failed tells that, which no shift of the Hessian cures.
+   Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess
+   hold. *usable is false if the matrix is not positive definite, or no solver gave a usable direction; then
+   ip->lin.failed is true, and no shift of the Hessian helps
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {

@@ -28,9 +28,8 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx += (A + J_E^T W J_E)^-1 of what is left of the right-hand side, unless that is no more than the target. The
-   residual that the solve leaves is a tenth of it, lest the next update of the multipliers, W times what it makes of
-   the constraints, exceeds the target again. */
+/* dx += (A + J_E^T W J_E)^-1 times the residual of the right-hand side, unless it is within the target. The solve
+   reduces it to a tenth of the target, so that the next update of the multipliers does not exceed the target */
 static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target, PetscBool *usable, PetscBool *done)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -72,7 +71,7 @@ static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *
   PetscFunctionReturn(0);
 }
 
-/* What of J_E dx + c_E is not worth reducing: next to nothing of its terms, and rounding in the values of c_E */
+/* The part of J_E dx + c_E that need not be reduced: negligible against its terms, or rounding of c_E */
 static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -115,9 +114,9 @@ PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target,
     if (!*exact && !(left <= 0.5 * before)) break;
   }
   if (*usable && left <= close * limit) *exact = PETSC_TRUE;
-  PetscCall(
-    PetscInfo(tao, "Proximal updates leave %g of the linearized equality constraints, %g is not worth reducing\n",
-      (double)left, (double)limit));
+  PetscCall(PetscInfo(tao,
+    "Proximal updates leave a residual of %g in the linearized equality constraints; below %g it need not be reduced\n",
+    (double)left, (double)limit));
   PetscCall(VecWAXPY(ip->dir.y, -1.0, ip->at.y, y));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));

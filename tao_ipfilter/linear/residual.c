@@ -1,12 +1,10 @@
-/*
-   The true residual of the condensed system, which alone judges a solve, not a Krylov method's estimate. Where it
-   falls short the solve is continued from the attained iterate.
-*/
+/* The true residual of the condensed system decides about a solve, not a Krylov method's estimate. If it is too large,
+   the solve is continued from the iterate reached. */
 #include "linearimpl.h"
 
 #define IP_MAX_REFINEMENTS 3
-#define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error that is not worth reducing */
-#define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding leaves any solver */
+#define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error below which refinement stops */
+#define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding causes in any solver */
 
 /* r = b - A d, its norm, and the backward error: its ratio to the terms it is the difference of. A is positive
    definite, so that diag(A) |d| stands for |A| |d|. */
@@ -30,8 +28,8 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Whether the residual is what was asked for, or rounding leaves none smaller. With fixed forcing the KSP's own
-   criterion counts instead, unless its result is no direction at all. */
+/* Whether the residual meets the target, or is as small as rounding allows. With fixed forcing the KSP's own criterion
+   counts, unless its result is no direction at all */
 PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
@@ -48,8 +46,8 @@ static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reaso
                                              : (PetscBool)(ip->lin.norm > 2.0 * ip->lin.target);
 }
 
-/* Whether going on from the attained iterate may gain what the last run missed: it took its own estimate for the
-   residual, or rounding made it meet a product of the wrong sign close to the end */
+/* Whether continuing from the iterate reached may help: the last run stopped by its own estimate of the residual, or
+   rounding gave it a product of the wrong sign close to the end */
 static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;

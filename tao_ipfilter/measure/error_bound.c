@@ -1,19 +1,18 @@
 /*
-   What residuals are worth in the objective: to first order its error is at most
-
-     sum_j |r_j| l_j  +  sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i|  +  sum_i m_i t_i z_i,
-
-   the stationarity residual r over lengths l_j of the unknowns, the violation times its multipliers, and the gap of
-   complementarity. Each term is an energy, whatever the units of its row, bound or unknown, so that none is measured
-   by the size of another one, and the last sum grows with the number of bounds as the error does. All is held against
-   the objective.
+   Error bound in the objective. To first order the error is at most sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i -
+   s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i: stationarity residual r times lengths l_j of the unknowns,
+   violation times multipliers, and the complementarity gap. Each term is an energy, whatever the units of its row,
+   bound or unknown; and the last sum grows with the number of bounds as the error does. All are compared with the
+   objective.
 */
 #include "measureimpl.h"
 
-#define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective that residuals may be worth */
-#define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that stands in for it where they cancel */
-#define IP_WORTH_FIRST    1e-8 /* fraction of the first terms that stands in for them where they vanish, too */
-#define IP_WORTH_ROUNDING (100.0 * PETSC_MACHINE_EPSILON) /* of the terms: no residual is worth less */
+#define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective allowed for the error bound */
+#define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that replaces it if they cancel */
+#define IP_WORTH_FIRST    1e-8 /* fraction of the first terms that replaces them if they vanish */
+#define IP_WORTH_ROUNDING \
+  (100.0 * PETSC_MACHINE_EPSILON) /* fraction of the terms that is the least value of a
+                                                             residual */
 
 /* sum_j |a_j b_j| */
 static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
@@ -33,8 +32,8 @@ static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* sum_j |r_j| l_j, l_j the unknown's size or what a Newton step of it alone would be, whichever is larger: an unknown
-   that is zero may be far from where it belongs. diagonal: of the condensed matrix. */
+/* sum_j |r_j| l_j. l_j is the larger of the unknown's size and its own Newton step: an unknown that is zero may be far
+   from its solution. diagonal: of the condensed matrix */
 static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscReal *sum)
 {
   const Vec          v[4] = {r, tao->solution, diagonal, tao->gradient};
@@ -221,8 +220,8 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* mu below which the method need not go: each of its products is within a tenth of the tolerance, and all together
-   are within half of it */
+/* mu below which the method need not go: each product t z is within a tenth of the tolerance, and their sum within
+   half of it */
 PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
 {
   PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale.product;

@@ -50,7 +50,7 @@ static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* The larger one, or that which is not a number: PetscMax() passes over it where it is the second */
+/* The larger one, or NaN if one is; PetscMax() ignores NaN in the second place */
 static PetscReal Larger(PetscReal a, PetscReal b)
 {
   return a > b || PetscIsNanReal(a) ? a : b;
@@ -92,8 +92,8 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
-/* What violations are compared by from one iterate to the next: the constraints' first values, or what their
-   gradients made of x then */
+/* Scale by which violations of successive iterates are compared: the constraints' first values, or their gradients
+   times x at the start */
 static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
 {
   const PetscReal size = PetscMax(values, jacobian * ip->first.x);

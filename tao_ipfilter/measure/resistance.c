@@ -1,4 +1,4 @@
-/* What resists the motions of norm terms, and the directions along which they cannot be moved. */
+/* Stiffness that resists the motions of norm terms, and directions in which they cannot move. */
 #include "measureimpl.h"
 
 /* The sums of both rows of each term */
@@ -36,8 +36,8 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscFunctionReturn(0);
 }
 
-/* What both components of a term give way by to forces of size 1: rows' own compliances, and that of their sum. The
-   direction that gives way next to nothing; zeros: there is none. */
+/* Compliance of both components of a term, from the rows' own compliances and that of their sum; and the direction of
+   almost no compliance, zeros: none */
 static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {
   const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
@@ -49,9 +49,8 @@ static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both
   dead[1] = none ? 0.0 : PetscCosReal(angle);
 }
 
-/* rho: what resists both components, 0 where nothing gives way. dead: where next to nothing gives way in one
-   direction and there is as good as no v, as across a plane of symmetry, that direction: v is as it is whatever x,
-   and counts as none. */
+/* rho: stiffness that resists both components; 0 if nothing gives way. dead: a direction with almost no compliance and
+   almost no v, as across a symmetry plane. v does not depend on x there and counts as zero */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
   IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;

@@ -1,21 +1,24 @@
 /* Magnitudes that residuals are measured by. */
 #include "measureimpl.h"
 
-#define IP_VANISHING 1e-3  /* fraction of first values that stands in for scales which vanish */
-#define IP_AMPLE     30.0  /* a gradient is small that moves the unknowns by no more than so many times the tolerance */
-#define IP_RUNAWAY   100.0 /* an iterate counts for no more than so many times its first size */
+#define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
+#define IP_AMPLE \
+  30.0                   /* a gradient is small if it moves the unknowns by no more than this multiple of the
+                              tolerance */
+#define IP_RUNAWAY 100.0 /* largest ratio of an iterate's size to its first size */
 
-/* size, but no more than a limit taken from the start, if there is one: an iterate that runs away must not make its
-   residuals look small */
+/* The size, limited by a multiple of that at the start: an iterate that runs away must not make its residuals look
+   small */
 static PetscReal Within(PetscReal size, PetscReal limit)
 {
   return limit > 0.0 ? PetscMin(size, limit) : size;
 }
 
-/* Lengths and pressures of the inequality constraints. Where every constraint is active from the start, values and
-   slacks say nothing: displacements do. Pressures would not: those of infeasible constraints grow without limit.
-   Where none is active, a small fraction of the pressure that would balance the objective's gradient is one that
-   matters. */
+/*
+   Length and pressure scales of the inequality constraints. If every constraint is active from the start, values and
+   slacks are zero, so displacements are used. Pressures cannot be: those of infeasible constraints grow without
+   limit. If none is active, a small fraction of the pressure that would balance the objective's gradient is used
+*/
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -55,9 +58,11 @@ static PetscErrorCode EqualityScale(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Forces: those that cancel in the gradient; where none do, what the gradient was at the start, but no more than its
-   terms are now, lest a start far off make every gradient look small. Below ten roundings of its terms no gradient is
-   of any meaning. */
+/*
+   Force scale: the forces that cancel in the gradient; if none do, the gradient at the start, but no more than its
+   present terms, so that a distant start does not make every gradient look small. Gradients below ten roundings of
+   their terms have no meaning
+*/
 static PetscErrorCode DualScale(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -85,9 +90,11 @@ PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal
   return ip->opt.scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
 }
 
-/* Scales of the residuals. They follow the problem's units, so that a change of units changes no decision:
-   forces against the forces that cancel, constraints against their largest value, products t z against length times
-   pressure. Where these vanish, small fractions of first values, and of the stiffness's pressure, take their place. */
+/*
+   Scales of the residuals. They have the problem's units, so that a change of units changes no decision: forces
+   against the forces that cancel, constraints against their largest value, products t z against length times
+   pressure. If these vanish, small fractions of first values, and of the stiffness's pressure, replace them
+*/
 PetscErrorCode IPComputeScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -86,10 +86,11 @@ PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
   PetscFunctionReturn(0);
 }
 
-/* rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of
+/*
+   rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of
    H. Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves
-   anything (a vertex at the edge of an overlap) counts as no more than 100 times as stiff as the mean: no scale may
-   hang on it. */
+   anything (a vertex at the edge of an overlap) is limited to 100 times the mean, so that no scale depends on it
+*/
 static PetscErrorCode ConstraintStiffness(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

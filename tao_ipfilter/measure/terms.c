@@ -6,7 +6,7 @@
 */
 #include "measureimpl.h"
 
-#define IP_HARD 1e3 /* times a term's resistance: as stiff as what sticks counts in a sum of terms */
+#define IP_HARD 1e3 /* Multiple of a term's resistance that a sticking term has as stiffness */
 
 PetscErrorCode IPTermsDestroy(IPTerms *terms)
 {

@@ -103,10 +103,12 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
   return size > 0.0 ? size : (all > 0.0 ? all : 1.0);
 }
 
-/* Move x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and compute the distances. The
-   margin is a fraction of the bound's or of the unknown's own size, or, where both are zero, of that of all unknowns,
-   and of the distance between the bounds where that is less: a far bound that means none pushes nothing away from the
-   other one. Next to nothing of it where multipliers are given that tell how near to its bounds x belongs. */
+/*
+   Moves x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and computes the distances. The
+   margin is a fraction of the size of the bound or of the unknown, or if both are zero, of all unknowns. It is also
+   limited by a fraction of the distance between the bounds, so that a distant bound without effect does not push x
+   from the other one. If multipliers are given that tell how near to its bounds x belongs, the margin is almost zero
+*/
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;

@@ -47,8 +47,8 @@ static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
   PetscFunctionReturn(0);
 }
 
-/* The diagonal of a matrix that gives products alone, from v . H v with v of ones and minus ones, whose other terms
-   cancel in the mean: its size, to some tens of per cent, and no less than a thousandth of the mean */
+/* Estimates the diagonal of a matrix that only has products, from v . H v with v of +1 and -1: off-diagonal terms
+   cancel in the mean. Accurate to some tens of per cent, and at least a thousandth of the mean */
 static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

@@ -46,8 +46,8 @@ static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
   PetscFunctionReturn(0);
 }
 
-/* Takes over a Jacobian of the caller's, converted to AIJ if need be, unless it is as it was. A matrix of blocks or
-   of products does not tell whether it is, nor does its conversion have a pattern of its own: zeros may be dropped. */
+/* Takes over a Jacobian of the caller's, converted to AIJ if necessary, unless it is unchanged. Matrices of blocks or
+   products do not tell whether they changed, and their conversion has no fixed pattern, since zeros may be dropped */
 static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
 {
   PetscObjectState state;

@@ -1,7 +1,7 @@
 /*
-   The caller's matrices by type. AIJ, and Hessians that are BAIJ, SBAIJ or dense, are taken as they are; what
-   MatConvert() makes AIJ of is converted at every evaluation; what gives products alone serves as a Hessian to
-   solvers that need no more, and is read column by column where there are few.
+   The caller's matrices by type. AIJ, and BAIJ, SBAIJ or dense Hessians, are used as they are. Types that
+   MatConvert() can convert to AIJ are converted at every evaluation. Matrices with products only serve as Hessian for
+   solvers that need no entries; small ones are read column by column.
 */
 #include "problemimpl.h"
 
@@ -152,8 +152,8 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
   PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which gives products alone, for no more than "
-    "%d unknowns, not %" PetscInt_FMT ": give it as AIJ",
+    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which has products but no entries, only for "
+    "up to %d unknowns, not %" PetscInt_FMT ": give it as AIJ",
     kind, type, IP_COLUMNS_MAX, n);
   PetscFunctionReturn(0);
 }
@@ -165,14 +165,14 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)v, VECNEST, &nest));
   PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "TAOIPFILTER takes no %s of type nest, as MatCreateVecs() makes them for a MATNEST: a plain vector of the same "
-    "layout will do",
+    "TAOIPFILTER does not accept a %s of type nest, as MatCreateVecs() makes it for a MATNEST: use a plain vector of "
+    "the same layout",
     what);
   PetscFunctionReturn(0);
 }
 
-/* Refuses what cannot be worked with, and finds out whether the Hessian is used by products alone. *changed: other
-   than in the last solve. */
+/* Rejects matrices that cannot be used, and finds out whether the Hessian is used by products alone. *changed:
+   otherwise than in the last solve */
 PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -191,8 +191,8 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
   PetscCall(MatGetType(tao->hessian, &type));
   PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "A Hessian of type %s gives products alone, but %s reads entries, for no more than %d unknowns, not %" PetscInt_FMT
-    ": give it as AIJ%s",
+    "A Hessian of type %s has products but no entries, and %s reads entries only for up to %d unknowns, not "
+    "%" PetscInt_FMT ": give it as AIJ%s",
     type, reader, IP_COLUMNS_MAX, n, instead);
   *changed          = (PetscBool)(ip->hess.products != (PetscBool)(!has && !needed));
   ip->hess.products = (PetscBool)(!has && !needed);

@@ -1,7 +1,7 @@
 /*
-   Scaling of the constraints by their gradients at the start: a row d_i c_i, with d_i so small that its gradient is
-   at most row_ratio times the smallest one, or gradient_max. With the former, rows of like size stay as they are,
-   whatever the units. All of the iteration sees the scaled rows; multipliers and slacks are scaled back on return.
+   Scales constraints by their gradients at the start: row d_i c_i with d_i such that its gradient is at most
+   row_ratio times the smallest one, or gradient_max. With row_ratio, rows of similar size stay unscaled, whatever the
+   units. The whole iteration uses scaled rows; multipliers and slacks are scaled back on return.
 */
 #include "problemimpl.h"
 

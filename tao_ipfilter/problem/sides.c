@@ -189,7 +189,7 @@ static PetscErrorCode TakeEqualRows(const IPSides *sides, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Rows that are no inequality get the largest value of the others at the start: no size hangs on them */
+/* Rows that are no inequality get the largest value of the others at the start, so that no size depends on them */
 static PetscErrorCode FillVoidRows(IPSides *sides, Vec c)
 {
   const PetscScalar *sign;

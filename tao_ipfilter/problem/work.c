@@ -1,4 +1,4 @@
-/* Scratch vectors: whoever needs one gets it, and gives it back before returning. None is made before it is needed. */
+/* Scratch vectors: a function takes one and returns it before it ends. They are created when first needed. */
 #include "problemimpl.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
@@ -18,7 +18,7 @@ PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
   *v = NULL;
   if (!layout) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->lent[space][k]) k++;
-  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are lent",
+  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are in use",
     IP_MAX_WORK);
   if (!work->v[space][k]) PetscCall(VecDuplicate(layout, &work->v[space][k]));
   work->lent[space][k] = PETSC_TRUE;
@@ -35,7 +35,7 @@ PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
   if (!*v) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->v[space][k] != *v) k++;
   PetscCheck(k < IP_MAX_WORK && work->lent[space][k], PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB,
-    "Not a scratch vector that is lent");
+    "The vector is not a scratch vector in use");
   work->lent[space][k] = PETSC_FALSE;
   *v                   = NULL;
   PetscFunctionReturn(0);

@@ -36,7 +36,7 @@ typedef struct {
   Vec              sum; /* of all damped changes of the gradient */
 } IPQuasiNewton;
 
-/* Scratch vectors; whoever gets one gives it back */
+/* Scratch vectors; whoever takes one must return it */
 #define IP_MAX_WORK 8
 typedef struct {
   Vec       v[IP_NSPACES][IP_MAX_WORK]; /* made when first asked for */
@@ -100,7 +100,7 @@ typedef struct {
   Vec       base;         /* the bound that c is measured from; NULL: IL, or 0 */
   Vec       range;        /* between two bounds, else PETSC_INFINITY; NULL: no row has two */
   Vec       width;        /* the same in the scale of the iteration */
-  PetscReal constant;     /* what rows that are no inequality have for c; 0: not chosen yet */
+  PetscReal constant;     /* value of c in rows that are no inequality; 0: not chosen yet */
   PetscInt  nequal, nall; /* rows with equal bounds, of this rank and of all */
   PetscInt *equal;        /* which, from this rank's first row */
 } IPSides;
@@ -140,7 +140,7 @@ typedef struct {
   PetscReal mean;   /* harmonic mean of rho, weighted */
   Vec       hdiag;  /* |diagonal of H|, now */
   PetscReal hscale; /* its mean at the start, */
-  PetscBool flat;   /* where all of it was zero: nothing resists a constraint */
+  PetscBool flat;   /* stiffness where nothing resists a constraint */
 } IPStiffness;
 
 /* Terms sum_i b_i |T_i x + t_i| beside the objective, b_i = min(limit_i, coefficient_i times the force of inequality
@@ -158,7 +158,7 @@ typedef struct {
                there is none */
 } IPTerms;
 
-/* Magnitudes by which residuals are divided; all 1 in the published measure */
+/* Sizes by which residuals are divided; all 1 in the published measure */
 typedef struct {
   PetscReal dual;     /* forces that cancel in the stationarity condition */
   PetscReal length;   /* values of c_I */
@@ -378,7 +378,7 @@ typedef enum {
   IP_SUBSPACE_AUTO
 } IPSubspaceUse;
 
-/* What the user may choose; the names are those of the options in opts.c */
+/* Parameters that the user may set; the names are those of the options in opts.c */
 typedef struct {
   PetscReal     acceptable_tol;
   PetscInt      acceptable_it;
@@ -409,13 +409,13 @@ typedef struct {
   PetscReal        proximal;
 } IPOptions;
 
-/* What the caller gave through TaoIPFilterSet...(): NULL where it did not */
+/* What the caller set by TaoIPFilterSet...(); NULL: not set */
 typedef struct {
   Vec      slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
   Vec      warm_s, warm_z;          /* starting slacks and multipliers, */
   Vec      warm_y;                  /* multipliers of the equality constraints, */
   Vec      warm_lower, warm_upper;  /* and of the bounds */
-  PetscInt solves_to_come;          /* with the same Hessian, the next one included; 0: not said */
+  PetscInt solves_to_come;          /* number of solves with the same Hessian, the next one included; 0: unknown */
 } IPGiven;
 
 /* What a TaoSolve() did */
@@ -428,13 +428,13 @@ typedef struct {
   PetscInt  nrestored;              /* restorations */
   PetscInt  ntiny;                  /* steps in a row that are as small as rounding */
   PetscInt  nacceptable;            /* iterates in a row within the acceptable tolerance */
-  PetscInt  nstraight;     /* whole steps in a row with a shift along which the objective fell as a straight line, */
-  PetscReal last_f;        /* and the objective before the next one */
-  PetscInt  napplications; /* of the preconditioner in the filtered subspace method, */
-  PetscInt  nreduced, npivots; /* its reduced problems, and the active sets that they took */
-  PetscInt  ndirections;       /* iterations that were a direction of it, no step of Newton's */
-  PetscReal best_error;        /* KKT error of the best iterate, */
-  PetscReal best_violation;    /* and its violation */
+  PetscInt  nstraight;              /* successive full steps with a shift along which the objective fell linearly, */
+  PetscReal last_f;                 /* and the objective before the next one */
+  PetscInt  napplications;          /* applications of the preconditioner in the filtered subspace method, */
+  PetscInt  nreduced, npivots;      /* its reduced problems, and the active sets that they took */
+  PetscInt  ndirections;            /* iterations that were a direction of the subspace method, not a Newton step */
+  PetscReal best_error;             /* KKT error of the best iterate, */
+  PetscReal best_violation;         /* and its violation */
   char      reason[256];
 } IPRecord;
 
@@ -479,8 +479,11 @@ struct _n_TAO_IPFILTER {
 
 #define IP_TINY_STEP (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
 #define IP_LEAST_SLACK \
-  1e-14 /* of the size of the constraints: smaller ones only cost accuracy, and tell that there is no interior */
-#define IP_CLOSE           1e-6 /* fraction of ||b|| from which on rounding may be what stops a Krylov method */
-#define IP_MANY_ITERATIONS 500  /* of a Krylov method, when others of the same problem took few */
+  1e-14 /* fraction of the constraints' size: smaller slacks only cost accuracy, and indicate that there is no interior
+           */
+#define IP_CLOSE 1e-6 /* fraction of ||b|| below which rounding may stop a Krylov method */
+#define IP_MANY_ITERATIONS \
+  500 /* iterations of a Krylov method above which it counts as failed, if others of the same
+                                   problem took few */
 
 #endif

@@ -19,8 +19,8 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need balance only
-   to the percents that the linear solves aim at: pairs, not forces, follow mu. */
+/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need to balance
+   only to the per cents at which the linear solves aim, because pairs, not forces, follow mu */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = &ip->kkt;
@@ -90,8 +90,8 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Leaves Mehrotra's method for the monotone one, with a mu near the present products, but for what a step that no
-   model foresaw has made of them: no more than a few times those of the start */
+/* Changes from Mehrotra's method to the monotone one, with a mu near the present products, limited to a few times
+   those of the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -115,9 +115,11 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-/* Chooses mu for the next step and clears the filter where it changed. Mehrotra's method is one for convex objectives
-   and linear constraints, whose affine step tells what mu can become: it is left for the monotone one where they show
-   themselves as something else, and while the KKT error does not fall. */
+/*
+   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's method suits convex objectives and
+   linear constraints, where the affine step predicts mu. The monotone method replaces it if the problem is different,
+   and while the KKT error does not fall
+*/
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

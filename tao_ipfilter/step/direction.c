@@ -2,8 +2,8 @@
    curvature. */
 #include "stepimpl.h"
 
-/* The square that the curvature of d is held against: d^T d, in the unit of H. With scale-free constants no more than
-   d^T |diag(H)| d, in which an unknown of another unit counts no more than the others do. */
+/* The square with which the curvature of d is compared: d^T d, in the unit of H. With scale-free constants at most d^T
+   |diag(H)| d, so that unknowns of different units count equally */
 static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -131,9 +131,9 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
   PetscFunctionReturn(0);
 }
 
-/* ||b - A d|| asked for: a few percent of the forces in balance, and always less than the imbalance there was; no
-   less than last. With bounds alone also a few percent of b: those forces may be small against what the start had,
-   and no direction at all would do. */
+/* Target for ||b - A d||: a few per cent of the forces in balance, always less than the present imbalance, and not
+   below last. With bounds alone also a few per cent of b, since the forces may be small compared with those at the
+   start */
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
   PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
@@ -215,7 +215,7 @@ static PetscErrorCode DirectionAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether there is anything that mu is for */
+/* Whether the problem has any pairs, so that mu matters */
 static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);

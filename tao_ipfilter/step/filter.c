@@ -1,4 +1,5 @@
-/* The filter: pairs (theta, phi) of constraint violation and barrier function that later iterates must improve on. */
+/* The filter: pairs (theta, phi) of constraint violation and barrier function. Later iterates must improve on each
+   pair in one of the two. */
 #include "stepimpl.h"
 
 PetscErrorCode IPFilterSetReset(IPFilterSet *f)

@@ -4,8 +4,8 @@
 */
 #include "stepimpl.h"
 
-/* theta and phi at x + alpha dx, s + alpha ds; *finite is false where the callbacks gave no number. Outside the
-   domain of the objective nothing else is evaluated. */
+/* theta and phi at x + alpha dx, s + alpha ds. *finite is false if the callbacks returned no number; then nothing else
+   is evaluated */
 static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -39,7 +39,7 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
   return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
 }
 
-/* What the objective may rise by for a violation that falls: little, where there is hardly any violation left */
+/* Allowed increase of the objective for a smaller violation: little, if there is hardly any violation left */
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = &ip->search;
@@ -93,7 +93,7 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
 }
 
 /* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own
-   step. A slack so small that J^T D J would drown the Hessian in rounding is lifted, by next to nothing. */
+   step. Slacks that are so small that J^T D J would exceed the Hessian's digits are increased slightly */
 static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -227,9 +227,8 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Steps that descend, and that the filter alone shortens several times in a row, creep along what iterates of another
-   valley have left in it: it is cleared then, a few times a solve (IPOPT's filter_reset_trigger and
-   max_filter_resets) */
+/* If the filter alone shortens descending steps several times in a row, it contains iterates of another region. It is
+   then cleared, a few times a solve (IPOPT's filter_reset_trigger and max_filter_resets) */
 static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 {
   const PetscInt patience = 5, limit = 5;

@@ -1,5 +1,4 @@
-/* What the line search weighs against each other: theta, the violation of the constraints, and phi, the barrier
-   function. */
+/* The two quantities of the line search: theta, the violation of the constraints, and phi, the barrier function. */
 #include "stepimpl.h"
 
 /* theta: c - s in the norm of the weights and c_E, both per unit of their references */
@@ -39,7 +38,7 @@ static PetscErrorCode MeritBarrier(Tao tao, PetscReal f, PetscBool trial, PetscR
   PetscFunctionReturn(0);
 }
 
-/* What rounding makes of phi: a few eps of phi itself and of the terms of a quadratic form with H's diagonal */
+/* Rounding error of phi: a few eps of phi itself and of the terms of a quadratic form with H's diagonal */
 static PetscErrorCode MeritRounding(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -54,9 +54,9 @@ void IPRegularized(TAO_IPFILTER *ip)
   ip->bar.curved = PETSC_TRUE;
 }
 
-/* The shift at and below which A has a diagonal entry that is not positive, and so is not positive definite: nothing
-   to solve there, and nothing that an AMG could be built from. Negative where the Hessian needs none for that. A
-   matrix with an entry that is not a number is a failure. */
+/* Smallest shift above which A has only positive diagonal entries. Below it A is not positive definite: there is
+   nothing to solve, and no AMG can be built. Negative if the Hessian needs no shift for that. NaN in the matrix is a
+   failure */
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,7 +1,7 @@
 /*
-   Constraints without an interior, as x >= 0, y >= 0, -x y >= 0 are: no central path leads to their solutions, and
-   slacks vanish before mu does. All inequality constraints are then relaxed, to c_I + r >= 0 with r a hundredth of
-   the tolerance times their size (Waechter and Biegler 2006, section 3.5, who relax all problems from the start, by
+   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
+   slacks vanish before mu does. Then all inequality constraints are relaxed to c_I + r >= 0, with r a hundredth of
+   the tolerance times their size (Waechter and Biegler 2006, section 3.5, relax all problems from the start, and by
    more).
 */
 #include "stepimpl.h"
@@ -9,7 +9,7 @@
 #define IP_RELAX_FIRST 1e-2 /* of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier of so many times what balances the objective's gradient is a large one */
 
-/* Slacks moved by r, and pairs put back on the central path: multipliers of vanishing slacks are of no use */
+/* Moves slacks by r, and puts pairs back on the central path, because multipliers of vanishing slacks are useless */
 static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -11,10 +11,10 @@
 #include "stepimpl.h"
 
 #define IP_RESTORE_MAX    200  /* steps */
-#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: where the Hessian has no curvature */
+#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: for Hessians without curvature */
 #define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
 #define IP_RESTORE_DROWNED \
-  1e8 /* growth of the Hessian, by multipliers, that leaves nothing of the objective's to steps */
+  1e8 /* growth of the Hessian by multipliers above which the objective has no influence on steps */
 #define IP_RESTORE_LEAST 1e-6 /* of one that is, if it does not fall */
 
 /* psi at the point of an iterate */
@@ -229,7 +229,7 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers to go on from */
+/* Slacks and multipliers with which the iteration continues */
 static PetscErrorCode RestoreLeave(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -137,8 +137,8 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* How far the caller's s and z are from belonging to x: the larger of the forces out of balance, relative, and of
-   |c - s| against |c|, but no more than 1 */
+/* How far the caller's s and z are from matching x: the larger of the relative imbalance of forces and of |c - s|
+   against |c|, at most 1 */
 static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -157,8 +157,8 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscFunctionReturn(0);
 }
 
-/* Whether the caller's slacks and multipliers solve the problem already, or nearly so: they are kept then, with their
-   mean product as mu */
+/* Whether the caller's slacks and multipliers solve the problem, or nearly so. Then they are kept, and mu is their
+   mean product */
 static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;

@@ -37,7 +37,7 @@ PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *set)
   PetscFunctionReturn(0);
 }
 
-/* The rows of the active set; those that nothing gives way to take no part in it */
+/* The rows of the active set, without rows that cannot move */
 static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
 {
   PetscInt n = 0;
@@ -55,8 +55,8 @@ static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* L L^T = C_AA, its diagonal raised by as little as makes dependent rows no obstacle; *factored is false where no
-   small number does */
+/* L L^T = C_AA, with a small addition to the diagonal so that dependent rows can be factored; *factored is false if no
+   small addition suffices */
 static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, PetscBool *factored)
 {
   const PetscReal first = 1e-13, last = 1e-8;
@@ -104,8 +104,8 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
   PetscFunctionReturn(0);
 }
 
-/* H = T + V^T V, its diagonal raised by as little as a body needs that no active constraint holds; *factored is false
-   where H is indefinite */
+/* H = T + V^T V, with a small addition to the diagonal for bodies that no active constraint holds; *factored is false
+   if H is indefinite */
 static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
@@ -190,7 +190,8 @@ static PetscErrorCode ActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, cons
   PetscFunctionReturn(0);
 }
 
-/* Whether a row belongs to the other set: an active one that pulls, another that is penetrated by more than rounding */
+/* Whether a row is in the wrong set: an active row with a tensile force, or an inactive one with a penetration beyond
+   rounding */
 static PetscBool ActiveSetMisplaced(const IPActiveSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal rounding = 1e-13;
@@ -198,7 +199,7 @@ static PetscBool ActiveSetMisplaced(const IPActiveSet *set, const IPReducedSyste
   return (PetscBool)(set->active[i] ? s->lambda[i] < 0.0 : s->gap[i] < -rounding * s->length);
 }
 
-/* Exchanges all rows that are misplaced, or the last of them alone */
+/* Exchanges all rows that are in the wrong set, or only the last of them */
 static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscBool all)
 {
   for (PetscInt i = set->m - 1; i >= 0; i--) {
@@ -209,8 +210,8 @@ static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscB
   }
 }
 
-/* lambda, gap and y of the contact problem, from the last active set; *steps: systems solved; *solved is false where
-   it has no end */
+/* lambda, gap and y of the contact problem, from the last active set. *steps: number of systems solved; *solved is
+   false if the active set does not settle */
 PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
   PetscBool *solved)
 {

@@ -1,7 +1,7 @@
 /*
-   The directions P of the filtered subspace, which outlive a solve: zero on the constraints' unknowns W, with their
-   products Q = K P and Gram matrix P^T K P. Appended they are K-orthonormal; a new W leaves them as they are but for
-   W, and corrects Q and the Gram matrix.
+   The directions P of the filtered subspace. They are kept from solve to solve: zero on the constraints' unknowns W,
+   with their products Q = K P and Gram matrix P^T K P. New directions are K-orthonormal. A new W only changes the
+   entries on W, and corrects Q and the Gram matrix.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -63,7 +63,7 @@ static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *r
   PetscFunctionReturn(0);
 }
 
-/* Makes room for direction n in the likeness of d, and copies it there */
+/* Allocates direction n like d, and copies d into it */
 static PetscErrorCode BasisTake(IPBasis *b, Vec d)
 {
   const PetscInt n = b->n;
@@ -75,10 +75,8 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/*
-   Appends d, which is zero on W, made K-orthonormal to the others: a second projection where the first took out half
-   of its energy. *appended is false where rounding is all that is left of it, or K is not positive along it.
-*/
+/* Appends d, which is zero on W, made K-orthonormal to the others, with a second projection if the first removed half
+   of its energy. *appended is false if only rounding is left of it, or K is not positive along it */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
   const PetscInt  n   = b->n;
@@ -110,8 +108,8 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
   PetscFunctionReturn(0);
 }
 
-/* Keeps the directions that are marked, in their order, and the vectors of the others for later ones; the Gram matrix
-   is to be factored */
+/* Keeps the marked directions in their order, and the vectors of the others for reuse; the Gram matrix must be
+   factored again */
 static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
 {
   PetscInt n = 0;
@@ -133,7 +131,7 @@ static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Marks the directions whose energy is not all but that of later ones: Cholesky from the newest to the oldest */
+/* Marks the directions that are independent of later ones: Cholesky from the newest to the oldest */
 static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
 {
   const PetscReal dependent = 1e-10;
@@ -252,8 +250,8 @@ static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const
   PetscFunctionReturn(0);
 }
 
-/* Keeps the last directions, and of the others' span the `best` of largest worth p^T E p / p^T K p; E, of columns of
-   length max, is overwritten */
+/* Keeps the last directions, and of the span of the others the `best` of the largest ratio p^T E p / p^T K p; E, of
+   columns of length max, is overwritten */
 PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscReal E[])
 {
   const PetscInt n = b->n - last;
@@ -274,7 +272,7 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Q = K P and the Gram matrix anew, of another K */
+/* Computes Q = K P and the Gram matrix again, for another K */
 PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
@@ -372,7 +370,7 @@ static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Makes the directions zero on W; nothing is to be done where they are */
+/* Makes the directions zero on W, if they are not */
 PetscErrorCode IPBasisRestrict(IPBasis *b, Mat K, IS W)
 {
   PetscInt   n, all, *rows;

@@ -1,10 +1,9 @@
 /*
-   Where W has a body whole, or a mechanism, K_WW is singular. Unknowns at which a pivot of it vanishes get a
-   companion each, tied to it by a spring and touched by nothing else: with springs it is definite, and as companions
-   go where their unknowns go, nothing is held. What companions move by are coordinates y like those of directions:
-
-     1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + what directions have,   Q_W
-     = -E D, P^T K P = D.
+   If W contains a body whole, or a mechanism, K_WW is singular. Each unknown with a vanishing pivot gets a companion:
+   an extra unknown that a spring ties to it and nothing else touches. With the springs the matrix is definite, and as
+   companions follow their unknowns, nothing is held. The displacements s of the companions are coordinates y like
+   those of directions: 1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + the terms
+   of the directions; Q_W = -E D, P^T K P = D.
 */
 #include "subspaceimpl.h"
 
@@ -16,8 +15,8 @@ PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve with K by its factors tells that K is singular but for rounding: what a load of all unknowns is
-   worth there, of what it is worth if each was alone */
+/* Whether K is singular up to rounding, from a solve with its factors: compares the energy of a load on all unknowns
+   with that of loads on each unknown alone */
 PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
 {
   const PetscReal most  = 1e7;
@@ -49,7 +48,7 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Pivots of K scaled to a diagonal of ones, those next to nothing raised by `raise`; in the places of K's rows */
+/* Pivots of K scaled to a unit diagonal; almost vanishing ones are raised by `raise`; in the order of K's rows */
 static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pivots)
 {
   const PetscReal nothing = 1e-8;
@@ -84,8 +83,8 @@ static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pi
   PetscFunctionReturn(0);
 }
 
-/* Takes them from K's pivots, and adds their springs to K, as stiff as its diagonal is; none where that is not
-   positive */
+/* Chooses companions from K's pivots, and adds their springs to K, as stiff as its diagonal; none if the diagonal is
+   not positive */
 PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *c)
 {
   const PetscReal    raise = 2.0; /* above any pivot of such a matrix, which is 1 at most */

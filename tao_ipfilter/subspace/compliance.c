@@ -1,7 +1,5 @@
-/*
-   What the constraints' own unknowns W give way by: C = J_W K_WW^-1 J_W^T, column by column as rows of it are asked
-   for. On the first rank alone, which has all of W.
-*/
+/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when rows are
+   requested. On the first rank only, which has all of W. */
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
@@ -116,7 +114,7 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Sees to it that there are columns of the given rows */
+/* Computes the columns of the given rows that are missing */
 PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   const PetscInt chunk = 64;

@@ -45,9 +45,9 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* Takes W: the constraints' unknowns with their neighbours, so that what the preconditioner does not know of ends
-   within it, unless that is too much of all, or K may be indefinite there, where constraints do not hold it. Whether
-   the constraints touch few enough unknowns, and some; auto: few against all. */
+/* Takes W: the constraints' unknowns with their neighbours. Without the neighbours if they are too many, or K may be
+   indefinite there. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all
+   */
 static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -86,7 +86,7 @@ static PetscErrorCode FilteredEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What rounding makes of f at tao->solution, which may be the difference of much larger terms */
+/* Rounding error of f at tao->solution, which may be the difference of much larger terms */
 static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -103,8 +103,8 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* The same of c_I, whose terms may be much larger than what they add up to: where a solution is foreseen all rows
-   that are closed are next to zero before and after */
+/* The same for c_I, whose terms may be much larger than their sum: if a solution was predicted, all closed rows are
+   almost zero before and after */
 static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
 {
   const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
@@ -144,8 +144,8 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscFunctionReturn(0);
 }
 
-/* To x = centre + v, with the forces of the constraints there. Back again, and *moved is false, where the problem is
-   not quadratic. */
+/* Moves to x = centre + v, with the forces of the constraints there. Moves back, and *moved is false, if the problem
+   is not quadratic */
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -186,7 +186,7 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscB
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from the present point on */
+/* The reduced problem is relative to the present point from now on */
 static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -209,9 +209,11 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r
   PetscFunctionReturn(0);
 }
 
-/* -ip->rx without its part on W. *exact is false where the reduced problem has left something that it should have
-   made vanish, by rounding or as the problem is not quadratic: that part, the violation of the constraints, or what
-   holds up the rest for long. */
+/*
+   -ip->rx without its part on W. *exact is false if the reduced problem left something that it should have made zero,
+   because of rounding or because the problem is not quadratic: that part, or the violation of the constraints, or
+   something that delays the rest for long
+*/
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -230,8 +232,11 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscFunctionReturn(0);
 }
 
-/* A look at what is still to come, now and then: at the rate so far, for the digits of the KKT error that are left;
-   twice as many as so far until a digit is gained, as the rate says nothing while the active set is looked for */
+/*
+   Estimates from time to time how many applications are still to come: at the rate so far, for the remaining digits
+   of the KKT error. Until a digit is gained, twice as many as so far, since the rate means nothing while the active
+   set is still changing
+*/
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
@@ -249,9 +254,11 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* A further direction, or where the last reduced problem was not solved to the end, that problem again from where it
-   led; *done is false where neither is possible, or helps. With norm terms, whose reduced problem is solved to a
-   tolerance, what is left may lie along directions that there are, none of them new */
+/*
+   Adds a direction. If the last reduced problem was not solved to the end, solves it again from its last point. *done
+   is false if neither is possible or helps. With norm terms, whose reduced problem is solved to a tolerance, the
+   residual may lie along existing directions
+*/
 static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;
@@ -263,7 +270,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   tao->ksp_its        = 0;
-  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are the method's way */
+  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are normal for this method */
   PetscCall(IPFilteredAllows(tao, done));
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPSubspaceStateGet(tao, &kept));
@@ -302,7 +309,7 @@ static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *fo
   PetscFunctionReturn(0);
 }
 
-/* What is kept for later solves goes */
+/* Destroys what is kept for later solves */
 static PetscErrorCode FilteredForget(Tao tao)
 {
   IPSubspaceState *kept;
@@ -341,8 +348,8 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   PetscFunctionReturn(0);
 }
 
-/* Leaves the method, at the end of a solve or where it does not help; directions are kept, what belongs to the
-   constraints is not */
+/* Ends the method, at the end of a solve or if it does not help. Directions are kept; the data of the constraints are
+   not */
 static PetscErrorCode FilteredEnd(Tao tao)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;

@@ -28,7 +28,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   PetscFunctionReturn(0);
 }
 
-/* Counts the model from the step d on */
+/* The model is relative to the step d from now on */
 static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -72,8 +72,8 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, 
   PetscFunctionReturn(0);
 }
 
-/* Solves the model until its residual is within the target, or no direction is added to those that have halved the
-   present one; *solved is false where it has no minimum */
+/* Solves the model until its residual is within the target, or no further direction can be added and the residual is
+   at least halved; *solved is false if it has no minimum */
 static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal target, Vec d, Vec force,
   PetscBool *solved)
 {
@@ -130,7 +130,7 @@ static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
   PetscFunctionReturn(0);
 }
 
-/* What rounding makes of f */
+/* Rounding error of f */
 static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
 {
   PetscReal mean;
@@ -196,7 +196,7 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Takes the step that was found, and so much of the multipliers' */
+/* Takes the step that was found, and the same fraction of the multipliers' step */
 static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -216,8 +216,8 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* The residual that the model's solution may have: a fraction of the present one, the smaller the closer the end is,
-   as Newton's method then leaves less; no less than convergence asks for */
+/* Target for the model's residual: a fraction of the present one that decreases towards the end, as Newton's method
+   then converges faster; at least what convergence requires */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
 {
   const PetscReal largest = 0.1, smallest = 1e-3;
@@ -245,8 +245,8 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The step d of the present point's model, whose Hessian is shifted until it is convex; *found is false where no
-   small shift helps. At the first point the model is there already. */
+/* The step d of the present point's model. The Hessian is shifted until the model is convex; *found is false if no
+   small shift helps. At the first point the model is already there */
 static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *found)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -271,7 +271,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
   PetscFunctionReturn(0);
 }
 
-/* One Newton step; *done is false where the model or the line search gives none, or steps no longer help */
+/* One Newton step; *done is false if the model or the line search gives none, or steps no longer help */
 PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;

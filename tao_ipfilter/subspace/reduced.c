@@ -12,8 +12,8 @@ typedef struct {
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* its zeros count too: one entry may be zero where its twin is not, and orderings want a
-                                symmetric pattern */
+  PetscBool       symmetric; /* explicit zeros are kept: one entry may be zero and its transpose not, and orderings
+                                need a symmetric pattern */
 } ReducedGather;
 
 /* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
@@ -261,7 +261,7 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* One more of what y moves, whose forces on W stand in its column of Q, with its energies with those before it */
+/* Adds one more coordinate of y: its forces on W are its column of Q, and its energies with those before it */
 static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
 {
   IPReducedSystem *s = &r->system;
@@ -401,7 +401,7 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Begins with the rows active, or closed, whose entry is positive; with norm terms from these forces */
+/* Starts with the rows active whose entry is positive; with norm terms from these forces */
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
   IPReducedSystem *s    = &r->system;
@@ -423,7 +423,7 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   PetscFunctionReturn(0);
 }
 
-/* Counts v from a point with this gradient g, P^T g, constraints c, and value of the norm terms, if there are any */
+/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -447,7 +447,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
-/* Takes in the directions of the basis that it does not have, with P^T g of all of them */
+/* Takes in the directions of the basis that are missing, with P^T g of all of them */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
   IPReducedSystem *s        = &r->system;

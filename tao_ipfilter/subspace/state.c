@@ -2,7 +2,7 @@
    and directions of K. */
 #include "subspaceimpl.h"
 
-/* Gives it all up. The preconditioner's next set-up is again its owner's to decide on. */
+/* Destroys the state. The preconditioner's owner decides again on its next set-up */
 PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
 {
   PetscFunctionBegin;
@@ -59,10 +59,8 @@ static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
   PetscFunctionReturn(0);
 }
 
-/*
-   Tells PCAMGF, which has K for its operator, how often it will be applied: in this solve so often beyond what it
-   was, and in those that are to come with the same K. Nothing is known before the first one.
-*/
+/* Tells PCAMGF, whose operator is K, how many applications to expect: in this solve so many more, and in later solves
+   with the same K. Nothing is known before the first solve */
 static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -93,7 +91,8 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
   PetscFunctionReturn(0);
 }
 
-/* B: the Krylov method's preconditioner of A without a filter. It then knows A as K, so that A takes no memory. */
+/* B: the preconditioner of the Krylov method without its filter. It is set up with A, whose values are those of K
+   then, so that A takes no extra memory */
 static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, PetscBool *possible)
 {
   PC             pc = kept->pc, amg;
@@ -138,7 +137,7 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Changes from the AMG to a factorization where so many applications are still to come in this solve that it pays; no
+/* Changes from the AMG to a factorization if so many applications are expected in this solve that it pays. No
    directions are lost */
 PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscReal left, PetscBool *possible)
 {
@@ -204,7 +203,8 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   Vec            D;
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The Hessian is singular: its preconditioner is made with the constraints in it\n"));
+  PetscCall(
+    PetscInfo(tao, "The Hessian is singular: its preconditioner is built from the Hessian and the constraints\n"));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
   PetscCall(IPCondenseMatrix(tao, D));
@@ -218,9 +218,11 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   PetscFunctionReturn(0);
 }
 
-/* Directions that there is room for. Where nothing was said: 15 % of what AMG and stiffness matrix take, and besides
-   what no machine is short of; more than the AMG itself costs so many projections a direction. Newton's steps cost a
-   product with the new K a direction, and their Gram matrix. */
+/*
+   Number of directions to keep. Default: 15 % of the memory of AMG and stiffness, and at least a small fixed amount.
+   More would make the projections of a direction more expensive than the AMG. Newton's steps need one product with
+   the new K per direction, and their Gram matrix
+*/
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
   const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
@@ -283,8 +285,8 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
   PetscFunctionReturn(0);
 }
 
-/* The preconditioner becomes that of the Krylov method, so that whoever asks that one sees what is applied; one of
-   another kind keeps its own */
+/* Makes the preconditioner that of the Krylov method, so that users who ask for it see the one applied; a
+   preconditioner of another kind stays */
 static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
   IPFiltered      *f = IPFilteredOf(tao);

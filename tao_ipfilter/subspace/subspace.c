@@ -37,7 +37,7 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The rows that begin as active: where multipliers outweigh the slacks */
+/* The initial active rows: those whose multipliers exceed the slacks */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -138,9 +138,11 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscFunctionReturn(0);
 }
 
-/* Makes room: of all but the last directions, the part of their span is kept that W has most to do with and so
-   answers most to other constraints and gaps. The reduced problem is to be centred anew, at its solution, so that
-   nothing of that is lost. */
+/*
+   Reduces the number of directions. All but the last are compressed to the part of their span that W couples to most,
+   as it is most useful for other constraints and gaps. The reduced problem must be centred again at its solution, so
+   that the solution stays exact
+*/
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
   IPFiltered    *f    = IPFilteredOf(tao);
@@ -177,8 +179,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscFunctionReturn(0);
 }
 
-/* d = B r, by a B that knows of the constraints where K by itself is singular; of B of K alone that is asked once a
-   solve, and where it fails */
+/* d = B r. If K alone is singular, B includes the constraints; that is checked once a solve, and if B fails */
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -255,8 +256,8 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* What the present Hessian has, with the active rows that slacks and multipliers tell; in the beginning also what
-   this solve alone has. *possible is false where K_WW is not positive definite. */
+/* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
+   what belongs to this solve only. *possible is false if K_WW is not positive definite */
 PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

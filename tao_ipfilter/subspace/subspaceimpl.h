@@ -57,7 +57,7 @@ typedef struct {
 /* What the laws of constraints and norm terms are given, on the first rank */
 typedef struct {
   PetscReal *limit, *coefficient; /* of the terms; coefficient negative: none */
-  PetscReal *dead;                /* along which nothing gives way, two a term */
+  PetscReal *dead;                /* directions along which nothing moves, two entries a term */
   PetscBool *closed;              /* constraints that begin so */
 } IPLawsData;
 
@@ -67,7 +67,7 @@ typedef struct _p_IPLaws *IPLaws;
 typedef struct _n_IPLawsOps {
   PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *, PetscBool *definite);
   PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
-  PetscErrorCode (*restart)(IPLaws); /* what is closed has been set anew */
+  PetscErrorCode (*restart)(IPLaws); /* the set of closed rows has been chosen again */
   PetscErrorCode (*forget)(IPLaws);  /* the directions are others */
   PetscErrorCode (
     *solve)(IPLaws, const IPReducedSystem *, PetscInt *steps, PetscInt *nactive, PetscBool *met, PetscBool *solved);

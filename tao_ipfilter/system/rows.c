@@ -1,8 +1,8 @@
 /*
    The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and
-   the rows of norm terms, which have to do with what is filtered, and hold bodies where nothing else does. Where
-   equality constraints are condensed, D holds for each of them 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the
-   stiffness that resists it; in a restoration step what the augmented system would eliminate to, 1/delta.
+   the rows of norm terms, which are filtered, too, and may be all that holds a body. For condensed equality
+   constraints D is 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists them; in a restoration
+   step it is 1/delta, to which the augmented system would be eliminated.
 */
 #include "systemimpl.h"
 

@@ -1,5 +1,5 @@
-/* What PCAMGF is to filter: the unknowns that the constraints touch, and whether the constraints are stiff enough for
-   it. */
+/* Chooses what PCAMGF filters: the unknowns that the constraints involve; and whether the constraints are stiff enough
+   to need it. */
 #include "systemimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
@@ -48,7 +48,7 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* The filter of the present Jacobian. The IS stays while its entries do, so that PCAMGF knows it again. */
+/* The filter of the present Jacobian. The IS object stays as long as its entries do, so that PCAMGF recognizes it */
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -71,8 +71,8 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Marks the unknowns of a set in v by numbers so irregular that couplings to them do not cancel: squares, as a
-   fraction of the places alone is linear, but for whole numbers, and an operator of differences makes nothing of it */
+/* Marks the unknowns of a set in v by irregular numbers (squares), so that couplings to them do not cancel. Numbers
+   that are linear in the index would vanish under a difference operator */
 static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
   const PetscReal golden = 0.6180339887498949;

@@ -1,6 +1,6 @@
 /*
    What is fuzzed: bytes as a scene file, up to its mesh, and bytes as the Gmsh file of one body. Both must end with a
-   mesh or with one sentence, whatever the bytes are. tests/fuzz_corpus.c runs the corpus, tests/fuzz/scene.c and
+   mesh or with one sentence, whatever the bytes are. tests/scene/fuzz_corpus.c runs the corpus, tests/fuzz/scene.c and
    gmsh.c fuzz.
 */
 #ifndef FUZZ_TARGETS_H
@@ -9,7 +9,7 @@
 #include <scene.h>
 #include <mesh.h>
 #include <stdio.h>
-#include "../attempt.h"
+#include "../lib/attempt.h"
 
 /* Larger meshes only cost time */
 #define FUZZ_MAX_CELLS 1000

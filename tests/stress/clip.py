@@ -1,4 +1,4 @@
-"""A million pairs of facets, random and adversarial, on one rank and on three: tests/contact_clip.c with more pairs than `make check` takes."""
+"""A million pairs of facets, random and adversarial, on one rank and on three: tests/contact/contact_clip.c with more pairs than `make check` takes."""
 import os
 import subprocess
 import time

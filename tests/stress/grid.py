@@ -1,6 +1,6 @@
 """TAOIPFILTER, TAOTRON and IPOPT on obstacle problems on a grid: tests/stress/grid.md.
 
-The problems are those of tests/ipfilter_grid.h; `make stress STRESS=grid` builds the programs and runs this. What has been run is kept in
+The problems are those of tests/tao_ipfilter/ipfilter_grid.h; `make stress STRESS=grid` builds the programs and runs this. What has been run is kept in
 the folder: an interrupted run goes on where it stopped.
 """
 import argparse
@@ -98,7 +98,7 @@ def page(runs, results):
     found = best(runs, results)
     shown = [run for run in runs if run.solver != "reference" and (run.problem, run.n) in found]
     lines = ["# Obstacle problems on a grid", "",
-             "`make stress STRESS=grid` makes this page: the problems of `tests/ipfilter_grid.h` from u = 0, each solver with its default tolerances. `ipfilter` and `tron` have hypre as",
+             "`make stress STRESS=grid` makes this page: the problems of `tests/tao_ipfilter/ipfilter_grid.h` from u = 0, each solver with its default tolerances. `ipfilter` and `tron` have hypre as",
              "preconditioner, `ipfilter, amgf` its own default; `ipfilter, rows` has the bounds as inequality rows, with two sides where there are two bounds. The error is that of the",
              f"objective, relative to the lowest one found by any solver or by `ipfilter` with gatol 1e-13; more than {FAR:g} is marked (!). Time is that of the processors, in all ranks.", "",
              "| problem | unknowns | ranks | solver | end | steps | Krylov iterations | error of the objective | processor time [s] |",

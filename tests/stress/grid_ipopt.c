@@ -3,7 +3,7 @@
    the unknowns in a row. One line, as `ipfilter_grid -report`. A program of its own, without PETSc: IPOPT brings
    another MUMPS, and another MPI, than PETSc.
 */
-#include "../ipfilter_grid.h"
+#include "../tao_ipfilter/ipfilter_grid.h"
 #include "ipopt_run.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 """TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and nlp_profile.png.
 
-The problems are those of tests/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of nlp_kinds.py; `make stress STRESS=nlp` builds
+The problems are those of tests/tao_ipfilter/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of nlp_kinds.py; `make stress STRESS=nlp` builds
 the programs and runs this.
 """
 import argparse
@@ -49,7 +49,7 @@ def solvers(folder):
 
 
 def shipped(folder):
-    """The problems of tests/ipfilter_nlp.h"""
+    """The problems of tests/tao_ipfilter/ipfilter_nlp.h"""
     lines = subprocess.run([os.path.join(folder, "tao")], capture_output=True, text=True, check=True).stdout.split("\n")
     for name, optimum, end, others, objective, inequalities, equalities, bounds, start in zip(*[iter(lines)] * 9):
         yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds, others=map(float, others.split()), end=DEGENERATE if int(end) == REACHED else int(end))

@@ -5,7 +5,7 @@
    than PETSc.
 */
 #include "nlp_read.h"
-#include "../ipfilter_expression.h"
+#include "../tao_ipfilter/ipfilter_expression.h"
 #include "ipopt_run.h"
 
 typedef struct {

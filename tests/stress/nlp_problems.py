@@ -1,13 +1,13 @@
-"""Nonlinear programs whose solutions are known, for tests/stress/nlp.py; those of tests/ipfilter_nlp.h come beside them.
+"""Nonlinear programs whose solutions are known, for tests/stress/nlp.py; those of tests/tao_ipfilter/ipfilter_nlp.h come beside them.
 
-Formulas in x1, x2, ...: those that tests/ipfilter_expression.h reads. Bounds: one "lower:upper" a variable, either may be missing; 3*0: is 0: 0: 0:.
+Formulas in x1, x2, ...: those that tests/tao_ipfilter/ipfilter_expression.h reads. Bounds: one "lower:upper" a variable, either may be missing; 3*0: is 0: 0: 0:.
 optimum: from the literature, or in closed form; others: values of local minima that are not the global one.
 """
 import math
 import random
 import re
 
-SOLVED, DEGENERATE, INFEASIBLE, UNBOUNDED, REACHED = range(5)  # as NLPEnd in tests/ipfilter_nlp.h
+SOLVED, DEGENERATE, INFEASIBLE, UNBOUNDED, REACHED = range(5)  # as NLPEnd in tests/tao_ipfilter/ipfilter_nlp.h
 PROBLEMS = []
 
 
@@ -44,7 +44,7 @@ def numbers(text):
 ROSENBROCK = "100*(x2-x1^2)^2+(1-x1)^2"
 
 
-# ---- Hock and Schittkowski 1981, what is not in tests/ipfilter_nlp.h ----
+# ---- Hock and Schittkowski 1981, what is not in tests/tao_ipfilter/ipfilter_nlp.h ----
 
 add("HS25", total(f"-{0.01 * i!r}+exp(-({25 + (-50 * math.log(0.01 * i)) ** (2 / 3)!r}-x2)^x3/x1)".join(("(", ")^2")) for i in range(1, 100)), 0.0, "100 12.5 3",
     bounds="0.1:100 0:25.6 0:5", others=(32.835,))

@@ -7,7 +7,7 @@
 #define FORMULAS_MAX   100
 
 #include <petscsys.h>
-#include "../ipfilter_nlp.h"
+#include "../tao_ipfilter/ipfilter_nlp.h"
 
 #define NLP_FIELDS 5
 

@@ -1,11 +1,11 @@
 static char help[] =
   "A solver of TAO, ipfilter unless -tao_type names another, on problems that tests/stress/nlp.py wrote.\n\
-  -problems FILE    the problems; without it, those of tests/ipfilter_nlp.h are printed as Python reads them\n\
+  -problems FILE    the problems; without it, those of tests/tao_ipfilter/ipfilter_nlp.h are printed as Python reads them\n\
   -first K          begin with the problem number K\n\
 A line a problem: name, how it ended, objective, violation, iterations, points evaluated, seconds, sentence.\n\n";
 
 #include "nlp_read.h"
-#include "../ipfilter_formulas.h"
+#include "../tao_ipfilter/ipfilter_formulas.h"
 
 /* How it ended, in the words of nlp.py */
 static const char *Ending(TaoConvergedReason reason, const char *sentence)

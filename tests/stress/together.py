@@ -1,4 +1,4 @@
-"""Effects of a scene, every two together and many three: tests/combinations.py with all of them."""
+"""Effects of a scene, every two together and many three: tests/step/combinations.py with all of them."""
 import os
 import re
 import subprocess

@@ -1,9 +1,9 @@
 /* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
 #include "assemblyimpl.h"
 
-/* Entries of a row that are this small beside its largest are rounding of exact zeros */
+/* Entries smaller than this part of the row's largest are rounding errors of exact zeros */
 #define ENTRY_DROP 1e-14
-/* The same of a row of a smooth pair, which more was added up for */
+/* The same for a row of a smooth pair, which is a sum of more terms */
 #define SLOPE_DROP 1e-12
 
 PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
@@ -37,7 +37,7 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* A facet of a smooth pair: what its vertices and the normals there add to four rows */
+/* Contributions of the vertices and normals of a smooth pair's facet to four rows */
 PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
   const PetscInt bend[4], const ContactSlopes *slopes)
 {
@@ -72,7 +72,7 @@ typedef struct {
   Mat      mat[3];
 } Coupling;
 
-/* A row of them; factor: what each value is to be multiplied by */
+/* One row of the couplings; factor: multiplies each value */
 typedef struct {
   PetscInt           n;
   const PetscInt    *node;
@@ -80,7 +80,7 @@ typedef struct {
   PetscReal          factor[3];
 } CouplingRow;
 
-/* The sums over facets and ranks are made here */
+/* Adds up over facets and ranks */
 static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
   Vec      u;
@@ -167,7 +167,7 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscFunctionReturn(0);
 }
 
-/* One row of J; entries that are zero but for rounding are left out */
+/* One row of J, without entries that are zero up to rounding */
 static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
   PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
@@ -212,7 +212,7 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* What was added up by the rows, and a matrix of so many columns here */
+/* Assembles the sums by rows into a matrix with the given number of local columns */
 static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEntries *entries, Mat *mat)
 {
   PetscFunctionBegin;
@@ -221,10 +221,8 @@ static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEnt
   PetscFunctionReturn(0);
 }
 
-/*
-  From the derivative of int phi_A gap to that of the mean gap times the cover as it is: what uncovers a vertex does
-  not close its gap. Where the mean is zero, as under pressure, both are the same.
-*/
+/* Turns the derivative of int phi_A gap into that of the mean gap times the present covered area: a smaller covered
+   area must not count as a smaller gap. Where the mean gap is zero, as under pressure, both are the same. */
 static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
 {
   PetscInt           n;
@@ -251,8 +249,8 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscFunctionReturn(0);
 }
 
-/* The derivatives of smooth pairs' gaps, not divided by the masses, with patches that keep their shape, and with
-   those that bend; the rows of other pairs are empty */
+/* Derivatives of the gaps of smooth pairs, not divided by the masses: with patches of fixed shape, and with patches
+   that bend. Rows of other pairs are empty */
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
   PetscInt n;
@@ -306,7 +304,7 @@ static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, Pet
   PetscFunctionReturn(0);
 }
 
-/* J of the kept rows: counts the entries of each row first, then puts them in. slopes: taken for smooth pairs unless
+/* J of the kept rows: first counts the entries of each row, then inserts them. slopes: used for smooth pairs unless
    NULL */
 static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
   const PetscInt kept[], Mat *J)
@@ -358,7 +356,7 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   PetscFunctionReturn(0);
 }
 
-/* Gap and mass of the kept rows, and where they stand */
+/* Gap, mass and vertices of the kept rows */
 static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[],
   ContactLinearization lin)
 {
@@ -394,7 +392,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* J and what goes with it where pairs are smooth */
+/* J, and the further derivatives if pairs are smooth */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {
@@ -410,10 +408,8 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   PetscFunctionReturn(0);
 }
 
-/*
-  Forces on the surfaces' vertices become those on the nodes of order 2, and areas are shared as those of the facets
-  are. The gap of a pair that follows its nodes has its derivative by these.
-*/
+/* Transforms from forces on the surfaces' vertices to forces on nodes of order 2; areas are shared as those of the
+   facets. The derivative of a gap that follows the nodes uses the transform, too. */
 static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
 {
   Vec          facets;

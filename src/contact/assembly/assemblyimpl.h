@@ -12,22 +12,24 @@ typedef struct {
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
   GapType        gap;
-  PetscBool      rubs;     /* whether the pair's slip is asked for */
-  PetscBool      sticks;   /* whether none is allowed */
-  PetscInt  nfrictionless; /* rows, on all ranks, where friction cannot act though the faces slide: known once there are
-                             rows of slip */
-  PetscBool smooth;        /* whether the gap is to be that of the smooth surfaces */
-  PetscReal bulge;   /* these stand off the undeformed facets of the two faces by no more than this together [length] */
-  PetscReal given;   /* the pair's own search distance; 0: from the size of the faces [length] */
-  PetscInt *row;     /* [4 nonmortar facets] global row of each of the facets' vertices */
-  PetscReal *normal; /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
+  PetscBool      rubs;      /* whether the pair's slip is asked for */
+  PetscBool      sticks;    /* whether none is allowed */
+  PetscInt   nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; known
+                              once there are rows of slip */
+  PetscBool  smooth;        /* whether the gap is measured between smooth surfaces */
+  PetscReal  bulge;    /* largest distance of the smooth surfaces from the undeformed facets, sum of both faces [length]
+                        */
+  PetscReal  given;    /* the pair's own search distance; 0: from the size of the faces [length] */
+  PetscInt  *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
+  PetscReal *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
   PetscReal  distance; /* facets farther apart than this do not pair [length] */
-  PetscReal  depth;    /* nor do facets that penetrate more than this: they look through a body [length] */
-  PetscInt   nfacing;  /* of the last linearization, on this rank: facets that overlap, or vertices that face a facet */
+  PetscReal  depth;    /* facets that penetrate deeper than this do not pair: they are on the other side of a body
+                          [length] */
+  PetscInt   nfacing;  /* of the last contact update, on this rank: overlapping facets, or vertices opposite a facet */
 } ContactPairData;
 
-/* Whether its patches follow what faces of order 2 bend between their nodes; else their vertices move with the mean
-   of it */
+/* Whether patches follow the bending of order-2 faces between their nodes; else their vertices move with the mean of
+   it */
 static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 {
   return (PetscBool)(pair->smooth && pair->gap == GAP_MORTAR);
@@ -37,23 +39,23 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
   PetscInt  *vertex;         /* [nlocal] local DMPlex points */
-  PetscInt  *held; /* [nlocal] bits of the axes along which there is no slip, and 8 times 1 + the number of an inclined
-                     plane across which there is none; NULL: not yet asked for */
-  PetscReal *normal;  /* [3 nlocal] averaged unit normals */
-  PetscReal *x;       /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;    /* int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight;  /* the same, with that of hanging vertices at those they hang between */
-  Mat        hanging; /* which rows what is added up for a row goes to; NULL: no vertex hangs, and it stays */
+  PetscInt  *held;   /* [nlocal] bits of the axes without slip, plus 8 times (1 + the number of an inclined plane across
+                      which there is none); NULL: not computed yet */
+  PetscReal *normal; /* [3 nlocal] averaged unit normals */
+  PetscReal *x;      /* [3 nlocal] coordinates of the deformed vertices [length] */
+  Vec        mass;   /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight; /* the same, with that of hanging vertices passed on to their neighbours */
+  Mat        hanging; /* target rows of the sums of each row; NULL: no vertex hangs, each row keeps its own */
 } ContactRows;
 
-/* What the normals of all smooth surfaces change with a displacement; a rank has those of its own facets' corners */
+/* Derivatives of the normals of all smooth surfaces by the displacement; a rank has those of its own facets' corners */
 typedef struct {
   PetscInt            nlocal; /* normals */
   ContactNormalSlopes blocks; /* the same nodes in the same order at every displacement */
   Mat                 slopes; /* three rows a normal, columns are the DM's global rows; NULL where no pair is smooth */
 } ContactSmoothNormals;
 
-/* Along what a mortar gap is measured */
+/* Direction along which a mortar gap is measured */
 typedef enum {
   CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
@@ -69,16 +71,16 @@ struct _n_Contact {
   ContactNormals           normals;
   PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
   PetscInt                 ndisplacements;
-  const SceneDisplacement *displacements; /* that the faces of the bodies are held by; the caller's */
-  PetscBool                smoothed;      /* whether it has been looked which pairs are curved */
+  const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
+  PetscBool                smoothed;      /* whether it is known which pairs are curved */
   ContactSmoothNormals     bends;
-  Mat trace; /* what is added to the mesh's displacement at vertices of the surfaces; NULL: no face has order 2 */
+  Mat         trace; /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
   ContactRule rule;  /* of the triangles that overlaps are cut into */
-  PetscReal   reach; /* distance that pairs without one of their own look for at least [length] */
+  PetscReal   reach; /* least search distance of pairs without one of their own [length] */
   PetscReal
-    reach_depth; /* depth that every pair looks for at least, whatever the angle of the normals; 0: as usual [length] */
-  PetscReal depth;        /* 0: from the thickness of the bodies */
-  PetscReal cosine;       /* facets pair when n1.n2 is at most this */
+    reach_depth;    /* least search depth of every pair, whatever the angle of the normals; 0: the usual one [length] */
+  PetscReal depth;  /* 0: from the thickness of the bodies */
+  PetscReal cosine; /* facets pair when n1.n2 is at most this */
   PetscReal overlap_drop; /* relative to the smaller facet's area */
   PetscReal row_drop;     /* relative to the largest row's 1-norm */
   PetscInt  nrows;        /* of the last linearization, on all ranks */
@@ -114,21 +116,22 @@ PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, Pe
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 
-/* held.c: rows->held, once: along what the rows of pairs that rub have no slip */
+/* held.c: computes rows->held once: the directions in which rows of pairs with friction have no slip */
 PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 
 /* slip.c: the rows of slip that go with those of the gap */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
-/* assemble.c: one linearization under construction. entries: (row, node, value), added up where they repeat */
+/* assemble.c: one contact update under construction. entries: (row, node, value), added up where they repeat */
 typedef struct {
   Vec       gap;        /* int phi_A gap [length^3] */
   Vec       cover;      /* int phi_A over what smooth mortar pairs cover [length^2] */
   PetscInt  n, size;    /* entries in use, and space for them */
   PetscInt *row, *node; /* global row, global number of the vertex */
-  PetscInt  dim;        /* 1: one value an entry, for all have the row's normal; 3: a vector */
+  PetscInt  dim;        /* 1: one value an entry, since all share the row's normal; 3: a vector */
   PetscScalar
-    *value[3]; /* int phi_A (N2 - N1) [length^2]: times the normal, what the vertex's displacement adds to the gap */
+    *value[3]; /* int phi_A (N2 - N1) [length^2]; times the normal it is the derivative of the gap by the vertex's
+                  displacement */
 
   ContactEntries rigid, by_cover, by_node,
     by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */

@@ -1,4 +1,4 @@
-/* A matrix from entries that come in any order, for rows of any rank */
+/* Assembles a matrix from entries in any order, for rows of any rank */
 #include "assemblyimpl.h"
 
 /* value: of three columns for each of n blocks */
@@ -21,7 +21,7 @@ PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Collective. The numbers of rows and columns are this rank's; the entries' places are no more of use after it */
+/* Collective. Uses this rank's numbers of rows and columns; destroys the entries' indices */
 PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm comm, PetscInt m, PetscInt n, ContactEntries *entries, Mat *mat)
 {
   PetscFunctionBegin;

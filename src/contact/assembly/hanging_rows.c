@@ -1,7 +1,7 @@
 /*
-   Rows of hanging vertices: displacements of the nonmortar face are those of the other vertices, and so are its
-   multipliers. What is added up for the row of a vertex that hangs between others, phi_A its bilinear function, goes
-   to theirs, in parts of 1/2 or 1/4, and the row stays empty.
+   Rows of hanging vertices. On the nonmortar face the displacement of a hanging vertex is the mean of 2 or 4 other
+   vertices, and so is its multiplier. The sums for its row (phi_A is its bilinear function) are added to the rows of
+   those vertices with weights 1/2 or 1/4, and its own row stays empty.
 */
 #include <mesh.h>
 #include "assemblyimpl.h"
@@ -69,7 +69,7 @@ static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
   PetscFunctionReturn(0);
 }
 
-/* Where the pair's rows go: to themselves, or those of hanging vertices to others */
+/* Target rows of the pair's rows: themselves; for hanging vertices the others' rows */
 static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat share)
 {
   PetscInt           start, end, k = 0;
@@ -98,8 +98,8 @@ static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat s
   PetscFunctionReturn(0);
 }
 
-/* Collective. rows->hanging: NULL where no vertex of the mesh hangs; rows->weight: the masses with those of hanging
-   vertices given away */
+/* Collective. rows->hanging: NULL if no vertex of the mesh hangs; rows->weight: the masses, with those of hanging
+   vertices passed on */
 PetscErrorCode ContactHangingRowsCreate(Contact contact)
 {
   ContactRows *rows = &contact->rows;

@@ -47,7 +47,7 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
   *n = kept;
 }
 
-/* The places of all ranks in place of this one's */
+/* Gathers the places of all ranks */
 static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 {
   PetscMPIInt size, n, *counts, *first;
@@ -73,10 +73,8 @@ static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
   PetscFunctionReturn(0);
 }
 
-/*
-   What moves a rigid body along an axis: a displacement, CONTACT_AT_REST, CONTACT_FREE where it turns or forces
-   drive it; false: the body is not rigid
-*/
+/* The displacement that moves a rigid body along an axis; CONTACT_AT_REST; or CONTACT_FREE if it turns or forces drive
+   it. false: the body is not rigid */
 static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
   const size_t length = strcspn(face, ".");

@@ -1,4 +1,4 @@
-/* The rows there may be, one a nonmortar vertex and pair, and their weights; both stay as long as the mesh does */
+/* All possible rows, one for each nonmortar vertex and pair, and their weights. Both stay as long as the mesh does */
 #include <petscsf.h>
 #include "assemblyimpl.h"
 

@@ -1,16 +1,12 @@
 /*
-   The slip of the rows of pairs that rub: how far the mortar side has gone along the nonmortar one, in the means that
-   the mortar gap is taken in,
-
-     slip_A = (1/m_A) int phi_A (u2 - u1).t,   t = t1, t2 across the row's normal,
-
-   for any displacement u of the vertices. Where both faces touch, a rigid motion of both has none.
-
-   Of a row that has no slip along an axis, or across a plane (held.c), the tangent along it is zero.
+   Slip of the rows of pairs with friction: the displacement of the mortar side relative to the nonmortar side along
+   the tangents t1, t2 of the row, averaged like the mortar gap, slip_A = (1/m_A) int phi_A (u2 - u1).t, for any
+   displacement u of the vertices. A rigid motion of both faces gives no slip where both touch. If a row has no slip
+   along an axis, or across a plane (held.c), the tangent in that direction is zero.
 */
 #include "assemblyimpl.h"
 
-/* The part of a unit vector across a unit normal, of length 1; false where there is next to none */
+/* The unit vector projected onto the plane normal to the normal, scaled to length 1; false if almost nothing is left */
 static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])
 {
   const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
@@ -56,7 +52,7 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
   }
 }
 
-/* A tangent along which, more than across, the vertex is held becomes zero */
+/* Sets a tangent to zero if the vertex is held mostly along it */
 static void SlipDropHeld(PetscInt held, PetscReal t[3])
 {
   const PetscReal half  = 0.5;

@@ -1,8 +1,8 @@
-/* Which pairs have a face that is curved, or bends between its nodes, and the normals of their smooth surfaces at
-   every displacement; pairs of planes of order 1 cost nothing */
+/* Finds out which pairs have a face that is curved or bends between its nodes, and computes the normals of their
+   smooth surfaces at every displacement. Pairs of plane faces of order 1 cost nothing */
 #include "assemblyimpl.h"
 
-/* A surface stands off its facets by more than this part of an edge, or it is plane but for rounding in its file */
+/* A surface is curved if it differs from its facets by more than this part of an edge; less is rounding in its file */
 #define CURVED 1e-6
 
 /* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a
@@ -31,7 +31,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Collective. Rings about both faces; taken away again where both are plane, and of order 1 */
+/* Collective. Rings about both faces; removed again if both are plane and of order 1 */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
   const PetscReal cosine     = PetscCosReal(contact->feature_angle * PETSC_PI / 180.0);

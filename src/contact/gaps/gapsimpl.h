@@ -12,7 +12,7 @@
    A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation.c.
 */
 typedef struct {
-  /* Grows box to hold all that may face this rank's part of pair p */
+  /* Enlarges the box to hold everything that may face this rank's part of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
   /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);

@@ -1,7 +1,7 @@
 /* Node to segment: each nonmortar vertex against the closest point of the mortar face */
 #include "gapsimpl.h"
 
-/* A vertex beyond the mortar face's border by more than this part of the facet's size faces nothing */
+/* A vertex that is outside the mortar face by more than this part of the facet's size has no opposite point */
 #define BORDER_MARGIN 0.05
 
 /* Whether the closest point is on the border of the mortar face */
@@ -17,8 +17,8 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
   return PETSC_FALSE;
 }
 
-/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not along the
-   facet's normal there */
+/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not in the direction
+   of the facet's normal there */
 static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
 {
   const PetscReal *facet = &mortar->x[12 * nearest->facet];
@@ -57,13 +57,13 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
   PetscFunctionReturn(0);
 }
 
-/* The gap of a smooth pair and what it changes with */
+/* The gap of a smooth pair and its derivatives */
 typedef struct {
   PetscReal gap, vertex[3], facet[12], normal[12];
   PetscReal rigid[12]; /* by the facet's vertices, the patch turning with the facet */
 } NodeGap;
 
-/* The closest point moves on its facet so as to stay the closest one, along the edge or to the corner that it is at */
+/* Motion of the closest point on its facet when the vertex moves; on an edge or at a corner it stays there */
 static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3],
   const PetscReal by_xi[2], NodeGap *gap)
 {
@@ -98,8 +98,8 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   }
 }
 
-/* How far the vertex x, of normal n, is over the plane that touches the smooth surface beside its closest point,
-   along the normal of that */
+/* Height of the vertex x with normal n over the tangent plane of the smooth surface at its closest point, along the
+   normal of that plane */
 static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
   const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
@@ -134,7 +134,7 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
   NodeMoveClosest(facet, nearest, x, by_xi, gap);
 }
 
-/* Times the mass that the assembly divides by */
+/* Multiplies by the mass, because the assembly divides by it */
 static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar,
   PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
 {

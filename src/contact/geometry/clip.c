@@ -1,7 +1,7 @@
 /* Polygons in the plane: area, and clipping against a convex polygon */
 #include "geometryimpl.h"
 
-/* Relative to the first vertex, so that small polygons far from the origin keep their digits */
+/* Relative to the first vertex, so that small polygons far from the origin lose no digits */
 PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 {
   PetscReal area = 0.0;

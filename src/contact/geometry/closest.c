@@ -16,8 +16,8 @@ static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], 
   return ContactDot(r, r);
 }
 
-/* Nine points in the facet: the one nearest is where Newton's method starts, for far from a warped facet there are
-   several minima */
+/* Newton's method starts from the nearest of nine points of the facet, because a warped facet has several local minima
+   at a distance */
 static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal best = PETSC_MAX_REAL;
@@ -78,7 +78,7 @@ static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2]
   return PETSC_TRUE;
 }
 
-/* Takes the step, cut off at the edges, or a shorter one; false where none leads nearer */
+/* Takes the step, cut off at the edges, or a shorter one; false if no step reduces the distance */
 static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2], PetscReal xi[2], PetscReal *f)
 {
   PetscReal scale = 1.0;
@@ -100,7 +100,7 @@ static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2],
   return PETSC_FALSE;
 }
 
-/* The distance never grows: where Newton's method is stuck, at an edge, steps along each parameter take over */
+/* The distance never grows. If Newton's method stops at an edge, steps along one parameter continue */
 static PetscReal ClosestDescend(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal f = ClosestStart(o, xi);

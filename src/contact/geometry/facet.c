@@ -35,8 +35,8 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
-/* by_x: derivatives by the vertices of moment times the facet's turn, the one that its normal and its first diagonal
-   make; the facet has an area */
+/* by_x: derivatives by the vertices of moment times the rotation of the facet, which follows its normal and its first
+   diagonal; the facet has an area */
 void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
 {
   PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;

@@ -59,8 +59,8 @@ PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][
 #define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
   PetscReal y[2];
-  PetscInt  line[2][2]; /* the two lines that meet there, each through two vertices: 0 to 3 of the nonmortar facet, 4 to
-                           7 of the mortar one */
+  PetscInt  line[2][2]; /* the two lines that intersect there, each through two vertices: 0 to 3 of the nonmortar
+                           facet, 4 to 7 of the mortar one */
 } ContactCorner;
 typedef struct {
   PetscInt  corner[3];

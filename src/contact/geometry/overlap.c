@@ -53,10 +53,8 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
-/*
-  An edge that both facets have counts as the nonmortar one's: what lies on either side of it is then known from both
-  of its sides, and an edge between two mortar facets ends nothing. nmortar: edges of the mortar facet
-*/
+/* An edge that both facets share counts as the nonmortar one's. Then the geometry on either side of it is known, and
+   an edge between two mortar facets ends no overlap. nmortar: edges of the mortar facet */
 static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
   const PetscReal part[4][2], PetscInt edge[][2])
 {
@@ -72,7 +70,8 @@ static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt
   }
 }
 
-/* Keeps the polygon's corners; vertex: of the nsize ones of the part of the nonmortar facet that it was clipped to */
+/* Keeps the polygon's corners; vertex: their numbers among the nsize vertices of the clipped part of the nonmortar
+   facet */
 static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2],
   PetscInt size, const PetscInt vertex[], ContactOverlap *o)
 {
@@ -101,7 +100,7 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
-    o->area += area; /* one of no area, where corners coincide, too: its area changes with them */
+    o->area += area; /* also a triangle of zero area with coinciding corners: its area changes with them */
     o->triangle[o->ntriangles++] = (ContactTriangle){{first, first + t, first + t + 1}, sign};
     for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};

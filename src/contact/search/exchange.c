@@ -1,4 +1,5 @@
-/* Mortar facets go to the ranks whose part of the nonmortar face they may face; nothing else of a mesh is exchanged */
+/* Sends mortar facets to the ranks whose part of the nonmortar face they may face. Nothing else of a mesh is exchanged
+   */
 #include <petscsf.h>
 #include "searchimpl.h"
 

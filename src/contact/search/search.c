@@ -1,10 +1,8 @@
 /* Which mortar facets may face a nonmortar facet: those along its normal */
 #include "searchimpl.h"
 
-/*
-  What a nonmortar facet sweeps along its normal, from the depth below it to the distance above it. Only along the
-  normal: a ball of that radius would hold more and more facets as the mesh is refined.
-*/
+/* The prism that a nonmortar facet sweeps along its normal, from the search depth below it to the search distance
+   above it. A ball of that radius would contain more and more facets as the mesh is refined. */
 typedef struct {
   ContactFrame frame;
   PetscReal    low[3], high[3]; /* in the frame */

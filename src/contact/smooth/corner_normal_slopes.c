@@ -1,5 +1,5 @@
-/* What corner_normals.c's normals change with the nodes, in its own steps backward. Matrices are by rows: derivatives
-   of the normal's components */
+/* Derivatives of the normals of corner_normals.c by the nodes, in the reverse order of its steps. Matrices by rows:
+   derivatives of the normal's components */
 #include "smoothimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
@@ -13,7 +13,7 @@ static void Times(const PetscReal A[9], const PetscReal a[3], PetscReal b[3])
   for (PetscInt i = 0; i < 3; ++i) b[i] = ContactDot(&A[3 * i], a);
 }
 
-/* From the derivative by v x a, or with factor -1 by a x v, to that by v */
+/* From the derivative by v x a (factor 1) or a x v (factor -1) to the derivative by v */
 static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal factor, PetscReal B[9])
 {
   for (PetscInt i = 0; i < 3; ++i) {
@@ -24,7 +24,7 @@ static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal f
   }
 }
 
-/* From the derivative by the unit vector n to that by what was scaled to it, of this length */
+/* From the derivative by the unit vector n to that by the vector before scaling, of this length */
 static void ThroughUnit(const PetscReal A[9], const PetscReal n[3], PetscReal length, PetscReal B[9])
 {
   PetscReal along[3];
@@ -102,7 +102,8 @@ static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[
   AddFan(ring, first, last, A, slopes);
 }
 
-/* A: by the mended normal before it is scaled. The mean plus d_0 b_0 + d_1 b_1, D the dual vectors of the edges d */
+/* A: derivative by the corrected normal before it is scaled. Correction: mean + d_0 b_0 + d_1 b_1, with D the dual
+   vectors of the edges d */
 static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -167,7 +168,8 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
   border->bend = border->squares > 0.0 ? sum / border->squares : 0.0;
 }
 
-/* A: by the mended normal before it is scaled: the mean plus the bend times the direction across the border */
+/* A: derivative by the corrected normal before it is scaled: the mean plus the bend times the direction across the
+   border */
 static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
   const PetscReal A[9], ContactNormalSlopes *slopes)
 {

@@ -1,5 +1,5 @@
-/* Normals of the smooth surface at the facets' corners: means of the corners about a node, mended where the surface
-   ends */
+/* Normals of the smooth surface at the facets' corners: means over the facets about a node, corrected where the
+   surface ends */
 #include "smoothimpl.h"
 
 /*
@@ -22,7 +22,7 @@ PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt
   return ContactScaleToUnit(n);
 }
 
-/* Of all facets about a corner's node, as far as no sharp edge is between them */
+/* Mean over all facets about a corner's node that no sharp edge separates */
 void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt first, last;
@@ -31,8 +31,7 @@ void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n
   (void)ContactRingFanNormal(ring, first, last, n);
 }
 
-/* The one facet at a corner of the surface: along both its edges the surface is an arc, the normals at whose ends
-   mirror each other */
+/* A corner with one facet only: along both its edges the surface is an arc, whose end normals mirror each other */
 static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscReal d[2][3], m[3], G[3], rhs[2], det;
@@ -50,8 +49,8 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
     n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
 }
 
-/* A vertex on the border: the mean is right along it; across it the surface is an arc along the edges that lead
-   inward, by least squares */
+/* A vertex on the border: along the border the mean is right; across it the surface is an arc along the edges that
+   lead inward, by least squares */
 static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal after[3], before[3], d[3], m[3], along[3], across[3], sum = 0.0, squares = 0.0;
@@ -71,15 +70,14 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   for (PetscInt c = 0; c < 3; ++c) n[c] += sum / squares * across[c];
 }
 
-/* From the unit mean of an open fan to a normal along which the surface ends as an arc, not scaled yet */
+/* From the unit mean of an open fan of facets to a normal with which the surface ends as an arc; not scaled yet */
 void ContactRingMend(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   if (first == last) MendCorner(ring, first, n);
   else MendBorder(ring, first, last, n);
 }
 
-/* Unit normal at a corner, of the facets about its node as far as no sharp edge is between them; zero where they
-   cancel */
+/* Unit normal at a corner, mean over the facets about its node that no sharp edge separates; zero if they cancel */
 void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt        first, last;

@@ -1,11 +1,9 @@
-/*
-  Where a face ends on a plane that its body is held on, the smooth surface goes on as in a mirror: the facets of a
-  ring near such a plane are seen in it, so that normals on the border are means like all others.
-*/
+/* Where a face ends on a plane on which its body is held, the smooth surface continues as in a mirror. The facets of a
+   ring near such a plane are mirrored in it, so that normals on the border are means like all others. */
 #include "smoothimpl.h"
 
-/* On the undeformed border the normal, extrapolated from the facets, is in the plane but for this part of what the
-   facet's is out of it */
+/* The normal extrapolated to the undeformed border may lean out of the plane by this part of what the facet's normal
+   does */
 #define MIRROR_OBLIQUE 0.2
 /* and but for rounding in files of meshes */
 #define MIRROR_ROUNDING 1e-6
@@ -22,7 +20,7 @@ static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt ax
   return (PetscBool)((ring->held[node] >> axis & 1) != 0);
 }
 
-/* Whether the surface leaves the plane at a corner otherwise than a curved one at right angles to it */
+/* Whether the surface at a corner is not at right angles to the plane */
 static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, PetscInt axis)
 {
   PetscReal x[12], facet[3], n[3];
@@ -33,7 +31,7 @@ static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, Petsc
   return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
 }
 
-/* Adds a plane, or what is said of it if it is there */
+/* Adds a plane, or updates the one that is there */
 static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, MirrorPlane planes[])
 {
   for (PetscInt k = 0; k < *n; ++k) {

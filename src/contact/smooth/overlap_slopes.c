@@ -1,13 +1,13 @@
 /*
-  The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), H the heights over the plane of the nonmortar
-  facet, and its derivatives by everything: places of the quadrature points, their weights, the plane, and the
-  patches; and those of the cover int phi_A. In that plane's own axes nothing changes with a rigid motion, so that the
-  forces that these derivatives are balance to rounding, their moments too.
+   The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), with H the heights over the plane of the
+   nonmortar facet, and the covered area int phi_A. Both with their derivatives by everything: places and weights of
+   the quadrature points, the plane, and the patches. In the plane's own axes a rigid motion changes nothing. So the
+   forces from these derivatives, and their moments, balance to rounding.
 */
 #include "smoothimpl.h"
 
-/* Sine of the angle about which two lines come to have no point of intersection to speak of: what is off by rounding,
-   or by the quadrature, would move it far */
+/* Sine of the angle below which two lines count as parallel: errors of rounding or quadrature would move their
+   intersection far */
 #define PARALLEL 5e-3
 
 typedef struct {
@@ -73,8 +73,8 @@ static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum
   }
 }
 
-/* Adds a point of this weight to row a's gap, returned; place: what the gap changes with the point's place in the
-   plane, all else the same */
+/* Adds a point of this weight to row a's gap and returns its part; place: derivative of the gap by the point's place
+   in the plane */
 static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
@@ -108,7 +108,7 @@ static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal we
   return weight * point->phi[a];
 }
 
-/* What its corners share of the derivative by a point of a triangle */
+/* Distributes the derivative by a point of a triangle to the triangle's corners */
 static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentric[3], const PetscReal place[2],
   PlaneMotion *by)
 {
@@ -159,7 +159,7 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
   }
 }
 
-/* Shares what a corner's motion with its line k adds to the gap between the two vertices that the line is through */
+/* Distributes the derivative by a corner's motion with its line k to the two vertices that define the line */
 static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2],
   PlaneMotion *by)
 {
@@ -174,8 +174,8 @@ static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscIn
   }
 }
 
-/* Hands the derivative by a corner on to the vertices that the lines which meet there are through; where they are
-   hardly two, it stays where it is on the nonmortar facet's */
+/* Distributes the derivative by a corner to the vertices of the two lines that intersect there. If the lines are
+   almost parallel, the corner keeps its place on the nonmortar facet */
 static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const PetscReal force[2], PlaneMotion *by)
 {
   PetscReal normal[2][2], along[2][2], staying[2], sine, stays;
@@ -239,10 +239,8 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
   }
 }
 
-/*
-  Row a. The plane tilts with the nonmortar facet, and all that is seen from it turns back. Patches either bend as
-  normals turn, or keep their shape and turn with their facets, the nonmortar one then with the plane
-*/
+/* Row a. The plane turns with the nonmortar facet, and everything measured from it turns back. Patches bend as normals
+   turn, or keep their shape and turn with their facets; the nonmortar patch then turns with the plane */
 static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {

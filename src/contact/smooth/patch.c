@@ -1,18 +1,18 @@
 /*
-  The smooth surface that a facet stands for: the facet, and what curved edges stand off its straight ones. An edge
-  between vertices of normals n0 and n1 is the cubic whose chord is the straight edge d, bent along the mean N of the
-  normals; its height at eta in [0, 1] is eta (1 - eta) (a0 (1 - eta) - a1 eta) with a = -2 d.n/(1 + N.n): the tangent
-  of half an angle twice in place of the tangent of the angle, so that an arc's middle is exact. Heights of opposite
-  edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput. Aided Geom. Design 22 (2005)).
-  In a triangle, where the third edge is a point, that of the first counts with the square: quadratic edges then make
-  the quadratic surface.
+   The smooth surface through a facet: the facet, plus the height of curved edges over its straight ones. An edge
+   between vertices of normals n0 and n1 is a cubic. Its chord is the straight edge d; it is bent along the mean N of
+   the normals. Its height at eta in [0, 1] is eta (1 - eta) (a0 (1 - eta) - a1 eta) with a = -2 d.n/(1 + N.n). That
+   is twice the tangent of half an angle instead of the tangent of the angle, so that the middle of an arc is exact.
+   Heights of opposite edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput. Aided
+   Geom. Design 22 (2005)). In a triangle the third edge is a point, and the height of the first counts with the
+   square; quadratic edges then give the quadratic surface.
 */
 #include "smoothimpl.h"
 
-/* Ends of an edge are not steeper than this against its chord: normals of a crumpled face mean nothing */
+/* Largest slope of an edge's end against its chord: normals of a crumpled face are meaningless */
 #define STEEPEST 0.7
-/* Nor are edges bent where a normal is missing, or that turn by 119 degrees and more: length of the sum of the two
-   normals */
+/* Least length of the sum of the two normals: an edge is not bent if a normal is missing or they differ by 119 degrees
+   and more */
 #define LEAST_SUM 1.01
 
 /* Whether edge e has the normals to be bent by */

@@ -2,7 +2,7 @@
    vertices and normals */
 #include "smoothimpl.h"
 
-/* A patch that turns away from a direction by more than 60 degrees has no tangent plane to measure along it by */
+/* A patch that is inclined by more than 60 degrees to a direction is not measured along that direction */
 #define STEEPEST_SQUARED_COSINE 0.25
 
 /* Height of edge e at its parameter eta in [0, 1], where it counts blend, and its derivatives by eta, by blend and by
@@ -51,8 +51,8 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
   }
 }
 
-/* How far the patch is over its facet at xi along a unit direction, by the tangent plane at the patch's point; and
-   the derivatives of that */
+/* Height of the patch over its facet at xi along a unit direction, by the tangent plane at the patch's point; and its
+   derivatives */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], ContactPatch *by)
 {
@@ -105,8 +105,8 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   }
 }
 
-/* Adds to the derivatives by the facet's vertices x and by the unit normals there what those by the patch made of
-   them amount to */
+/* Turns derivatives by the patch into derivatives by the facet's vertices x and by the unit normals there, and adds
+   them */
 void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
   PetscReal by_normal[12])
 {
@@ -125,7 +125,7 @@ void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const Conta
   }
 }
 
-/* Of the derivatives by a patch: what the patch's turn about any axis amounts to */
+/* Part of the derivatives by a patch that a rotation of the patch about any axis causes */
 void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal moment[3])
 {
   for (PetscInt c = 0; c < 3; ++c) moment[c] = 0.0;

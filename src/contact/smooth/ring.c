@@ -1,10 +1,8 @@
 /*
-  The facets about those of this rank, two deep, on whatever ranks they are: what the normals of a smooth surface are
-  taken from.
-
-  A corner is 4 f + a, for vertex a of facet f, of which a triangle has three; it stands for the edge from that vertex
-  to the next as well. Neighbours across an edge that is sharper, undeformed, than the feature angle are none: each
-  side of it has normals of its own.
+   The ring: two layers of facets about those of this rank, on whatever ranks they are. Normals of a smooth surface
+   are computed from it. A corner is 4 f + a for vertex a of facet f (a triangle has three); it also stands for the
+   edge from that vertex to the next. Facets are not neighbours across an edge that is sharper, undeformed, than the
+   feature angle: each side of it has its own normals.
 */
 #include "smoothimpl.h"
 
@@ -50,7 +48,7 @@ PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *fir
   return PETSC_FALSE;
 }
 
-/* Puts the image v of a real node where the planes that it is seen in have it */
+/* Computes the image v of a real node in the mirror planes */
 void ContactRingReflect(ContactRing *ring, PetscInt v)
 {
   const ContactImage *image = &ring->image[v - ring->nreal];

@@ -1,4 +1,4 @@
-/* Makes a ring: facets from their ranks, the numbers of their nodes, who is next to whom, and the normals there are */
+/* Creates a ring: fetches facets from their ranks, numbers nodes, finds neighbours and numbers the normals */
 #include "smoothimpl.h"
 
 /* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
@@ -43,8 +43,8 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
     PetscCall(PetscArraycmp(&facets->node[4 * f], s->node, 4, &same));
     *own = f;
   }
-  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A rank's own facets of face \"%s\" are not about themselves",
-    s->name);
+  PetscCheck(same, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    "A rank does not find its own facets of face \"%s\" in the neighbourhood that it gathered", s->name);
   PetscFunctionReturn(0);
 }
 
@@ -75,7 +75,7 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscFunctionReturn(0);
 }
 
-/* The one corner whose edge runs the other way along the same nodes; negative where there is none, or several */
+/* The one corner whose edge has the same nodes in opposite order; negative: none, or several */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
   const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];

@@ -33,7 +33,7 @@ PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPat
    f */
 typedef struct {
   PetscInt of,
-    plane[3]; /* a real node; and real nodes on the planes across the axes that it is seen in, negative: in none */
+    plane[3]; /* number of the real node, and real nodes on the mirror planes in which it is an image; negative: none */
 } ContactImage;
 typedef struct {
   PetscInt   nfacets, own;  /* the surface's own facets are the nfacets of it from number own on */
@@ -62,8 +62,7 @@ PETSC_INTERN void ContactRingEdges(const ContactRing *, PetscInt corner, PetscRe
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
 
 /* corner_normals.c: normals of the smooth surface, from the facets' corners */
-#define CONTACT_FLAT_CORNER \
-  1e-4 /* squared sine of the angle of a facet's corner, below which it is as good as straight */
+#define CONTACT_FLAT_CORNER 1e-4 /* squared sine of a facet's angle below which the corner counts as straight */
 PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
 PETSC_INTERN void      ContactRingMeanNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
 PETSC_INTERN void      ContactRingMend(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
@@ -79,16 +78,16 @@ PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine,
 typedef struct {
   PetscInt     n;     /* blocks so far */
   PetscInt    *node;  /* of the ring; NULL: blocks are counted only */
-  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; they add up where
+  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; to be added where
                          nodes repeat */
 } ContactNormalSlopes;
 PETSC_INTERN void ContactRingNormalSlopes(const ContactRing *, PetscInt corner, ContactNormalSlopes *);
 
-/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and all that it changes with */
+/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and its derivatives */
 typedef struct {
   PetscReal x[4][12],
     normal[4][12];        /* of int phi_A gap, for the four A: by a facet's vertices, and by the unit normals there */
-  PetscReal rigid[4][12]; /* by its vertices, the patches keeping their shape and turning with their facets */
+  PetscReal rigid[4][12]; /* by its vertices, with patches of fixed shape that turn with their facets */
   PetscReal cover[4][12]; /* of int phi_A, by its vertices */
 } ContactSlopes;
 PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12],

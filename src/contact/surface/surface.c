@@ -1,5 +1,5 @@
-/* The facets of a named face, those of order 2 cut into four: taken from the mesh once, deformed at every
-   linearization */
+/* The facets of a named face; those of order 2 are cut into four. Taken from the mesh once, deformed at every contact
+   update */
 #include <mesh.h>
 #include "surfaceimpl.h"
 

@@ -31,12 +31,12 @@ typedef struct {
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
   PetscInt  *bend;      /* [4 nfacets] their global numbers */
   PetscBool  patched;   /* whether there are those; the same on all ranks */
-  PetscBool  cut;       /* whether the facets are pieces of the mesh's, of order 2; the same on all ranks */
+  PetscBool  cut;       /* whether facets are parts of facets of order 2; the same on all ranks */
   PetscInt
     *held; /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
   PetscInt *border; /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a
                        is; of a triangle bit 2: its last vertex */
-  PetscBool bordered;  /* whether border has been asked for; the same on all ranks */
+  PetscBool bordered;  /* whether the border has been computed; the same on all ranks */
   PetscReal area;      /* of the whole undeformed face, all ranks [length^2] */
   PetscInt  body;      /* behind the face */
   PetscReal thickness; /* mean thickness of that body [length] */
@@ -48,7 +48,7 @@ PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, Pe
   const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* trace.c: what the displacement of the surfaces' vertices differs from that of the mesh's nodes; NULL: nothing */
+/* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; NULL: none */
 typedef enum {
   CONTACT_TRACE_FORWARD,
   CONTACT_TRACE_INVERSE

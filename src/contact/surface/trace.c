@@ -1,13 +1,11 @@
 /*
-   Faces of order 2 are cut into four facets each at their nodes, and forces act on the vertices of these. Bilinear
-   between the nodes is not the displacement of the face, though, and a pressure spread that way is not the load that
-   it is on quadratic cells: a uniform one would bend them. With T, where along each edge
-
-     (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6
-
-   and likewise in the middle of a facet, edge by edge in both directions, T u interpolated on the halves has the
-   integral of the quadratic u, and is u where that is linear. So T^T takes the loads of bilinear facets to those of
-   the quadratic face, exactly where the facets are plane and covered as a whole, and keeps their sum everywhere.
+   Faces of order 2 are cut at their nodes into four facets each, and forces act on the vertices of these. But the
+   bilinear interpolation between nodes is not the displacement of the face, and a load spread that way is not the
+   load on quadratic cells: a uniform pressure would bend them. T corrects this. Along each edge (T u)_middle =
+   u_middle + (2 u_middle - u_first - u_last)/6, and likewise in the middle of a facet, edge by edge in both
+   directions. T u, interpolated on the halves, has the integral of the quadratic u, and equals u where u is linear.
+   So T^T turns loads of bilinear facets into loads of the quadratic face: exactly where the facets are plane and
+   wholly covered, and with the same sum everywhere.
 */
 #include <petscsf.h>
 #include <mesh.h>

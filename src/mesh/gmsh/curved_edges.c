@@ -1,7 +1,7 @@
 /*
-   Quadratic cells for a grid that has straight ones alone: edges of its surface become arcs between the normals at
-   their ends, as contact has them between its facets, and what lies inside stays straight. Edges where facets make a
-   larger angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
+   Quadratic cells for a grid that has straight ones only. Edges on its surface become arcs between the normals at
+   their ends, as contact has them between its facets; edges inside stay straight. Edges where facets make a larger
+   angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
 */
 #include "gmshimpl.h"
 #include <stdlib.h>
@@ -162,8 +162,8 @@ static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *fi
   return closed;
 }
 
-/* How much of an edge's direction n lacks to be the mirror image of the normal at the other end, as at the ends of an
-   arc */
+/* How much the component of n along an edge differs from that of the mirror image of the normal at the other end, as
+   at the ends of an arc */
 static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
 {
   PetscReal m[3];
@@ -221,8 +221,8 @@ static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   ArcScale(n);
 }
 
-/* How far the middle of an edge stands off along the mean N of the normals at its ends: the middle of the arc; 0
-   where rounding explains it */
+/* Height of the middle of an edge along the mean N of the normals at its ends: that of an arc; 0 if it is within
+   rounding */
 static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
 {
   PetscReal n[2][3], e[3], slope[2], height;

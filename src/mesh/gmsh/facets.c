@@ -2,7 +2,7 @@
 #include "gmshimpl.h"
 #include <stdlib.h>
 
-/* Elements a slice; no more slices than these, for all elements are gone through for each */
+/* Elements a slice; the number of slices is limited, since each slice passes over all elements */
 #define GMSH_SLICE      64
 #define GMSH_MAX_SLICES 16
 

@@ -32,7 +32,7 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a whole Gmsh mesh: %s", body->name,
+  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a complete Gmsh mesh: %s", body->name,
     body->gmsh.file, error.message);
   dim = file->mesh.dim;
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
@@ -65,8 +65,8 @@ static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type,
     "are read",
     body->gmsh.volume, body->gmsh.file, type->name);
   PetscCheck(!before || type->ncorners == before->ncorners, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "the volume \"%s\" of %s has cells of the types %s and %s; a volume is read where all of its cells are of one, so "
-    "make it two physical volumes, and tie them",
+    "the volume \"%s\" of %s has cells of the types %s and %s; all cells of a volume must have one type: make two "
+    "physical volumes, and tie them",
     body->gmsh.volume, body->gmsh.file, before->name, type->name);
   PetscFunctionReturn(0);
 }
@@ -253,7 +253,7 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
       PetscCheck(PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near ||
                    PetscAbsReal(a[2] - b[2]) > near,
         PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-        "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells do not hang together there",
+        "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells are not connected there",
         body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
     }
   }

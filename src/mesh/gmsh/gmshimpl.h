@@ -7,7 +7,7 @@
 #include "src/mesh/query/queryimpl.h"
 #include <stdio.h>
 
-/* stream.c: reading a Gmsh file with suspicion. What is false has left a sentence behind; the first stays */
+/* stream.c: reads a Gmsh file and checks it. The first error found leaves a message */
 #define GMSH_WORD 256
 
 typedef struct {

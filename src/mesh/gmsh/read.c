@@ -1,5 +1,5 @@
-/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks whether it is what it says it is: no number in it is
-   trusted. The walk is that of PETSc's reader: the same words, numbers and blanks in the same order */
+/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks every number in it. It reads the same words, numbers and
+   blanks in the same order as PETSc's reader */
 #include "gmshimpl.h"
 #include <petscbt.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Fields of one mesh at points of any others: each rank asks for its own, and looks at the cells of all, a block at a
-   time. */
+/* Evaluates fields of one mesh at points of another. Each rank has its own points and examines the cells of all ranks,
+   one block at a time. */
 #include "queryimpl.h"
 
 #define EVALUATE_CELLS 1024 /* of a block */

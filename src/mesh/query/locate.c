@@ -1,7 +1,7 @@
 /*
-   Which cell is a point in? Points are sorted into the bins of a grid, as narrow as they are close; each cell looks
-   at those in the bins about it, and the point's place in the cell is where the cell's map takes it, linear or
-   quadratic, or the nearest that clamping finds. The nearest cell of all ranks has the point.
+   Finds the cell that contains a point. Points are sorted into the bins of a grid that is finer where points are
+   denser. Each cell examines the points in the bins about it. A point's parameters come from inverting the cell's
+   map, linear or quadratic, clamped to the cell. The nearest cell over all ranks has the point.
 */
 #include "queryimpl.h"
 
@@ -19,7 +19,7 @@ typedef struct {
   PetscReal *first[3];
 } LocateBins;
 
-/* The last that begins at x or before; those outside go to the nearest */
+/* The last bin that begins at or before x; points outside go to the nearest bin */
 static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
 {
   PetscInt low = 0, high = bins->n[d];
@@ -38,7 +38,7 @@ static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
   return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
 }
 
-/* Bins along an axis with as many points each, so that meshes graded towards a place have narrow ones there */
+/* Bins along an axis with equally many points each, so that they are narrow where a mesh is graded */
 static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d,
   LocateBins *bins)
 {

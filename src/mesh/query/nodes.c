@@ -374,7 +374,7 @@ PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || orders[b] > 1);
   if (!any) PetscFunctionReturn(0);
-  /* A plain vector: one of the mesh would refer to the mesh that is to hold it */
+  /* Copies into a plain vector: a vector of the mesh would refer to the mesh that holds it, in a circle */
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(PetscSectionGetStorageSize(section, &n));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &places));
@@ -412,7 +412,7 @@ PetscErrorCode MeshUpdateVertices(DM dm)
     PetscCall(VecRestoreArray(to.x, &y));
     PetscCall(VecRestoreArrayRead(from.x, &x));
   }
-  /* The global coordinates, if they were made, are those from before */
+  /* Updates the global coordinates, if they exist, which are still those from before */
   PetscCall(DMSetCoordinatesLocal(dm, to.x));
   PetscFunctionReturn(0);
 }

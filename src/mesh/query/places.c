@@ -1,4 +1,4 @@
-/* Where the nodes that this rank owns are, undeformed, and in which body. */
+/* Undeformed places of the nodes that this rank owns, and their bodies. */
 #include "queryimpl.h"
 
 /* Of every node that this rank owns; it has a cell of each */

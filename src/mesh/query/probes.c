@@ -1,8 +1,8 @@
 /* Where the probes of a scene are in its mesh */
 #include "queryimpl.h"
 
-/* A point this far outside, as a part of the cell's size, is on the surface: facets are not where the curved surface
-   is */
+/* A point outside by less than this part of the cell's size is on the surface, because facets are not where the curved
+   surface is */
 static const PetscReal probe_tolerance = 0.1;
 
 static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3],

@@ -21,11 +21,9 @@ PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
 PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
-/*
-   nodes.c: the points that carry displacements. Their places begin straight between the vertices in a shape's
-   parameters, and are mapped and bent as the vertices are; MeshUpdateVertices() then gives the vertices' places back
-   to DMPlex.
-*/
+/* nodes.c: the points that carry displacements. Their places are first straight between the vertices in a shape's
+   parameters, then mapped and bent like the vertices. MeshUpdateVertices() copies the vertices' places back to DMPlex.
+   */
 typedef struct {
   PetscSection section;
   Vec          x; /* [length], or a shape's parameters */

@@ -311,7 +311,7 @@ PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fin
   PetscCall(VecRestoreArray(at.x, &x));
   PetscCall(VecRestoreArrayRead(curves->places, &places));
   PetscCall(CurveDestroyChildren(children));
-  /* The global coordinates, if they were made, are those from before */
+  /* Updates the global coordinates, if they exist, which are still those from before */
   if (!nodes) PetscCall(DMSetCoordinatesLocal(fine, at.x));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,5 @@
-/*
-   Vertices that hang in the middle of an edge or a side of a cell: they are where the mean of its 2 or 4 vertices is,
-   and move as that does. None of these hangs itself.
-*/
+/* Hanging vertices, in the middle of an edge or a side of a cell: their place and displacement are the mean of its 2
+   or 4 vertices. None of these hangs itself. */
 #include "refineimpl.h"
 #include <petscsf.h>
 
@@ -143,7 +141,7 @@ static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices,
 
     for (PetscInt k = 0; k < 4; ++k)
       PetscCall(MatSetValue(*means, vertices->at[i], vertices->parent[4 * i + k], weight,
-        INSERT_VALUES)); /* PETSc passes over a negative column */
+        INSERT_VALUES)); /* PETSc ignores negative columns */
   }
   PetscCall(MatAssemblyBegin(*means, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*means, MAT_FINAL_ASSEMBLY));

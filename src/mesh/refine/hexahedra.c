@@ -174,7 +174,7 @@ static PetscErrorCode HexesCreateHolders(const MeshHexes *hexes, PetscInt **star
   PetscFunctionReturn(0);
 }
 
-/* Where a vertex of a cell that is to be refined hangs, the cell that it hangs on is refined too */
+/* If a vertex of a cell that will be refined hangs on another cell, that cell is refined, too */
 static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt *start, *holders, *pending, n = 0;
@@ -245,7 +245,7 @@ static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, P
   PetscFunctionReturn(0);
 }
 
-/* The marked cells, and others for the sake of balance; these are marked too then */
+/* Marks the given cells, and others so that neighbours differ by one level */
 PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt n = 0, *vertex, *root, *place;

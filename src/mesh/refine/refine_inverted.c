@@ -1,7 +1,7 @@
 /*
-   Thin cells along curved surfaces: a vertex that hangs is on the straight edge of the coarser cell, not on the
-   curve, which may turn a fine cell inside out. The coarser cells are refined then, until none of the finer ones
-   loses more than a part of itself.
+   Thin cells along curved surfaces. A hanging vertex is on the straight edge of the coarser cell, not on the curve,
+   which may invert a fine cell. Then the coarser cells are refined, too, until none of the finer ones loses more than
+   a part of its volume.
 */
 #include "refineimpl.h"
 

@@ -61,7 +61,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscFunctionBegin;
   PetscCall(PetscObjectQuery((PetscObject)dm, MESH_NUMBERS, (PetscObject *)&numbers));
   PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE,
-    "The cells of this mesh have no numbers: it was made without marks");
+    "The cells of this mesh have no numbers: it was made without refinement marks");
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));

@@ -143,7 +143,7 @@ static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefineme
     "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name,
     (double)refinement->distance, refinement->face[0], refinement->face[1]);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], meets no cell of %s%s%s",
+    "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
     refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
     *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }

@@ -49,7 +49,7 @@ PETSC_INTERN PetscErrorCode MeshCurvesPlacePart(const MeshCurves *, const MeshHe
 PETSC_INTERN PetscErrorCode MeshCurvesCutOut(const MeshHexes *, DM fine, MeshCurves *);
 PETSC_INTERN PetscErrorCode MeshCurvesDestroy(MeshCurves *);
 
-/* refine_inverted.c: fine cells stay the right side out */
+/* refine_inverted.c: refines so that fine cells are not inverted */
 PETSC_INTERN PetscErrorCode MeshHexesRefineInverted(DM, const SceneBody[], const MeshCurves *, MeshHexes *);
 
 /* hanging.c: vertices amid an edge or a side of a cell; what is carried along as the mesh is distributed, and what

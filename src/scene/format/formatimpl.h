@@ -10,11 +10,9 @@
 /* yaml.c. Not collective: an error if the text is no YAML that PETSc can read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[]);
 
-/*
-   keys.c: the keys and values of a scene file. Every reader asks by full key (nested keys joined with _), so that
-   what is left over is misspelt. A bad or missing value is kept, not raised: a misspelt key is the better explanation
-   of it.
-*/
+/* keys.c: the keys and values of a scene file. Every reader asks for a full key (nested keys joined with _); what
+   nobody asked for is misspelt. A bad or missing value is stored, not raised, because a misspelt key explains it
+   better. */
 typedef struct {
   char    *name;
   Material material;

@@ -1,4 +1,4 @@
-/* The keys of a scene file: reading it, asking for keys, and what to say of those nobody asked for. */
+/* The keys of a scene file: reads it, looks keys up, and reports those that nothing has read. */
 #include "formatimpl.h"
 #include <options.h>
 #include <stdarg.h>
@@ -128,7 +128,7 @@ static PetscBool SceneKeyIsNumber(const char key[])
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
 }
 
-/* Raises what is wrong with the file, if anything: a key nobody asked for, else the first complaint */
+/* Raises the first error of the file: an unknown key, else the first bad value */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
   PetscInt    n;
@@ -139,7 +139,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
-  /* The shortest is the outermost: below a misspelt list every key is unknown */
+  /* The shortest unknown key is the outermost: below a misspelt list every key is unknown */
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(PetscStrlen(names[i], &length));
     if (!unknown || length < shortest) {
@@ -150,15 +150,12 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   if (unknown) {
     PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
     PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry is not covered: take the whole ring, or a sector between planes of symmetry, which the list "
-      "symmetry names",
+      "%s: cyclic symmetry is not supported: model the whole ring, or a sector between symmetry planes (key symmetry)",
       keys->file);
     PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: in the key \"%s\" there is a comma, which no name may hold: a letter, then letters, digits, _ or -",
-      keys->file, unknown);
+      "%s: in the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, unknown);
     PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: the key \"%s\" ends in a number: decimals have a point, as in 0.3, and several values stand in brackets, "
-      "[1, 2]",
+      "%s: the key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
       keys->file, unknown);
     PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
     SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file,

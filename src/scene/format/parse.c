@@ -1,4 +1,5 @@
-/* Values of a scene file: text to numbers, lists and names. What does not parse is complained of and left as it was. */
+/* Values of a scene file: text to numbers, lists and names. If a value does not parse, the error is kept and the
+   variable unchanged. */
 #include "formatimpl.h"
 #include <errno.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /*
-   Keys that a scene has twice, of which PETSc would take the last: in one mapping, or once nested and once joined, as
-   outer: {radius: 1} and outer_radius: 2. Each has a path of the keys that it is below, joined as options are, with
-   the numbers of entries in lists, since two entries of one name have a complaint of their own.
+   Finds keys that a scene has twice, of which PETSc would use the last: in one mapping, or once nested and once
+   joined, as outer: {radius: 1} and outer_radius: 2. Each key has a path of the keys above it, joined like options,
+   with the numbers of list entries, since two entries of one name have an error of their own.
 */
 #include "repeated.h"
 #include <ctype.h>
@@ -127,7 +127,7 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
 
     PetscCall(PetscStrcmp(keys->paths[a], keys->paths[b], &same));
     if (same) RepeatedStrip(keys->paths[a]);
-    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is there already, in line %zu",
+    PetscCheck(!same, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "line %zu: the key \"%s\" is already in line %zu",
       keys->lines[b], keys->paths[a], keys->lines[a]);
   }
   PetscCall(PetscFree(order));

@@ -1,7 +1,7 @@
 /*
-   Is a scene YAML that PETSc can read? YAML has anchors, &name, and aliases, *name. PETSc's reader expands an alias
-   where it stands, so that an anchor which holds its own alias never ends, and anchors of aliases of anchors outgrow
-   any memory. Anchored values of a scene therefore hold no aliases.
+   Checks that a scene is YAML that PETSc can read. YAML has anchors, &name, and aliases, *name. PETSc's reader
+   expands an alias in place: an anchor that holds its own alias never ends, and nested aliases exhaust any memory.
+   Anchored values of a scene must therefore hold no aliases.
 */
 #include "repeated.h"
 #include <string.h>
@@ -37,8 +37,7 @@ static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
     parser->problem_offset + 1, parser->problem);
   for (size_t l = 1; l < line && strchr(text, '\n'); ++l) text = strchr(text, '\n') + 1;
   tab = (PetscBool)(text[strspn(text, " ")] == '\t' && strspn(text, " ") == parser->problem_mark.column);
-  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab, where YAML has spaces",
-    line);
+  PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab; YAML needs spaces", line);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line,
     parser->problem ? parser->problem : "it cannot be read");
 }
@@ -60,7 +59,7 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
     ierr   = nested ? 0 : RepeatedKeysRead(keys, &event);
     yaml_event_delete(&event);
     PetscCheck(!nested, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
-      "line %zu: the value of an anchor (&name) holds an alias (*name), which scenes may not do", line);
+      "line %zu: the value of an anchor (&name) holds an alias (*name), which is not allowed in scenes", line);
     PetscCall(ierr);
   }
   PetscCall(RepeatedKeysCheck(keys));

@@ -54,7 +54,7 @@ static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* Its rows of the matrix are to be as large as those of the others */
+/* Gives a rigid body a stiffness, so that its rows of the matrix are as large as those of the others */
 static PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;

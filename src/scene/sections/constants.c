@@ -21,7 +21,7 @@ static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
   return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
 }
 
-/* A law that has no expansion says which have, where one is given */
+/* An expansion for a law that has none: an error that names the laws that have one */
 static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
 {
   const char *text;
@@ -133,8 +133,8 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   ierr = MaterialGetModuli(m, &moduli, NULL);
   PetscCall(PetscPopErrorHandler());
   PetscCheck(!ierr, comm, PETSC_ERR_USER_INPUT,
-    "%s: body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, with which some strain "
-    "has no positive energy, or its first_axis and second_axis are along one line",
+    "%s: body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, for which some strain "
+    "has no positive energy, or its first_axis and second_axis are parallel",
     file, body->name, (double)m->poissons[0], (double)m->poissons[1], (double)m->poissons[2]);
   PetscFunctionReturn(0);
 }
@@ -170,9 +170,8 @@ PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const Sc
   PetscFunctionBegin;
   if (m->type == MATERIAL_MOONEY_RIVLIN)
     PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has c10 = %g and c01 = %g, of which none may be negative, or its energy has no lower bound, nor "
-      "both be 0",
-      file, body->name, (double)m->c10, (double)m->c01);
+      "%s: body \"%s\" has c10 = %g and c01 = %g, but neither may be negative, and not both may be 0", file, body->name,
+      (double)m->c10, (double)m->c01);
   if (m->type == MATERIAL_ORTHOTROPIC) PetscCall(SceneValidateOrthotropic(comm, file, body));
   PetscCall(MaterialGetLaw(m, &law));
   for (const MaterialConstant *c = law->constants; c->name; ++c) PetscCall(ConstantValidate(comm, file, body, c));

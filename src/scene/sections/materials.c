@@ -95,7 +95,7 @@ PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* A name that is neither: the nearest one */
+/* A name that is neither a law nor a material: an error with the nearest name */
 static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;

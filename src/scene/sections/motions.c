@@ -200,15 +200,16 @@ PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
       if (SceneFindBody(scene, scene->displacements[d].face, &face) != b) continue;
       moved = PETSC_TRUE;
       PetscCheck(SceneIsWholeBody(scene->displacements[d].face), comm, PETSC_ERR_USER_INPUT,
-        "%s: displacement \"%s\" names the face \"%s\" of a rigid body, which moves as a whole: - %s: {body: %s, "
-        "value: [0, 0, 0]}",
+        "%s: displacement \"%s\" names the face \"%s\" of a rigid body; a rigid body moves as a whole: - %s: {body: "
+        "%s, value: [0, 0, 0]}",
         file, scene->displacements[d].name, scene->displacements[d].face, scene->displacements[d].name, body->name);
     }
     PetscCheck(moved, comm, PETSC_ERR_USER_INPUT,
-      "%s: nothing says how the rigid body \"%s\" moves, as displacements: - %s: {body: %s, value: [0, 0, 0]} does",
+      "%s: no displacement says how the rigid body \"%s\" moves; add for example displacements: - %s: {body: %s, "
+      "value: [0, 0, 0]}",
       file, body->name, body->name, body->name);
   }
   PetscCheck(nrigid < scene->nbodies, comm, PETSC_ERR_USER_INPUT,
-    "%s: every body is rigid, nothing is left to be found", file);
+    "%s: every body is rigid: there is nothing to compute", file);
   PetscFunctionReturn(0);
 }

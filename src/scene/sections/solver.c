@@ -1,8 +1,6 @@
-/*
-   solver: PETSc options, as a mapping. They are set while the scene lives, where neither the command line nor an
-   options file has set them. Nobody knows all options beforehand, so a misspelt one shows by not having been asked
-   for in the end.
-*/
+/* solver: PETSc options, as a mapping. They are set while the scene exists, unless the command line or an options file
+   has set them. All options are not known beforehand, so a misspelt one is found at the end, because nothing has used
+   it. */
 #include "sectionsimpl.h"
 
 #define SOLVER_PREFIX "solver_"
@@ -103,8 +101,8 @@ PetscErrorCode SceneReportUnusedOptions(MPI_Comm comm, Scene scene)
     PetscCall(PetscOptionsUsed(NULL, option->name, &used));
     if (!used)
       PetscCall(PetscFPrintf(comm, stderr,
-        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or of a solver that "
-        "did not run\n",
+        "contact: warning: scene \"%s\": nothing uses the option \"%s\" of solver; it is misspelt, or belongs to a "
+        "solver that did not run\n",
         scene->name, option->name));
   }
   PetscFunctionReturn(0);

@@ -61,7 +61,7 @@ PetscErrorCode SceneValidateTies(MPI_Comm comm, const char file[], Scene scene)
     PetscCheck(strcmp(tie->mortar, tie->nonmortar), comm, PETSC_ERR_USER_INPUT,
       "%s: tie \"%s\" has the same face \"%s\" on both sides", file, tie->name, tie->mortar);
     PetscCheck(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
-      "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar one; exchange the two", file, tie->name,
+      "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar face; swap the two", file, tie->name,
       scene->bodies[nonmortar].name);
   }
   PetscFunctionReturn(0);

@@ -1,0 +1,89 @@
+"""Draws 20 sentences of pages, 20 comments and 20 messages at random: sample.py SEED"""
+import glob
+import os
+import random
+import re
+import sys
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SOURCES = ("apps", "include", "pc_amgf", "tao_ipfilter", "src")
+NUMBER = 20
+WORDS = 5  # fewer make no sentence
+
+
+def text(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def sources():
+    for folder in SOURCES:
+        for path in sorted(glob.glob(os.path.join(TOP, folder, "**", "*.[ch]"), recursive=True)):
+            yield os.path.relpath(path, TOP), text(path)
+
+
+def place(path, content, offset):
+    return f"{path}:{content.count(chr(10), 0, offset) + 1}"
+
+
+def sentences_of(prose):
+    """Sentences, each with where it begins"""
+    for match in re.finditer(r"\S.*?(?:[.:?!](?=\s|$)|\n\s*\n|$)", prose, flags=re.S):
+        sentence = " ".join(match[0].split())
+        if len(sentence.split()) >= WORDS:
+            yield match.start(), sentence
+
+
+def blank(match):
+    """As many lines without text"""
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def pages():
+    names = glob.glob(os.path.join(TOP, "*.md")) + glob.glob(os.path.join(TOP, "share", "*", "*.md"))
+    for name in sorted(names + [os.path.join(TOP, "tests", "README.md")]):
+        path, content = os.path.relpath(name, TOP), text(name)
+        if "changelog" in path or path.startswith("share/bench"):
+            continue
+        prose = re.sub(r"^(    |\||#|!\[|- \[).*$", blank, content, flags=re.M)
+        prose = re.sub(r"^```.*?^```", blank, prose, flags=re.S | re.M)
+        for offset, sentence in sentences_of(prose):
+            yield place(path, content, offset), sentence
+        for row in re.finditer(r"^\|(.*)\|$", content, flags=re.M):
+            cells = [cell.strip() for cell in row[1].split("|")]
+            if max(len(cell.split()) for cell in cells) >= 2 * WORDS:
+                yield place(path, content, row.start()), " | ".join(cells)
+
+
+def comments():
+    for path, content in sources():
+        for match in re.finditer(r"/\*(.*?)\*/", content, flags=re.S):
+            if match[1].startswith("@"):
+                continue  # manual pages have their own form
+            prose = re.sub(r"^\s*\*? ?", "", match[1], flags=re.M)
+            if len(prose.split()) >= WORDS:
+                yield place(path, content, match.start()), " ".join(prose.split())
+
+
+def messages():
+    calls = r"(?:PetscCheck|SETERRQ|PetscInfo|\w*[Pp]rintf|\w*Warn\w*|\w*Fail\w*|\w*Say\w*|\w*Reason\w*|PetscOptions\w+)"
+    for path, content in sources():
+        for match in re.finditer(calls + r"\s*\((.*?)\);", content, flags=re.S):
+            call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt_FMT\s*"', "d", match[1]))
+            for piece in re.findall(r'"((?:[^"\\]|\\.)*)"', call):
+                if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and not piece.startswith("-"):
+                    yield place(path, content, match.start()), piece
+
+
+def main():
+    generator = random.Random(sys.argv[1])
+    print("seed", sys.argv[1])
+    for name, kind in (("pages", pages), ("comments", comments), ("messages", messages)):
+        found = list(dict.fromkeys(kind()))
+        print(f"\n{name}, {NUMBER} of {len(found)}")
+        for where, sentence in sorted(generator.sample(found, min(NUMBER, len(found)))):
+            print(f"  {where}\n    {sentence}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+# Tractions and forces on faces, springs and weak springs against closed forms and statics, on one rank and on three.
+contact=$AMGF_DIR/bin/contact
+"$PYTHON" "$AMGF_DIR/tests/constraints/supports.py" write
+for scene in pull twist bed float pins edges stack soft pad pads; do
+  "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
+done
+"$PYTHON" "$AMGF_DIR/tests/constraints/supports.py" judge
+for scene in float stack; do
+  sed '/weak_springs/d' $scene.yaml > loose.yaml
+  "$contact" loose.yaml -quiet 2>&1
+done
+# Loads that nothing but weak springs carries; a stack so soft that it slides apart, whichever of its bodies is seen first
+{ sed '/pressures:/,/probes:/d; /point/d' float.yaml && printf 'body_forces:\n  - weight: {value: [0, 0, -1]}\n'; } > drop.yaml
+sed 's/young: 100/young: 5/' soft.yaml > slide.yaml
+for scene in drop slide; do
+  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/springs carry .*;/springs carry ...;/; s/by .* long/by .../; s/body "\(top\|middle\)"/a body of the stack/'
+  echo "exit code ${PIPESTATUS[0]}"
+done
+# Squeezed out between larger blocks, which a little friction prevents
+sed 's/nonmortar: .*zm[a-z]*/&, friction: 0.1/' squeezed.yaml > rubbed.yaml
+for scene in squeezed rubbed; do
+  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/by .* long/by .../'
+  echo "exit code ${PIPESTATUS[0]}"
+done
+sed 's/point: \[1, 0, 0\]/point: [0.9, 0.1, 0]/' pins.yaml > beside.yaml
+"$contact" beside.yaml -quiet 2>&1
+sed '/  - c: /d' pins.yaml > two.yaml
+"$contact" two.yaml -quiet 2>&1
+"$contact" pull.yaml -quiet -effects_view | grep -E '^(traction|springs|weak springs)' | cut -c1-24 | sed 's/ *$//'
+try() {
+  sed "$1" pad.yaml > tried.yaml
+  "$contact" tried.yaml -quiet 2>&1
+  echo "exit code $?"
+}
+"$contact" pad.yaml -scene_check | grep '  springs'
+try 's/distance: 0.3/distance: 0.1/'
+try 's/distance: 0.3/distance: -1/'
+try 's/to: low.zmax, //'
+try 's/to: low.zmax/to: low.zmx/'
+try 's/to: low.zmax/to: top.zmin/'
+try 's/to: low.zmax/onto: low.zmax/'
+try 's/4, 4, 20/0, 4, 20/'
+try 's/4, 4, 20/4, 4, inf/'
+try 's/^springs:/cyclic: {low: low.xmin, high: low.ymin, axis: z}\n&/'
+# Many bodies on one another, each held by the one below; one of them, in the midst, along one axis by nothing
+pile() {
+  echo "bodies:"
+  for i in $(seq 60); do echo "  - b$i: {lower: [0, 0, $((i - 1))], upper: [1, 1, $i], cells: [1, 1, 1], young: 1, poisson: 0.3}"; done
+  printf 'displacements:\n  - foot: {face: b1.zmin, value: [0, 0, 0]}\ncontact:\n'
+  for i in $(seq 59); do echo "  - p$i: {mortar: b$i.zmax, nonmortar: b$((i + 1)).zmin, friction: 0.3}"; done
+}
+pile > pile.yaml
+sed 's/b40.zmin, friction: 0.3/b40.zmin/; s/b41.zmin, friction: 0.3/b41.zmin/' pile.yaml > slips.yaml
+for scene in pile slips; do # seconds of the processor: far more than it takes
+  (ulimit -t 2 && "$contact" $scene.yaml -scene_check > /dev/null 2> err)
+  echo "$scene: exit code $? $(cat err)"
+done
+# More keys than a scene may have
+for i in $(seq 200); do echo "  - more$i: {body: b1, point: [0, 0, 0], value: [0, 0, 0]}"; done > more.yaml
+sed '/foot:/r more.yaml' pile.yaml > many.yaml
+"$contact" many.yaml -scene_check 2>&1 || echo "exit code $?"

@@ -1,0 +1,13 @@
+# What is shown of a contact whose nonmortar side is finer and stiffer than the facets of the mortar side under it, and how
+# deep vertices are in the other body where the nonmortar side is the coarser one, on one rank and on three.
+# coarse_mortar.py has the scenes, and holds their summaries and fields against each other.
+contact=$AMGF_DIR/bin/contact
+"$PYTHON" "$AMGF_DIR/tests/contact/coarse_mortar.py" write
+for scene in *.yaml; do
+  name=${scene%.yaml}
+  "$contact" "$scene" -quiet -output "$name" -summary "$name.json" 2> "$name.log" || echo "$name: exit code $?"
+done
+for name in stiff rubs mean; do
+  mpiexec --oversubscribe -n 3 "$contact" $name.yaml -quiet -output ${name}_3 -summary ${name}_3.json 2> "${name}_3.log" || echo "$name, three ranks: exit code $?"
+done
+"$PYTHON" "$AMGF_DIR/tests/contact/coarse_mortar.py" judge

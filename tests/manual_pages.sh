@@ -1,2 +1,0 @@
-# Every option of the plugin stands on a manual page, and every option on a page is asked for.
-"${PYTHON:-python3}" "$AMGF_DIR/tests/manual_pages.py" "$AMGF_DIR"

@@ -1,0 +1,38 @@
+# Pictures of a run, without a display: bodies in front hide those behind, bodies are named, contact fields colour only the
+# faces of contact pairs, a status has one colour, and errors say what there is.
+unset DISPLAY
+cat > boxes.yaml <<'YAML'
+problem: boxes
+units: mm, N, MPa
+bodies:
+  - base: {lower: [0, 0, 0], upper: [10, 10, 4], cells: [4, 4, 2], young: 1000, poisson: 0.3}
+  - punch: {lower: [2, 2, 4], upper: [8, 8, 8], cells: [3, 3, 2], young: 1000, poisson: 0.3}
+displacements:
+  - ground: {face: base.zmin, value: [0, 0, 0]}
+  - press: {face: punch.zmax, value: [0, 0, -0.1]}
+contact:
+  - pair: {mortar: base.zmax, nonmortar: punch.zmin}
+load: {steps: 2}
+YAML
+"$AMGF_DIR/bin/contact" boxes.yaml -quiet -output boxes || echo "exit code $?"
+draw() { "$PYTHON" -B "$AMGF_DIR/share/plot/draw.py" "$@"; }
+
+draw boxes bodies.png --field body
+draw boxes below.png --field body --view -90 0
+draw boxes above.png --field body --view 90 0 --only punch
+draw boxes one.png --field body --only base --step 1
+draw boxes cut.png --field body --hide 'z>4'
+draw boxes status.png --field contact_status --only base --view 40 -60 --scale auto
+draw boxes pressure.png --field contact_pressure --only punch --view -40 -60 --mirror x
+draw boxes stress.png --field stress_zz --around-contact 2 --title "Two boxes"
+PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/output/pictures.py" bodies.png=base,punch \
+  below.png=base,-punch above.png=punch,-base one.png=base,-punch cut.png=base,-punch status.png=closed,grey pressure.png=grey,high stress.png=high
+
+for refused in "--step 7" "--only base,lid" "--only 2" "--field heat" "--field stress" "--hide y" "--scale big" "--hide z>-1"; do
+  # shellcheck disable=SC2086
+  draw boxes no.png $refused 2>&1 && echo "$refused: drawn"
+done
+draw nothing no.png 2>&1 || ls no.png 2> /dev/null
+PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B -c 'from run_files import Run
+for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density"):
+    print(field, Run("boxes").unit(field))'

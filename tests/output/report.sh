@@ -1,0 +1,42 @@
+# contact -report: one page of a run, from the tree and from an installed copy, on one rank and on two; of a run that fails, whose exit code stays; and what is
+# said where a module or the script is missing
+contact=$AMGF_DIR/bin/contact
+cat > boxes.yaml <<'YAML'
+problem: boxes & <others>
+units: mm, N, MPa
+bodies:
+  - base: {lower: [0, 0, 0], upper: [10, 10, 4], cells: [4, 4, 2], young: 1000, poisson: 0.3}
+  - punch: {lower: [2, 2, 4], upper: [8, 8, 8], cells: [3, 3, 2], young: 1000, poisson: 0.3}
+displacements:
+  - ground: {face: base.zmin, value: [0, 0, 0]}
+  - press: {face: punch.zmax, value: [0, 0, -0.1]}
+contact:
+  - pair: {mortar: base.zmax, nonmortar: punch.zmin}
+load: {steps: 2}
+YAML
+judge() { "$PYTHON" -B "$AMGF_DIR/tests/output/report.py" "$@"; }
+
+"$contact" boxes.yaml -quiet -report one.html || echo "exit code $?"
+judge one 4
+mkdir -p installed/bin installed/share/amgf
+cp "$contact" installed/bin
+cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/report" installed/share/amgf
+LD_LIBRARY_PATH=$AMGF_DIR/lib mpiexec --oversubscribe -n 2 installed/bin/contact boxes.yaml -quiet -load_steps 1 -report two.html -output fields -summary two.json || echo "exit code $?"
+judge two 3
+ls fields.xmf two.xmf 2> /dev/null
+
+sed 's/-0.1\]/-9]/' boxes.yaml > crushed.yaml
+"$contact" crushed.yaml -quiet -report crushed.html > out 2> err
+echo "crushed: exit code $?, the summary's $("$PYTHON" -c 'import json; print(json.load(open("crushed.json"))["exit_code"])')"
+judge crushed 3
+
+"$contact" boxes.yaml -quiet -report page.txt 2>&1; echo "exit code $?"
+mkdir less && cat > less/sitecustomize.py <<'PY'
+import importlib.util as util
+find = util.find_spec
+util.find_spec = lambda name, *more: None if name == "vtkmodules" else find(name, *more)
+PY
+PYTHONPATH=less "$contact" boxes.yaml -quiet -report less.html 2>&1 | sed "s|at [^ ]*python3[0-9.]*|at PYTHON|"
+ls less.h5 2> /dev/null
+rm -r installed/share
+LD_LIBRARY_PATH=$AMGF_DIR/lib installed/bin/contact boxes.yaml -quiet -report bare.html 2>&1; echo "exit code $?"

@@ -1,0 +1,22 @@
+# The two-block benchmark on mesh 1: the published configuration against the published figures, the defaults against it,
+# the same answer on any number of ranks. Figures and tolerances are in two_block.py.
+contact=$AMGF_DIR/bin/contact
+scene=$AMGF_DIR/share/scenes/two_block.yaml
+published=$AMGF_DIR/share/options/published.opts
+
+run() {
+  name=$1
+  ranks=$2
+  shift 2
+  launch=()
+  [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
+  timeout 1200 "${launch[@]}" "$contact" "$scene" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
+}
+
+run published 1 -contact_free -options_file "$published"
+# the same method with every system solved by MUMPS
+run exact 1 -options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_subspace false -tao_ipfilter_tol 1e-9
+for ranks in 1 2 3 5; do run "default_$ranks" "$ranks"; done
+# without the filter, the last Newton systems need more iterations than the bound allows
+run amg 1 -load_steps 1 -refine 0 -options_file "$published" -tao_ipfilter_pc_type hypre -tao_ipfilter_ksp_max_it 10000
+"$PYTHON" "$AMGF_DIR/tests/step/two_block.py"

@@ -1,0 +1,590 @@
+static char help[] = "TAO's own calls on a TAOIPFILTER: convergence tests, tolerances, multipliers, warm starts, rows "
+                     "with two bounds.\n\n";
+
+#include "ipfilter_problem.h"
+#include "../lib/attempt.h"
+#include <petsccompat.h>
+
+/* min sum (x_i - x_{i-1})^2 / 2 + x_i^2 / 2 - b_i x_i of n unknowns, subject to rows x_i + x_{i+1} within [l_i, u_i],
+   to the sum of all x_i = total, and to bounds */
+typedef struct {
+  QuadraticProgram q; /* J: the rows; g: 0 */
+  Mat              sum;
+  Vec              total, lower, upper, row_lower, row_upper;
+  PetscInt         n, stop_at, ntests;
+} Chain;
+
+static PetscErrorCode TotalConstraint(Tao tao, Vec x, Vec c, void *user)
+{
+  Chain *chain = (Chain *)user;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  PetscCall(MatMult(chain->sum, x, c));
+  PetscCall(VecAXPY(c, -1.0, chain->total));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FillVec(Vec v, PetscReal even, PetscReal odd)
+{
+  PetscInt lo, hi;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecGetOwnershipRange(v, &lo, &hi));
+  for (PetscInt i = lo; i < hi; i++) PetscCall(VecSetValue(v, i, i % 2 ? odd : even, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(v));
+  PetscCall(VecAssemblyEnd(v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CreateChain(PetscInt n, Chain *chain)
+{
+  PetscInt lo, hi, local;
+
+  PetscFunctionBeginUser;
+  *chain = (Chain){.n = n, .stop_at = -1};
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, n, &chain->q.b));
+  PetscCall(FillVec(chain->q.b, 2.0, -1.0));
+  PetscCall(VecDuplicate(chain->q.b, &chain->lower));
+  PetscCall(VecDuplicate(chain->q.b, &chain->upper));
+  PetscCall(VecGetOwnershipRange(chain->q.b, &lo, &hi));
+  local = hi - lo;
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, local, local, n, n, 3, NULL, 2, NULL, &chain->q.H));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, local, n - 1, n, 2, NULL, 2, NULL, &chain->q.J));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, local, 1, n, local, NULL, n - local, NULL, &chain->sum));
+  for (PetscInt i = lo; i < hi; i++) {
+    const PetscScalar v[3] = {i == n - 1 ? 2.0 : 3.0, -1.0, 1.0};
+    const PetscInt    next = i + 1, before = i - 1;
+
+    PetscCall(MatSetValue(chain->q.H, i, i, i ? v[0] : v[0] - 1.0, INSERT_VALUES));
+    if (i) PetscCall(MatSetValues(chain->q.H, 1, &i, 1, &before, &v[1], INSERT_VALUES));
+    if (i < n - 1) PetscCall(MatSetValues(chain->q.H, 1, &i, 1, &next, &v[1], INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(chain->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(chain->q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatGetOwnershipRange(chain->q.J, &lo, &hi));
+  for (PetscInt r = lo; r < hi; r++) {
+    const PetscInt    cols[2] = {r, r + 1};
+    const PetscScalar v[2]    = {1.0, 1.0};
+
+    PetscCall(MatSetValues(chain->q.J, 1, &r, 2, cols, v, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(chain->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(chain->q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatGetOwnershipRange(chain->sum, &lo, &hi));
+  for (PetscInt j = 0; j < n && lo < hi; j++) PetscCall(MatSetValue(chain->sum, 0, j, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(chain->sum, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(chain->sum, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatCreateVecs(chain->q.J, NULL, &chain->q.g));
+  PetscCall(VecSet(chain->q.g, 0.0));
+  PetscCall(VecDuplicate(chain->q.g, &chain->row_lower));
+  PetscCall(VecDuplicate(chain->q.g, &chain->row_upper));
+  PetscCall(MatCreateVecs(chain->sum, NULL, &chain->total));
+  PetscCall(VecSet(chain->total, 0.7 * n));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DestroyChain(Chain *chain)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ProblemDestroy(&chain->q));
+  PetscCall(MatDestroy(&chain->sum));
+  PetscCall(VecDestroy(&chain->total));
+  PetscCall(VecDestroy(&chain->lower));
+  PetscCall(VecDestroy(&chain->upper));
+  PetscCall(VecDestroy(&chain->row_lower));
+  PetscCall(VecDestroy(&chain->row_upper));
+  PetscFunctionReturn(0);
+}
+
+/* A solver with what of the constraints is asked for */
+static PetscErrorCode CreateChainSolver(Chain *chain, PetscBool rows, PetscBool total, PetscBool bounds, Vec x,
+  Tao *tao)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, tao));
+  PetscCall(TaoSetType(*tao, TAOIPFILTER));
+  PetscCall(TaoSetSolution(*tao, x));
+  PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, ProblemObjectiveAndGradient, &chain->q));
+  PetscCall(TaoSetHessian(*tao, chain->q.H, chain->q.H, ProblemConstant, NULL));
+  if (rows) {
+    Vec c;
+
+    PetscCall(VecDuplicate(chain->q.g, &c));
+    PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, ProblemConstraints, &chain->q));
+    PetscCall(TaoSetJacobianInequalityRoutine(*tao, chain->q.J, chain->q.J, ProblemConstant, NULL));
+    PetscCall(VecDestroy(&c));
+  }
+  if (total) {
+    Vec ce;
+
+    PetscCall(VecDuplicate(chain->total, &ce));
+    PetscCall(TaoSetEqualityConstraintsRoutine(*tao, ce, TotalConstraint, chain));
+    PetscCall(TaoSetJacobianEqualityRoutine(*tao, chain->sum, chain->sum, ProblemConstant, NULL));
+    PetscCall(VecDestroy(&ce));
+  }
+  if (bounds) PetscCall(TaoSetVariableBounds(*tao, chain->lower, chain->upper));
+  PetscCall(TaoSetFromOptions(*tao));
+  PetscFunctionReturn(0);
+}
+
+/* Ends at the iteration asked for, and finds the multipliers and residuals of every iterate at hand */
+static PetscErrorCode StopAt(Tao tao, void *user)
+{
+  Chain    *chain = (Chain *)user;
+  PetscInt  its;
+  PetscReal f, residual, cnorm;
+
+  PetscFunctionBeginUser;
+  chain->ntests++;
+  PetscCall(TaoGetSolutionStatus(tao, &its, &f, &residual, &cnorm, NULL, NULL));
+  PetscCheck(residual > 0.0 && cnorm == 0.0, PETSC_COMM_WORLD, PETSC_ERR_PLIB,
+    "At iteration %" PetscInt_FMT " the test sees objective %g and residual %g", its, (double)f, (double)residual);
+  if (its == chain->stop_at) PetscCall(TaoSetConvergedReason(tao, TAO_CONVERGED_USER));
+  PetscFunctionReturn(0);
+}
+
+/* The same, and the default test */
+static PetscErrorCode StopAtOrConverge(Tao tao, void *user)
+{
+  PetscFunctionBeginUser;
+  ((Chain *)user)->ntests++;
+  PetscCall(TaoIPFilterDefaultConvergenceTest(tao, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TestConvergenceTests(void)
+{
+  PetscErrorCode (*const tests[3])(Tao, void *) = {StopAt, StopAtOrConverge, TaoDefaultConvergenceTest};
+  const char *const names[3] = {"a test that stops at iteration 3", "one that calls the default", "PETSc's"};
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3; k++) {
+    Chain              chain;
+    Tao                tao;
+    Vec                x;
+    PetscInt           its;
+    TaoConvergedReason reason;
+    PetscReal          error;
+
+    PetscCall(CreateChain(20, &chain));
+    chain.stop_at = 3;
+    PetscCall(VecSet(chain.lower, 0.2));
+    PetscCall(VecSet(chain.upper, PETSC_INFINITY));
+    PetscCall(VecDuplicate(chain.q.b, &x));
+    PetscCall(CreateChainSolver(&chain, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, x, &tao));
+    PetscCall(TaoSetConvergenceTest(tao, tests[k], &chain));
+    PetscCall(TaoSolve(tao));
+    PetscCall(TaoGetSolutionStatus(tao, &its, NULL, NULL, NULL, NULL, &reason));
+    PetscCall(TaoIPFilterGetKKTError(tao, &error, NULL));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s, %s\n", names[k], TaoConvergedReasons[reason],
+      k == 2 || chain.ntests == its + 1 ? "asked at every iterate" : "not asked at every iterate"));
+    if (k == 0 && its != 3) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %" PetscInt_FMT " iterations\n", its));
+    if (k) PetscCall(ProblemVerdict("  KKT error", error, k == 1 ? 1e-8 : 1e-6));
+    PetscCall(VecDestroy(&x));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(DestroyChain(&chain));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Multipliers of bounds: gradient = DL + DU, DL >= 0 >= DU, and zero where the bound is not reached */
+static PetscErrorCode TestBoundMultipliers(void)
+{
+  Chain     chain;
+  Tao       tao;
+  Vec       x, g, DL, DU, gap;
+  PetscReal norm, force, extreme;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(FillVec(chain.lower, PETSC_NINFINITY, 0.2));
+  PetscCall(FillVec(chain.upper, 0.5, PETSC_INFINITY));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecDuplicate(x, &g));
+  PetscCall(VecDuplicate(x, &DL));
+  PetscCall(VecDuplicate(x, &DU));
+  PetscCall(VecDuplicate(x, &gap));
+  PetscCall(CreateChainSolver(&chain, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, x, &tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoComputeDualVariables(tao, DL, DU));
+  PetscCall(MatMult(chain.q.H, x, g));
+  PetscCall(VecAXPY(g, -1.0, chain.q.b));
+  PetscCall(VecNorm(g, NORM_INFINITY, &force));
+  PetscCall(VecAXPY(g, -1.0, DL));
+  PetscCall(VecAXPY(g, -1.0, DU));
+  PetscCall(VecNorm(g, NORM_INFINITY, &norm));
+  PetscCall(ProblemVerdict("bounds: gradient less their multipliers, relative", norm / force, 1e-7));
+  PetscCall(VecMin(DL, NULL, &extreme));
+  PetscCall(VecMax(DU, NULL, &norm));
+  PetscCall(ProblemVerdict("bounds: wrong sign of a multiplier", PetscMax(-extreme, norm), 0.0));
+  PetscCall(VecMax(DL, NULL, &extreme));
+  PetscCall(VecMin(DU, NULL, &norm));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "bounds of both kinds press: %s\n", extreme > 0.1 && norm < -0.1 ? "yes" : "no"));
+  PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&g));
+  PetscCall(VecDestroy(&DL));
+  PetscCall(VecDestroy(&DU));
+  PetscCall(VecDestroy(&gap));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* The multipliers of a solved problem into the solver of the same problem, by the public calls */
+static PetscErrorCode CopyMultipliers(Tao from, Tao to, PetscBool rows, PetscBool total, PetscBool bounds)
+{
+  Vec s, z, DE, DL, DU, x;
+
+  PetscFunctionBeginUser;
+  if (rows) {
+    PetscCall(TaoIPFilterGetSlack(from, &s));
+    PetscCall(TaoIPFilterGetMultiplier(from, &z));
+    PetscCall(TaoIPFilterSetWarmStart(to, s, z));
+  }
+  if (total) {
+    PetscCall(TaoGetDualVariables(from, &DE, NULL));
+    PetscCall(TaoIPFilterSetWarmStartEquality(to, DE));
+  }
+  if (bounds) {
+    PetscCall(TaoGetSolution(from, &x));
+    PetscCall(VecDuplicate(x, &DL));
+    PetscCall(VecDuplicate(x, &DU));
+    PetscCall(TaoComputeDualVariables(from, DL, DU));
+    PetscCall(TaoIPFilterSetWarmStartBounds(to, DL, DU));
+    PetscCall(VecDestroy(&DL));
+    PetscCall(VecDestroy(&DU));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A solved problem from its own solution, in a new solver: no or one iteration; then with the load changed a little,
+   fewer than from cold */
+static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool bounds)
+{
+  Chain              chain;
+  Tao                first, again;
+  Vec                x, y;
+  PetscInt           its[3];
+  PetscReal          f[2];
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(40, &chain));
+  PetscCall(FillVec(chain.lower, PETSC_NINFINITY, -0.1));
+  PetscCall(FillVec(chain.upper, 0.5, PETSC_INFINITY));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecDuplicate(chain.q.b, &y));
+  PetscCall(CreateChainSolver(&chain, rows, total, bounds, x, &first));
+  PetscCall(TaoSolve(first));
+  PetscCall(TaoGetSolutionStatus(first, &its[0], &f[0], NULL, NULL, NULL, NULL));
+  PetscCall(VecCopy(x, y));
+  PetscCall(CreateChainSolver(&chain, rows, total, bounds, y, &again));
+  PetscCall(CopyMultipliers(first, again, rows, total, bounds));
+  PetscCall(TaoSolve(again));
+  PetscCall(TaoGetSolutionStatus(again, &its[1], &f[1], NULL, NULL, NULL, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? ", rows" : "", total ? ", equality" : "",
+    bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
+  if (its[1] <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "  from the solution: %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n", its[1], its[0]));
+  PetscCall(
+    ProblemVerdict("  change of the objective, relative", PetscAbsReal(f[1] - f[0]) / PetscAbsReal(f[0]), 1e-7));
+  PetscCall(VecScale(chain.q.b, 1.001));
+  PetscCall(VecCopy(x, y));
+  PetscCall(CopyMultipliers(first, again, rows, total, bounds));
+  PetscCall(TaoSolve(again));
+  PetscCall(TaoGetSolutionStatus(again, &its[2], NULL, NULL, NULL, NULL, &reason));
+  if (reason > 0 && its[2] <= its[0])
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  another load: no more iterations than from zero\n"));
+  else
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "  another load: %s, %" PetscInt_FMT " iterations, %" PetscInt_FMT " from zero\n",
+        TaoConvergedReasons[reason], its[2], its[0]));
+  PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&y));
+  PetscCall(TaoDestroy(&first));
+  PetscCall(TaoDestroy(&again));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* |x|^2 - 100 n = 0 */
+static PetscErrorCode SphereConstraint(Tao tao, Vec x, Vec c, void *user)
+{
+  PetscReal norm;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  PetscCall(VecNorm(x, NORM_2, &norm));
+  PetscCall(VecSet(c, norm * norm - 100.0 * ((Chain *)user)->n));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SphereJacobian(Tao tao, Vec x, Mat J, Mat pre, void *user)
+{
+  Vec         twice;
+  PetscScalar one = 1.0;
+  PetscInt    lo, hi;
+
+  PetscFunctionBeginUser;
+  (void)tao;
+  (void)pre;
+  PetscCall(VecDuplicate(x, &twice));
+  PetscCall(VecAXPBY(twice, 2.0, 0.0, x));
+  PetscCall(MatGetOwnershipRange(J, &lo, &hi));
+  for (PetscInt j = 0; j < ((Chain *)user)->n && lo < hi; j++)
+    PetscCall(MatSetValues(J, 1, &lo, 1, &j, &one, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatDiagonalScale(J, NULL, twice));
+  PetscCall(VecDestroy(&twice));
+  PetscFunctionReturn(0);
+}
+
+/* H + 2 DE I */
+static PetscErrorCode SphereHessian(Tao tao, Vec x, Mat H, Mat pre, void *user)
+{
+  Vec         DE;
+  PetscScalar y;
+
+  PetscFunctionBeginUser;
+  (void)x;
+  (void)pre;
+  PetscCall(TaoGetDualVariables(tao, &DE, NULL));
+  PetscCall(VecSum(DE, &y));
+  PetscCall(MatCopy(((Chain *)user)->q.H, H, SAME_NONZERO_PATTERN));
+  PetscCall(MatShift(H, 2.0 * y));
+  PetscFunctionReturn(0);
+}
+
+/* Whether what -tao_view prints holds the text */
+static PetscErrorCode FindInView(Tao tao, const char what[], PetscBool *found)
+{
+  PetscViewer viewer;
+  char        line[512];
+  FILE       *file;
+
+  PetscFunctionBeginUser;
+  *found = PETSC_FALSE;
+  PetscCall(PetscViewerASCIIOpen(PETSC_COMM_WORLD, "ipfilter_calls.view", &viewer));
+  PetscCall(TaoView(tao, viewer));
+  PetscCall(PetscViewerDestroy(&viewer));
+  PetscCall(PetscFOpen(PETSC_COMM_WORLD, "ipfilter_calls.view", "r", &file));
+  while (file && fgets(line, sizeof(line), file)) *found = (PetscBool)(*found || strstr(line, what));
+  PetscCall(PetscFClose(PETSC_COMM_WORLD, file));
+  PetscCallMPI(MPI_Bcast(found, 1, MPI_PETSCBOOL, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* A loose tolerance for all, and a tight one for the constraints: absolute, then relative, then none */
+static PetscErrorCode TestConstraintTolerances(void)
+{
+  const PetscReal   catol[3] = {1e-7, PETSC_DEFAULT, PETSC_DEFAULT}, crtol[3] = {PETSC_DEFAULT, 1e-10, PETSC_DEFAULT};
+  const char *const names[3] = {"catol 1e-07", "crtol 1e-10", "neither"};
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3; k++) {
+    Chain     chain;
+    Tao       tao;
+    Mat       H;
+    Vec       x, c;
+    PetscReal violation;
+    PetscBool said;
+
+    PetscCall(CreateChain(20, &chain));
+    PetscCall(VecDuplicate(chain.q.b, &x));
+    PetscCall(VecSet(x, 7.0));
+    PetscCall(CreateChainSolver(&chain, PETSC_FALSE, PETSC_TRUE, PETSC_FALSE, x, &tao));
+    PetscCall(VecDuplicate(chain.total, &c));
+    PetscCall(MatDuplicate(chain.q.H, MAT_COPY_VALUES, &H));
+    PetscCall(TaoSetHessian(tao, H, H, SphereHessian, &chain));
+    PetscCall(TaoSetEqualityConstraintsRoutine(tao, c, SphereConstraint, &chain));
+    PetscCall(TaoSetJacobianEqualityRoutine(tao, chain.sum, chain.sum, SphereJacobian, &chain));
+    PetscCall(TaoSetTolerances(tao, 1e-2, PETSC_DEFAULT, PETSC_DEFAULT));
+    PetscCall(TaoSetConstraintTolerances(tao, catol[k], crtol[k]));
+    PetscCall(TaoSolve(tao));
+    PetscCall(SphereConstraint(tao, x, c, &chain));
+    PetscCall(VecNorm(c, NORM_INFINITY, &violation));
+    PetscCall(FindInView(tao, names[k], &said));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "constraints, %s: violation %s, %s\n", names[k],
+      violation <= 1e-7 ? "within 1e-7" : "above", said ? "and it is said" : "of which nothing is said"));
+    PetscCall(MatDestroy(&H));
+    PetscCall(VecDestroy(&c));
+    PetscCall(VecDestroy(&x));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(DestroyChain(&chain));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Bounds of row r by its kind: two sides, an upper one, a lower one, equal ones, none; shift moves them */
+static PetscErrorCode FillSides(Chain *chain, PetscInt kinds, PetscReal shift)
+{
+  const PetscReal lower[5] = {0.9, PETSC_NINFINITY, 1.3, 0.7, PETSC_NINFINITY},
+                  upper[5] = {1.0, 0.8, PETSC_INFINITY, 0.7, PETSC_INFINITY};
+  PetscInt lo, hi;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecGetOwnershipRange(chain->row_lower, &lo, &hi));
+  for (PetscInt r = lo; r < hi; r++) {
+    PetscCall(VecSetValue(chain->row_lower, r, lower[r % kinds] + shift, INSERT_VALUES));
+    PetscCall(VecSetValue(chain->row_upper, r, upper[r % kinds] + shift, INSERT_VALUES));
+  }
+  PetscCall(VecAssemblyBegin(chain->row_lower));
+  PetscCall(VecAssemblyEnd(chain->row_lower));
+  PetscCall(VecAssemblyBegin(chain->row_upper));
+  PetscCall(VecAssemblyEnd(chain->row_upper));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation of the sides, and product of a row's multiplier with the distance from the side that it presses
+   on */
+static PetscErrorCode MeasureSides(Chain *chain, Vec c, Vec DI, PetscReal measures[2])
+{
+  const PetscScalar *v, *d, *l, *u;
+  PetscInt           n;
+
+  PetscFunctionBeginUser;
+  measures[0] = measures[1] = 0.0;
+  PetscCall(VecGetLocalSize(c, &n));
+  PetscCall(VecGetArrayRead(c, &v));
+  PetscCall(VecGetArrayRead(DI, &d));
+  PetscCall(VecGetArrayRead(chain->row_lower, &l));
+  PetscCall(VecGetArrayRead(chain->row_upper, &u));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal distance = PetscMin(1.0, PetscRealPart(d[i] > 0.0 ? v[i] - l[i] : u[i] - v[i]));
+
+    measures[0] = PetscMax(measures[0], PetscMax(PetscRealPart(l[i] - v[i]), PetscRealPart(v[i] - u[i])));
+    measures[1] = PetscMax(measures[1], PetscAbsScalar(d[i] * distance));
+  }
+  PetscCall(VecRestoreArrayRead(chain->row_upper, &u));
+  PetscCall(VecRestoreArrayRead(chain->row_lower, &l));
+  PetscCall(VecRestoreArrayRead(DI, &d));
+  PetscCall(VecRestoreArrayRead(c, &v));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, measures, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscFunctionReturn(0);
+}
+
+/* The optimality conditions of the chain with the sides as they are: balance of forces, sides, multipliers */
+static PetscErrorCode CheckSides(Tao tao, Chain *chain, Vec x)
+{
+  Vec                g, c, DI;
+  PetscReal          norm, measures[2];
+  TaoConvergedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", TaoConvergedReasons[reason]));
+  PetscCall(TaoGetDualVariables(tao, NULL, &DI));
+  PetscCall(VecDuplicate(x, &g));
+  PetscCall(VecDuplicate(DI, &c));
+  PetscCall(MatMult(chain->q.J, x, c));
+  PetscCall(MeasureSides(chain, c, DI, measures));
+  PetscCall(MatMult(chain->q.H, x, g));
+  PetscCall(VecAXPY(g, -1.0, chain->q.b));
+  PetscCall(VecScale(g, -1.0));
+  PetscCall(MatMultTransposeAdd(chain->q.J, DI, g, g));
+  PetscCall(VecNorm(g, NORM_INFINITY, &norm));
+  PetscCall(ProblemVerdict("  forces out of balance", norm, 1e-7));
+  PetscCall(ProblemVerdict("  violation", measures[0], 1e-8));
+  PetscCall(ProblemVerdict("  multiplier times distance", measures[1], 1e-7));
+  PetscCall(VecDestroy(&g));
+  PetscCall(VecDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/* Rows with bounds of all kinds, or of the first ones; then again from the solution, with other bounds, and with
+   bounds that are all equal */
+static PetscErrorCode TestSides(PetscInt kinds, const char name[])
+{
+  Chain    chain;
+  Tao      tao;
+  Vec      x;
+  PetscInt its;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(31, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(FillSides(&chain, kinds, 0.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "rows with %s\n", name));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(CopyMultipliers(tao, tao, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetIterationNumber(tao, &its));
+  if (its <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: %" PetscInt_FMT " iterations\n", its));
+  PetscCall(TaoIPFilterSetWarmStart(tao, NULL, NULL));
+  PetscCall(FillSides(&chain, kinds, 0.1));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(FillSides(&chain, 1, 0.05));
+  PetscCall(VecCopy(chain.row_lower, chain.row_upper));
+  PetscCall(TaoSolve(tao));
+  PetscCall(CheckSides(tao, &chain, x));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* A lower bound above its upper one */
+static PetscErrorCode TestCrossedSides(void)
+{
+  Chain          chain;
+  Tao            tao;
+  Vec            x;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(31, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecSet(chain.row_lower, 2.0));
+  PetscCall(VecSet(chain.row_upper, 1.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(AttemptBegin());
+  ierr = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks("crossed sides", ierr));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "crossed sides: %s\n", ierr ? attempt_sentence : "no error"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  PetscCall(TestConvergenceTests());
+  PetscCall(TestConstraintTolerances());
+  PetscCall(TestBoundMultipliers());
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
+  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_TRUE));
+  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_TRUE, PETSC_TRUE));
+  PetscCall(TestSides(1, "two sides"));
+  PetscCall(TestSides(2, "two sides or an upper one"));
+  PetscCall(TestSides(5, "bounds of all kinds"));
+  PetscCall(TestCrossedSides());
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      suffix: 1
+      nsize: {{1 2 3}}
+
+TEST*/

@@ -1,0 +1,344 @@
+static char help[] =
+  "Small problems whose solutions are known: Hock and Schittkowski's, degenerate, infeasible, unbounded, badly\n\
+scaled ones.\n\
+  -mode NAME        solver options by their name below, for which steps and evaluations are held\n\
+  -problems A,B     some problems only\n\
+  -relaxed          tell also whether the solver says that it has relaxed the constraints\n\
+  -print_counts     the rows of tests/tao_ipfilter/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts\n\
+them in place\n\n";
+
+#include "ipfilter_problem.h"
+#include "ipfilter_formulas.h"
+
+#define NMODES 5
+
+static const struct {
+  const char *name, *options, *skip; /* skip: ",the problems,that are not solved,"; why stands above them */
+} modes[NMODES] = {
+  {"default", "-tao_max_it 200", ""},
+  /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which
+     is stationary, and so does HS98 */
+  {"direct",
+    "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type "
+    "mumps",
+    ",bilinear2,HS98,"},
+  /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
+  {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", ",HS104,"},
+  /* differences know nothing of units as far apart as those of HS54 */
+  {"differences", "-tao_max_it 200 -hessian 0", ",HS54,"},
+  /* dense matrices, whose conversions drop zeros: the same path as in the first mode */
+  {"dense", "-tao_max_it 200 -dense_hessian -dense_jacobians", ""},
+};
+
+typedef struct {
+  PetscInt steps, evaluations;
+} Counts;
+
+/* What each problem takes in each mode: the most of one to three ranks */
+static const struct {
+  const char *name;
+  Counts      mode[NMODES];
+} expected[] = {
+#include "ipfilter_nlp_counts.inc"
+};
+
+/* Rounding decides which way this one goes, and one way is twice as long as another: its counts are not held */
+static const char erratic[] = "HS108";
+
+/* What another one may take: rounding differs from machine to machine */
+static PetscInt Limit(PetscInt count)
+{
+  return count + count / 4 + 3;
+}
+
+/* What came of it */
+typedef struct {
+  PetscBool          good; /* as the problem says it ends */
+  TaoConvergedReason reason;
+  const char        *sentence;
+  PetscReal          f, error, violation;
+  Counts             counts;
+} Outcome;
+
+/* Distance of f from an optimum, relative but for the smallest */
+static PetscReal RelativeError(PetscReal f, PetscReal optimum)
+{
+  const PetscReal size = PetscAbsReal(optimum);
+
+  return PetscAbsReal(f - optimum) / PetscMax(size, size > 0.0 ? PetscMin(1.0, 1e3 * size) : 1.0);
+}
+
+/* The least distance of f from the known minima */
+static PetscReal ObjectiveError(const NLP *p, PetscReal f)
+{
+  PetscReal   error = RelativeError(f, p->optimum);
+  const char *s     = p->others ? p->others : "";
+  char       *end;
+
+  for (PetscReal other = strtod(s, &end); end != s; s = end, other = strtod(s, &end))
+    error = PetscMin(error, RelativeError(f, other));
+  return error;
+}
+
+/* Without multipliers: no optimum, or one that is called acceptable; "converged" only where it is one */
+static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentence, PetscReal error, PetscReal violation)
+{
+  if (reason < 0) return (PetscBool)!strstr(sentence, "infeasible");
+  return (PetscBool)(violation < 1e-6 && error < (reason == TAO_CONVERGED_STEPTOL ? 1e-3 : 1e-6));
+}
+
+/* The known optimum at a feasible point; or it is said that there is none. Where the solver fails, what it returns
+   violates the constraints no more than the start did, by first. */
+static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Outcome *o)
+{
+  const NLP *p   = problem->formulas.p;
+  Tao        tao = problem->tao;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetSolutionStatus(tao, &o->counts.steps, &o->f, NULL, NULL, NULL, &o->reason));
+  PetscCall(TaoGetCurrentFunctionEvaluations(tao, &o->counts.evaluations));
+  PetscCall(TaoIPFilterGetReason(tao, &o->sentence));
+  PetscCall(FormulasViolation(problem, PETSC_FALSE, &o->violation));
+  o->error = ObjectiveError(p, o->f);
+  if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
+  else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
+  else if (p->end == NLP_REACHED)
+    o->good = (PetscBool)(o->reason > 0 && DegenerateIsGood(o->reason, o->sentence, o->error, o->violation));
+  else if (p->end == NLP_INFEASIBLE) o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "infeasible"));
+  else o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "unbounded"));
+  if (o->reason < 0 && o->violation > (1.0 + PETSC_SMALL) * first) o->good = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* The most that a problem may take in a mode, or anything where mode is negative */
+static PetscErrorCode GetLimits(const NLP *p, PetscInt mode, Counts *most)
+{
+  PetscBool same;
+
+  PetscFunctionBeginUser;
+  *most = (Counts){PETSC_MAX_INT, PETSC_MAX_INT};
+  PetscCall(PetscStrcmp(p->name, erratic, &same));
+  if (mode < 0 || same) PetscFunctionReturn(0);
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(expected) && !same; k++) {
+    *most = (Counts){Limit(expected[k].mode[mode].steps), Limit(expected[k].mode[mode].evaluations)};
+    PetscCall(PetscStrcmp(expected[k].name, p->name, &same));
+  }
+  PetscCheck(same, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%s has no counts: make -f tests/makefile nlp-counts", p->name);
+  PetscFunctionReturn(0);
+}
+
+/* mode: whose counts are held, or negative */
+static PetscErrorCode ReportVerdict(const NLP *p, PetscInt mode, const Outcome *o)
+{
+  static const char *const verdicts[] = {"solved", "nothing wrong", "said to be infeasible", "said to be unbounded",
+    "reached"};
+  Counts                   most;
+  PetscBool                relaxed = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(GetLimits(p, mode, &most));
+  if (!o->good)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: NOT AS EXPECTED: %s, objective %.9e, error %g, violation %g; %s\n",
+      p->name, TaoConvergedReasons[o->reason], (double)o->f, (double)o->error, (double)o->violation, o->sentence));
+  else if (o->counts.steps > most.steps || o->counts.evaluations > most.evaluations)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "%s: %s, IN MORE THAN %" PetscInt_FMT " steps or %" PetscInt_FMT " evaluations: %" PetscInt_FMT
+      " and %" PetscInt_FMT "\n",
+      p->name, verdicts[p->end], most.steps, most.evaluations, o->counts.steps, o->counts.evaluations));
+  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", p->name, verdicts[p->end]));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-relaxed", &relaxed, NULL));
+  if (relaxed)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  constraints said to be relaxed: %d\n",
+      strstr(o->sentence, "relaxed by") ? 1 : 0));
+  PetscFunctionReturn(0);
+}
+
+/* The problem stays: its solver has the sentence */
+static PetscErrorCode SolveAndJudge(MPI_Comm comm, const NLP *p, Outcome *outcome, FormulasProblem *problem)
+{
+  PetscReal first;
+
+  PetscFunctionBeginUser;
+  PetscCall(FormulasCreate(comm, p, problem));
+  PetscCall(FormulasViolation(problem, PETSC_FALSE, &first));
+  PetscCall(TaoSolve(problem->tao));
+  PetscCall(Judge(problem, first, outcome));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PushMode(PetscInt mode, PetscOptions *options)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsCreate(options));
+  PetscCall(PetscOptionsInsertString(*options, modes[mode].options));
+  PetscCall(PetscOptionsPush(*options));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PopMode(PetscOptions *options)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsPop());
+  PetscCall(PetscOptionsDestroy(options));
+  PetscFunctionReturn(0);
+}
+
+/* The most that a problem takes in a mode on the first rank, on the first two, and so on: with each, sums are rounded
+   in another way */
+static PetscErrorCode Measure(const NLP *p, PetscInt mode, Counts *most)
+{
+  PetscMPIInt  size, rank;
+  PetscOptions options;
+
+  PetscFunctionBeginUser;
+  *most = (Counts){0, 0};
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  PetscCall(PushMode(mode, &options));
+  for (PetscMPIInt n = 1; n <= size; n++) {
+    MPI_Comm        comm;
+    Outcome         outcome;
+    FormulasProblem problem;
+
+    PetscCallMPI(MPI_Comm_split(PETSC_COMM_WORLD, rank < n ? 0 : MPI_UNDEFINED, rank, &comm));
+    if (comm == MPI_COMM_NULL) continue;
+    PetscCall(SolveAndJudge(comm, p, &outcome, &problem));
+    PetscCall(FormulasDestroy(&problem));
+    PetscCallMPI(MPI_Comm_free(&comm));
+    most->steps       = PetscMax(most->steps, outcome.counts.steps);
+    most->evaluations = PetscMax(most->evaluations, outcome.counts.evaluations);
+  }
+  PetscCall(PopMode(&options));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PrintCounts(void)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+    "/* {steps, evaluations}; `make -f tests/makefile nlp-counts` makes this file anew.\n  "));
+  for (PetscInt mode = 0; mode < NMODES; mode++)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s%s", modes[mode].name, mode + 1 < NMODES ? "," : " */\n"));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  {\"%s\", {", problems[k].name));
+    for (PetscInt mode = 0; mode < NMODES; mode++) {
+      Counts most;
+
+      PetscCall(Measure(&problems[k], mode, &most));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s{%" PetscInt_FMT ", %" PetscInt_FMT "}", mode ? ", " : "", most.steps,
+        most.evaluations));
+    }
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "}},\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether a problem is to be solved: it is named, or none is and the mode does not skip it */
+static PetscErrorCode Wanted(const NLP *p, PetscInt mode, PetscInt nonly, char *const only[], PetscBool *wanted)
+{
+  PetscFunctionBeginUser;
+  *wanted = PETSC_FALSE;
+  for (PetscInt i = 0; i < nonly && !*wanted; i++) PetscCall(PetscStrcmp(only[i], p->name, wanted));
+  if (!nonly) {
+    char name[64];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), ",%s,", p->name));
+    *wanted = (PetscBool)(mode < 0 || !strstr(modes[mode].skip, name));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* mode: negative for the options of the command line */
+static PetscErrorCode SolveAll(PetscInt mode)
+{
+  char        *only[8];
+  PetscInt     nonly = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(only);
+  PetscOptions options;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetStringArray(NULL, NULL, "-problems", only, &nonly, NULL));
+  if (mode >= 0) PetscCall(PushMode(mode, &options));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
+    Outcome         outcome;
+    FormulasProblem problem;
+    PetscBool       wanted;
+
+    PetscCall(Wanted(&problems[k], mode, nonly, only, &wanted));
+    if (!wanted) continue;
+    PetscCall(SolveAndJudge(PETSC_COMM_WORLD, &problems[k], &outcome, &problem));
+    PetscCall(ReportVerdict(&problems[k], mode, &outcome));
+    PetscCall(FormulasDestroy(&problem));
+  }
+  if (mode >= 0) PetscCall(PopMode(&options));
+  for (PetscInt i = 0; i < nonly; i++) PetscCall(PetscFree(only[i]));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  const char *names[NMODES];
+  PetscInt    mode  = -1;
+  PetscBool   print = PETSC_FALSE, given;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  for (PetscInt i = 0; i < NMODES; i++) names[i] = modes[i].name;
+  PetscCall(PetscOptionsGetEList(NULL, NULL, "-mode", names, NMODES, &mode, &given));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-print_counts", &print, NULL));
+  if (print) PetscCall(PrintCounts());
+  else PetscCall(SolveAll(given ? mode : -1));
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      suffix: 1
+      nsize: {{1 2}}
+      args: -mode default
+
+   test:
+      suffix: direct
+      args: -mode direct
+
+   test:
+      suffix: monotone
+      args: -mode monotone
+
+   test:
+      suffix: differences
+      args: -mode differences
+
+   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line search
+   test:
+      suffix: no_direction
+      args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+
+   # constraints without an interior are relaxed by less than the tolerance, and the solver says so
+   test:
+      suffix: relaxed
+      args: -problems MPCC,HS35 -relaxed
+
+   # sizes taken from the gradients at the start, as IPOPT's
+   test:
+      suffix: gradient
+      args: -problems HS43,HS71,HS98,HS104,HS113,circles -tao_ipfilter_scaling gradient
+
+   # absolute limits hold where the tolerance does not ask for as much
+   test:
+      suffix: limits
+      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9 -tao_ipfilter_compl_inf_tol 1e-9
+
+   # c = x y - 1 has one nonzero in its Jacobian at the start, two later
+   test:
+      suffix: dense_jacobian
+      args: -problems hyperbola -dense_jacobians
+
+   test:
+      suffix: dense
+      nsize: {{1 2}}
+      args: -mode dense
+
+TEST*/
