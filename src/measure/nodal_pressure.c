@@ -48,10 +48,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscFunctionReturn(0);
 }
 
-/*
-   Over all facets: each vertex hands what it carries on to the better covered ones, out = their gains; carried NULL:
-   out = the sum of the areas it hands on to
-*/
+/* Over all facets: each vertex passes its value on to the better covered ones; out = what they gain. carried NULL: out
+   = the sum of the areas to which a vertex passes on */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
   Vec                local[3]; /* cover, carried, out */

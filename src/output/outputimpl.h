@@ -20,7 +20,7 @@ struct _n_Output {
   MPI_Comm comm;
   DM       dm;
   char    *base; /* of the file names */
-  int      lock; /* of the mesh's file, a descriptor */
+  int      lock; /* descriptor of the lock on the mesh's file */
   PetscInt nbodies;
   char   **bodynames;
   char    *units;  /* the scene's note; NULL: none */

@@ -2,7 +2,7 @@
    those at the contact of the last one */
 #include "runimpl.h"
 
-#define ADAPT_SHARE 0.8 /* of the squared error: refined cells keep a quarter of theirs, and all 0.4 */
+#define ADAPT_SHARE 0.8 /* share of the squared error that the refined cells hold; 0.4 of all remains */
 
 /*@C
    SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before

@@ -7,7 +7,7 @@
 #include "stepimpl.h"
 
 #define IP_RELAX_FIRST 1e-2 /* of the tolerance */
-#define IP_RELAX_LARGE 1e4  /* a multiplier of so many times what balances the objective's gradient is a large one */
+#define IP_RELAX_LARGE 1e4  /* a multiplier this many times that which balances the gradient is large */
 
 /* Moves slacks by r, and puts pairs back on the central path, because multipliers of vanishing slacks are useless */
 static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)

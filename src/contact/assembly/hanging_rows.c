@@ -129,7 +129,7 @@ PetscErrorCode ContactHangingRowsCreate(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Of what was added up, a value a row */
+/* Moves the sums of rows, one value a row, to their target rows */
 PetscErrorCode ContactHangingRowsVector(Contact contact, Vec sums)
 {
   Vec own;

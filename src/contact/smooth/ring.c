@@ -26,7 +26,7 @@ PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
   return 4 * (corner / 4) + (corner % 4 + n - 1) % n;
 }
 
-/* Whether it is the fourth of a triangle, which is none */
+/* Whether it is the fourth corner of a triangle, which does not exist */
 PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
 {
   return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));

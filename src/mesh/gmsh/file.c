@@ -110,7 +110,7 @@ static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt nu
   PetscFunctionReturn(0);
 }
 
-/* Of second order, unless its edges are straight all the same */
+/* Takes second-order cells, unless their edges are straight */
 static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
 {
   const PetscInt ncoordinates = grid->ncorners == 4 ? 30 : 81;

@@ -16,7 +16,7 @@ static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)
   entry->material.type = (MaterialType)type;
   if (type == MATERIAL_RIGID) {
     PetscCall(SceneKeysComplain(keys, "%s is rigid, which needs no entry: a body has material: rigid", key));
-    entry->material.type = MATERIAL_LINEAR; /* its constants are not the fault */
+    entry->material.type = MATERIAL_LINEAR; /* report this error, not its constants */
   }
   PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s", entry->name));
   PetscCall(SceneReadConstants(keys, key, PETSC_FALSE, &entry->material));
