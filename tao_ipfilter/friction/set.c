@@ -275,7 +275,8 @@ static PetscBool TermSetSticks(const IPTermSet *set)
   return sticks;
 }
 
-/* Newton's method, where it finds no end from the path's, but where terms stick with next to any force: a path has none */
+/* Newton's method from where we are, and where it finds no end from the end of a path. There is no path where terms
+   stick with next to any force. */
 static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
   PetscBool *solved)
 {
