@@ -270,16 +270,18 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
   PetscFunctionReturn(0);
 }
 
-/* Whether any term sticks with whatever force: its law is one of open and closed, not smooth in the force */
+/* Whether any term sticks with next to any force: its law is one of open and closed, not smooth in the force */
 static PetscBool TermSetSticks(const IPTermSet *set)
 {
-  PetscBool sticks = PETSC_FALSE;
+  const PetscReal large  = 100.0;
+  PetscBool       sticks = PETSC_FALSE;
 
-  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= PETSC_INFINITY);
+  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= large);
   return sticks;
 }
 
-/* Newton's method, where it finds no end from the path's, but where terms stick with whatever force: a path has none */
+/* Newton's method from where we are, and where it finds no end from the end of a path. There is no path where terms
+   stick with next to any force. */
 static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
   PetscBool *solved)
 {
