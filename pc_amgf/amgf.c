@@ -47,8 +47,8 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed operator; -1: never; 0 or `auto`: when
                                       the cost grows; the cycle `bfb` has the default 1
 .  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
-.  -amgf_amg_pc_type <hypre>        - the AMG, B; any symmetric `PC`, with all of its options under the prefix
-                                      `amgf_amg_`
+.  -amgf_amg_pc_type <blockamg>     - the AMG, B; any symmetric `PC`, with all of its options under the prefix
+                                      `amgf_amg_`; `hypre`: BoomerAMG with its own cycle
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the
                                       prefix `amgf_filter_`
 .  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
@@ -68,7 +68,8 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
 
    If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff
-   part, the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1.
+   part, the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1, to
+   the rounding errors of its precision.
    `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
 
    The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat`
@@ -76,13 +77,20 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B; where none was
    named or detected that is said once, unless `PCAMGFSetFilterOptional()`.
 
-   The default AMG is BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at most 4 entries
-   a row, no aggressive level, one sweep of l1 Gauss-Seidel, forward down and backward up, strength threshold 0.25, or
-   0.7 for block size 3; else `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate, and a
-   smoothed interpolation would make a B that is not Hermitian. The default filter solver is `KSPPREONLY` with
-   Cholesky, with complex scalars LU, by MUMPS, on the first few ranks where it is small (`PCAMGFSetFilterRanks()`);
-   if PETSc has none, by PETSc itself, on several ranks each for itself on the gathered matrix (`PCREDUNDANT`). What
-   the user sets wins.
+   The default AMG is that of hypre's BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at
+   most 4 entries a row, no aggressive level, one sweep of Gauss-Seidel, forward down and backward up, strength
+   threshold 0.25, or 0.7 for block size 3. With real scalars and an operator of type AIJ, BAIJ or SBAIJ its cycle is
+   that of `PCBLOCKAMG`, in single precision. It is hypre's own, in double precision and with l1 Gauss-Seidel, with
+   other types; where positive diagonal entries of coupled rows differ by a factor of more than 1e7 (`bfb`: 1e4), as
+   single precision does not hold such operators; under `-amgf_amg_pc_type hypre`; and where an option of hypre's own
+   cycle is given, say `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
+
+   Without hypre the default AMG is `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate,
+   and a smoothed interpolation would make a B that is not Hermitian.
+
+   The default filter solver is `KSPPREONLY` with Cholesky, with complex scalars LU, by MUMPS, on the first few ranks
+   where it is small (`PCAMGFSetFilterRanks()`); if PETSc has none, by PETSc itself, on several ranks each for itself on
+   the gathered matrix (`PCREDUNDANT`). What the user sets wins.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix
    in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.

@@ -92,6 +92,7 @@ typedef struct {
   PC           amg;
   KSP          filter;
   PetscBool    configured; /* inner solvers have read their options */
+  PetscBool    bydefault;  /* the AMG's type is the default: PCBLOCKAMG, or BoomerAMG where single precision fails */
   PetscBool    active;     /* use the subspace; else the AMG alone */
   PetscBool    optional;   /* a missing subspace is intended: no warning */
   PetscBool    warned;
@@ -131,6 +132,7 @@ PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFSt
 PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
 /* detect.c */
 PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
+PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
 /* subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
@@ -152,6 +154,7 @@ PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt);
 /* inner.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFSetBlockAMG_Private(PC, PetscBool);
 /* lag.c */
 PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);

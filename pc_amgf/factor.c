@@ -106,27 +106,35 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
   PetscFunctionReturn(0);
 }
 
-/* Time of either solver on one core [s], fitted to elastic bodies of 2,000 to 200,000 unknowns. Ranks are assumed to
-   share the work equally */
+/*
+   Time of either solver on one core [s], fitted to elastic bodies of 2,000 to 200,000 unknowns. Ranks are assumed to
+   share the work equally. An application of the AMG includes what its caller does beside it: a product with the
+   operator, and the orthogonalization of one more direction. In contact a part of that is the same for all sizes.
+*/
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
-  const AMGFFactor *f        = &((PC_AMGF *)pc->data)->factor;
-  const PetscReal   analysis = 5e-8, setup = 1e-7, apply = 1e-8; /* time per entry of the matrix */
+  const PC_AMGF    *amgf     = (PC_AMGF *)pc->data;
+  const AMGFFactor *f        = &amgf->factor;
+  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix */
+  const PetscReal   single = 1.6e-9, other = 1e-8;       /* an application of PCBLOCKAMG, or BoomerAMG; per entry */
+  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* beside it: per entry; per application */
   const PetscReal   cached       = 2e6;                  /* entries above which an application takes twice as long */
   const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* an entry of the factors */
   MatInfo           info;
   PetscReal         rate;
-  PetscBool         half;
+  PetscBool         half, block;
 
   PetscFunctionBegin;
   PetscCall(MatGetInfo(pc->pmat, MAT_GLOBAL_SUM, &info));
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, &half, MATSEQSBAIJ, MATMPISBAIJ, ""));
   if (half) info.nz_used *= 2.0;
+  PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCBLOCKAMG, &block));
   PetscCall(FactorFindRate(pc, &rate));
   costs->factor = analysis * info.nz_used + factor_entry * f->entries + f->flops / rate;
   costs->solve  = solve * f->entries;
   costs->setup  = built ? 0.0 : setup * info.nz_used;
-  costs->apply  = apply * info.nz_used * (1.0 + info.nz_used / (info.nz_used + cached));
+  costs->apply  = contact + info.nz_used * direction +
+                 (block ? single : other) * info.nz_used * (1.0 + info.nz_used / (info.nz_used + cached));
   PetscFunctionReturn(0);
 }
 
@@ -171,6 +179,7 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed) PetscFunctionReturn(0);
   PetscCall(MatGetSize(pc->pmat, &n, NULL));
   if (n > largest) PetscFunctionReturn(0);
+  PetscCall(PCAMGFConfigureInner_Private(pc)); /* which AMG it would be */
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!AMGFStampSamePattern(&now, &f->analysed)) {
     PetscCall(FactorTakeMatrix(pc->pmat, &A));

@@ -244,6 +244,10 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
 
   PetscFunctionBegin;
   *negative = -1;
+  if (amgf->factor.on && amgf->factor.F) {
+    PetscCall(AMGFMumpsGetInfog(amgf->factor.F, 12, negative));
+    PetscFunctionReturn(0);
+  }
   PetscCall(KSPGetPC(amgf->filter, &inner));
   if (amgf->few.nranks) inner = amgf->few.pc;
   if (inner && amgf->Aw) PetscCall(PetscObjectTypeCompare((PetscObject)inner, PCCHOLESKY, &known));
@@ -297,7 +301,7 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 . pc - the preconditioner, of type `PCAMGF`, after its set-up
 
   Output Parameter:
-. negative - their number, that of negative eigenvalues of P^T A P; -1 where it is not known, for it was not factored
+. negative - their number, that of negative eigenvalues of the matrix; -1 where it is not known, for it was not factored
              by Cholesky with MUMPS
 
   Level: advanced

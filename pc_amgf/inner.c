@@ -23,16 +23,73 @@ static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode InnerConfigureAMG(PC pc)
+/* Whether the options under the AMG's prefix ask for its type, or for something in hypre's own cycle */
+static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
 {
-  PC     amg = ((PC_AMGF *)pc->data)->amg;
-  PCType type;
+  static const char *const names[] = {"-pc_type", "-pc_hypre_type", "-pc_hypre_boomeramg_cycle_type",
+    "-pc_hypre_boomeramg_max_iter", "-pc_hypre_boomeramg_tol", "-pc_hypre_boomeramg_grid_sweeps_all",
+    "-pc_hypre_boomeramg_grid_sweeps_down", "-pc_hypre_boomeramg_grid_sweeps_up",
+    "-pc_hypre_boomeramg_grid_sweeps_coarse", "-pc_hypre_boomeramg_smooth_type", "-pc_hypre_boomeramg_relax_type_all",
+    "-pc_hypre_boomeramg_relax_type_down", "-pc_hypre_boomeramg_relax_type_up", "-pc_hypre_boomeramg_relax_type_coarse",
+    "-pc_hypre_boomeramg_relax_weight_all", "-pc_hypre_boomeramg_relax_weight_level",
+    "-pc_hypre_boomeramg_outer_relax_weight_all", "-pc_hypre_boomeramg_outer_relax_weight_level",
+    "-pc_hypre_boomeramg_no_CF", "-pc_hypre_boomeramg_print_statistics"};
+  PetscOptions             options;
+  const char              *prefix;
 
   PetscFunctionBegin;
-  PetscCall(PCGetType(amg, &type));
-  if (type) PetscCall(PCSetFromOptions(amg));
-  else if (PetscDefined(HAVE_HYPRE)) PetscCall(InnerConfigureHypre(pc, amg));
-  else PetscCall(InnerConfigureGAMG(amg));
+  PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
+  PetscCall(PCGetOptionsPrefix(amg, &prefix));
+  *asks = PETSC_FALSE;
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names) && !*asks; i++)
+    PetscCall(PetscOptionsHasName(options, prefix, names[i], asks));
+  PetscFunctionReturn(0);
+}
+
+/* Whether PCBLOCKAMG takes the operator, and the options ask for no other type */
+static PetscErrorCode InnerTakesBlockAMG(PC pc, PC amg, PetscBool *takes)
+{
+  PetscBool asks;
+
+  PetscFunctionBegin;
+  *takes = PETSC_FALSE;
+  if (PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, takes, MATSEQAIJ, MATMPIAIJ, MATSEQBAIJ, MATMPIBAIJ,
+    MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(InnerAsksForType(amg, &asks));
+  if (asks) *takes = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+  PCAMGFSetBlockAMG_Private - where the type of the AMG is the default, makes it PCBLOCKAMG, or BoomerAMG with its own
+  cycle, whichever it is not yet
+*/
+PetscErrorCode PCAMGFSetBlockAMG_Private(PC pc, PetscBool block)
+{
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PetscBool is;
+
+  PetscFunctionBegin;
+  if (!amgf->bydefault) PetscFunctionReturn(0);
+  PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCBLOCKAMG, &is));
+  if (block && !is) PetscCall(PCSetType(amgf->amg, PCBLOCKAMG));
+  else if (!block && is) PetscCall(InnerConfigureHypre(pc, amgf->amg));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode InnerConfigureAMG(PC pc)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PCType   type;
+
+  PetscFunctionBegin;
+  PetscCall(PCGetType(amgf->amg, &type));
+  if (!type && PetscDefined(HAVE_HYPRE)) PetscCall(InnerTakesBlockAMG(pc, amgf->amg, &amgf->bydefault));
+  if (type) PetscCall(PCSetFromOptions(amgf->amg));
+  else if (amgf->bydefault) PetscCall(PCAMGFSetBlockAMG_Private(pc, PETSC_TRUE));
+  else if (PetscDefined(HAVE_HYPRE)) PetscCall(InnerConfigureHypre(pc, amgf->amg));
+  else PetscCall(InnerConfigureGAMG(amgf->amg));
   PetscFunctionReturn(0);
 }
 

@@ -349,8 +349,7 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
 
   Note:
   With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is
-  alone; zero where
-  there is none, or both are equal.
+  alone or the lower one is more than a million times as large; zero where there is none, or both are equal.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/

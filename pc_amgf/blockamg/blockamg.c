@@ -39,12 +39,13 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    up. A row of L serves both the sweep and the residual while it is in the cache, so that a cycle reads half of every
    matrix twice. Levels of at most 256 unknowns are solved by a dense inverse.
 
-   With several ranks each sweeps over its own rows; where entries in columns of other ranks exceed the diagonal, half
-   of the excess is added to it.
+   With several ranks each sweeps over its own rows; to the diagonal is added a quarter of the absolute sum of a row's
+   entries in columns of other ranks, or half of what that sum exceeds the diagonal by, if that is more.
 
    The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it
    attains the same residuals as with one in double precision. Matrices and vectors are scaled by powers of 2, so units
-   have no influence. Only the lower triangle is used on each rank.
+   have no influence. Rows that are 1e7 times as stiff as others they are coupled with lose the soft ones in rounding:
+   take `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
 
    Where the operator is indefinite, inverses of diagonal blocks are those of their absolute values: the preconditioner
    stays positive definite, and `KSPCG` ends with `KSP_DIVERGED_INDEFINITE_MAT`. A diagonal entry of zero, or one that

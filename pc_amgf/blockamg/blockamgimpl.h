@@ -47,14 +47,14 @@ typedef struct {
 
 /*
    A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L,
-   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows, and
-   D^-1, the inverses of the diagonal blocks, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
+   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows. The
+   inverses of the diagonal blocks are W^T W, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
 */
 typedef struct {
   int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
   int               *position;
   int               *ptr, *col; /* blocks of L by rows; col: the first place of the block's columns */
-  float             *L, *Dinv;
+  float             *L, *W;
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
@@ -64,10 +64,10 @@ typedef struct {
   PetscLogDouble unknowns, entries, blocks, bytes; /* of all ranks; entries: of the matrix; blocks: floats of L and D */
 } BlockLevel;
 
-/* The last level, by its inverse: rows of this rank, columns of all ranks */
+/* The last level, by its inverse W^T W */
 typedef struct {
-  int          n, N; /* rows of this rank, of all ranks */
-  float       *inverse, *b;
+  int          first, N;        /* unknown of this rank; number of unknowns of all ranks */
+  float       *W, *b;           /* of all ranks */
   PetscMPIInt *counts, *starts; /* of all ranks */
 } BlockDense;
 
@@ -90,13 +90,14 @@ typedef struct {
 /* The files of blockamg, each after those it builds on */
 
 /* rows.c */
+PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);
 PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
 PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
 /* order.c */
 PETSC_INTERN PetscErrorCode BlockOrderNodes_Private(const BlockRows *, PetscInt bs, int position[]);
 PETSC_INTERN PetscErrorCode BlockOrderGroups_Private(const BlockRows *, int position[]);
 /* invert.c */
-PETSC_INTERN PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[]);
+PETSC_INTERN PetscErrorCode BlockInvertRoot_Private(PetscInt n, const PetscScalar a[], PetscScalar W[]);
 /* halo.c */
 PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghosts, const PetscInt ghosts[],
   const BlockLevel *, BlockHalo *);
@@ -111,11 +112,11 @@ PETSC_INTERN PetscErrorCode BlockLevelDestroy_Private(BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *, const BlockRows *, BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *);
 /* sweep.c */
-PETSC_INTERN void  BlockSweepDown_Private(const BlockLevel *);
-PETSC_INTERN void  BlockSweepUp_Private(const BlockLevel *);
-PETSC_INTERN void  BlockRestrict_Private(const BlockLevel *, float coarse[]);
-PETSC_INTERN void  BlockInterpolateAdd_Private(const BlockLevel *, const float coarse[]);
-PETSC_INTERN float BlockDot_Private(int n, const float a[], const float b[]);
+PETSC_INTERN void BlockSweepDown_Private(const BlockLevel *);
+PETSC_INTERN void BlockSweepUp_Private(const BlockLevel *);
+PETSC_INTERN void BlockRestrict_Private(const BlockLevel *, float coarse[]);
+PETSC_INTERN void BlockInterpolateAdd_Private(const BlockLevel *, const float coarse[]);
+PETSC_INTERN void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[]);
 /* dense.c */
 PETSC_INTERN PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *, const BlockRows *);
 PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);

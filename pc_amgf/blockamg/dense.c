@@ -1,4 +1,4 @@
-/* The last level, by its inverse, of which every rank has the rows of its unknowns */
+/* The last level, by A^-1 = W^T W, of which every rank has all of W */
 #include "blockamgimpl.h"
 
 /* The matrix of all ranks, on each of them */
@@ -24,14 +24,15 @@ PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows
 {
   BlockDense  *dense = &h->dense;
   BlockLevel  *level = &h->bottom;
-  PetscScalar *full;
-  size_t       first;
+  PetscScalar *full, *W;
+  size_t       entries;
 
   PetscFunctionBegin;
-  dense->n = level->n = (int)rows->n;
-  dense->N            = (int)rows->columns->N;
-  level->B            = 4;
-  level->nb           = (level->n + 3) / 4;
+  dense->N     = (int)rows->columns->N;
+  dense->first = (int)rows->columns->rstart;
+  level->n     = (int)rows->n;
+  level->B     = 4;
+  level->nb    = (level->n + 3) / 4;
   PetscCall(PetscMalloc1(level->n, &level->position));
   for (int u = 0; u < level->n; u++) level->position[u] = u;
   level->nslots = 4 * level->nb;
@@ -40,22 +41,24 @@ PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows
     dense->starts[r] = (PetscMPIInt)rows->columns->range[r];
     dense->counts[r] = (PetscMPIInt)(rows->columns->range[r + 1] - rows->columns->range[r]);
   }
-  PetscCall(PetscCalloc1((size_t)dense->N * dense->N, &full));
+  entries = (size_t)dense->N * dense->N;
+  PetscCall(PetscMalloc1(entries, &W));
+  PetscCall(PetscCalloc1(entries, &full));
   PetscCall(DenseGather(h, rows, full));
-  PetscCall(BlockInvert_Private(dense->N, full));
-  PetscCall(PetscMalloc1((size_t)dense->n * dense->N, &dense->inverse));
+  PetscCall(BlockInvertRoot_Private(dense->N, full, W));
+  PetscCall(PetscMalloc1(entries, &dense->W));
   PetscCall(PetscCalloc1(dense->N, &dense->b));
-  first = (size_t)rows->columns->rstart * dense->N;
-  for (size_t k = 0; k < (size_t)dense->n * dense->N; k++) dense->inverse[k] = (float)PetscRealPart(full[first + k]);
+  for (size_t k = 0; k < entries; k++) dense->W[k] = (float)PetscRealPart(W[k]);
   PetscCall(PetscFree(full));
+  PetscCall(PetscFree(W));
   level->unknowns = dense->N;
-  level->entries = level->blocks = (double)dense->N * dense->N;
-  level->bytes                   = 4.0 * dense->N * dense->N;
+  level->entries = level->blocks = (double)entries;
+  level->bytes                   = 4.0 * (double)entries * h->size;
   PetscFunctionReturn(0);
 }
 
 /*
-  BlockDenseSolve_Private - x = A^-1 b on the bottom level
+  BlockDenseSolve_Private - x = W^T W b on the bottom level
 */
 PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *h)
 {
@@ -65,18 +68,17 @@ PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *h)
   PetscFunctionBegin;
   if (h->size > 1) {
     PetscCallMPI(
-      MPI_Allgatherv(h->bottom.b, dense->n, MPI_FLOAT, dense->b, dense->counts, dense->starts, MPI_FLOAT, h->comm));
+      MPI_Allgatherv(h->bottom.b, h->bottom.n, MPI_FLOAT, dense->b, dense->counts, dense->starts, MPI_FLOAT, h->comm));
     b = dense->b;
   }
-  for (int i = 0; i < dense->n; i++)
-    h->bottom.x[i] = BlockDot_Private(dense->N, dense->inverse + (size_t)dense->N * i, b);
+  BlockDenseMultiply_Private(dense->N, dense->W, b, dense->first, h->bottom.n, h->bottom.x);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode BlockDenseDestroy_Private(BlockDense *dense)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree(dense->inverse));
+  PetscCall(PetscFree(dense->W));
   PetscCall(PetscFree(dense->b));
   PetscCall(PetscFree2(dense->counts, dense->starts));
   PetscFunctionReturn(0);

@@ -106,13 +106,13 @@ PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool
     const BlockLevel *l = &h->levels[i];
 
     for (size_t k = 0; k < 4 * (size_t)l->B * l->nb; k++) {
-      largest = PetscMax(largest, PetscAbs(l->Dinv[k]));
-      nan += 0.0f * l->Dinv[k];
+      largest = PetscMax(largest, PetscAbs(l->W[k]));
+      nan += 0.0f * l->W[k];
     }
     for (size_t k = 0; k < (size_t)l->B * l->B * l->ptr[l->nb]; k++) nan += 0.0f * l->L[k];
   }
-  for (size_t k = 0; k < (size_t)h->dense.n * h->dense.N; k++) nan += 0.0f * h->dense.inverse[k];
-  *finite = (PetscBool)(nan == 0.0f && largest < 1e30f);
+  for (size_t k = 0; k < (size_t)h->dense.N * h->dense.N; k++) nan += 0.0f * h->dense.W[k];
+  *finite = (PetscBool)(nan == 0.0f && largest < 1e15f);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, finite, 1, MPI_PETSCBOOL, MPI_LAND, h->comm));
   PetscFunctionReturn(0);
 }

@@ -1,94 +1,75 @@
-/* Inverses of small symmetric matrices, positive definite whatever the matrix is */
+/* Inverses of small symmetric matrices as products W^T W, which single precision keeps positive semidefinite */
 #include "blockamgimpl.h"
 #include <petscblaslapack.h>
 
 /*
-   a = |A|^-1 from the eigenvalues of A. If A is positive definite, this is its inverse. An eigenvalue within rounding
-   of zero contributes nothing.
+   W = C^-1 with A = C C^T, C lower triangular; returns whether all pivots are well above rounding errors. Rows and
+   columns of zeros stay zero.
 */
-static PetscErrorCode InvertByEigenvalues(PetscBLASInt n, PetscScalar a[])
+static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScalar w[])
 {
-  PetscBLASInt lwork = 8 * n, info;
-  PetscReal   *w;
-  PetscScalar *work, *v;
-  PetscReal    largest = 0.0;
+  for (PetscInt i = 0; i < n; i++) {
+    for (PetscInt j = 0; j <= i; j++) {
+      PetscScalar s = a[n * i + j];
 
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc3(n, &w, lwork, &work, n * n, &v));
-  PetscCall(PetscArraycpy(v, a, n * n));
-  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &n, v, &n, w, work, &lwork, &info));
-  PetscCheck(info == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACKsyev: error %" PetscBLASInt_FMT, info);
-  for (PetscBLASInt k = 0; k < n; k++) largest = PetscMax(largest, PetscAbsReal(w[k]));
-  for (PetscBLASInt k = 0; k < n; k++)
-    w[k] = PetscAbsReal(w[k]) > n * 100.0 * PETSC_MACHINE_EPSILON * largest ? 1.0 / PetscAbsReal(w[k]) : 0.0;
-  for (PetscBLASInt i = 0; i < n; i++) {
-    for (PetscBLASInt j = 0; j <= i; j++) {
-      PetscScalar s = 0.0;
-
-      for (PetscBLASInt k = 0; k < n; k++) s += v[n * k + i] * w[k] * v[n * k + j];
-      a[n * i + j] = a[n * j + i] = s;
+      for (PetscInt k = 0; k < j; k++) s -= w[n * i + k] * w[n * j + k];
+      if (i == j && (s != 0.0 || a[n * i + i] != 0.0) && !(s > 1e-12 * a[n * i + i])) return PETSC_FALSE;
+      if (i > j && w[n * j + j] == 0.0 && s != 0.0) return PETSC_FALSE;
+      w[n * i + j] = i == j ? PetscSqrtReal(PetscRealPart(s)) : s == 0.0 ? 0.0 : s / w[n * j + j];
     }
   }
-  PetscCall(PetscFree3(w, work, v));
-  PetscFunctionReturn(0);
-}
+  for (PetscInt i = 0; i < n; i++) { /* rows above i are those of W */
+    const PetscScalar d = w[n * i + i] == 0.0 ? 0.0 : 1.0 / w[n * i + i];
 
-/*
-   Gauss-Jordan without pivoting, for which positive definite matrices need none; returns whether all pivots are well
-   above rounding errors
-*/
-static PetscBool InvertByElimination(PetscInt n, PetscScalar a[], const PetscScalar diagonal[])
-{
-  for (PetscInt p = 0; p < n; p++) {
-    PetscScalar d = a[n * p + p];
+    for (PetscInt j = 0; j < i; j++) {
+      PetscScalar s = 0.0;
 
-    if (!(d > 1e-12 * diagonal[p])) return PETSC_FALSE;
-    d            = 1.0 / d;
-    a[n * p + p] = 1.0;
-    for (PetscInt j = 0; j < n; j++) a[n * p + j] *= d;
-    for (PetscInt i = 0; i < n; i++) {
-      const PetscScalar f = a[n * i + p];
-
-      if (i == p || f == 0.0) continue;
-      a[n * i + p] = 0.0;
-      for (PetscInt j = 0; j < n; j++) a[n * i + j] -= f * a[n * p + j];
+      for (PetscInt k = j; k < i; k++) s -= w[n * i + k] * w[n * k + j];
+      w[n * i + j] = s * d;
     }
+    w[n * i + i] = d;
+    for (PetscInt j = i + 1; j < n; j++) w[n * i + j] = 0.0;
   }
   return PETSC_TRUE;
 }
 
-/*
-  BlockInvert_Private - inverts a symmetric n x n matrix in place; the result is |A|^-1 if A is indefinite. Rows and
-  columns of zeros stay zero.
-*/
-PetscErrorCode BlockInvert_Private(PetscInt n, PetscScalar a[])
+/* The same from the eigenvalues of A, which need not be positive; one within rounding of zero contributes nothing */
+static PetscErrorCode RootByEigenvalues(PetscBLASInt n, const PetscScalar a[], PetscScalar v[])
 {
-  PetscScalar  few[40], *work = few, *packed, *diagonal;
-  PetscInt     m = 0, used[BLOCKAMG_DENSE];
+  PetscBLASInt lwork = 8 * n, info;
+  PetscReal   *w, largest = 0.0;
+  PetscScalar *work;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(n, &w, lwork, &work));
+  PetscCall(PetscArraycpy(v, a, n * n));
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &n, v, &n, w, work, &lwork, &info));
+  PetscCheck(info == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACKsyev: error %" PetscBLASInt_FMT, info);
+  for (PetscBLASInt k = 0; k < n; k++) largest = PetscMax(largest, PetscAbsReal(w[k]));
+  for (PetscBLASInt k = 0; k < n; k++) { /* row k of v is an eigenvector */
+    const PetscReal absolute = PetscAbsReal(w[k]);
+    const PetscReal root = absolute > n * 100.0 * PETSC_MACHINE_EPSILON * largest ? 1.0 / PetscSqrtReal(absolute) : 0.0;
+
+    for (PetscBLASInt j = 0; j < n; j++) v[n * k + j] *= root;
+  }
+  PetscCall(PetscFree2(w, work));
+  PetscFunctionReturn(0);
+}
+
+/*
+  BlockInvertRoot_Private - W with W^T W = |A|^-1 of a symmetric n x n matrix A, which is A^-1 if A is positive definite
+
+  Note:
+  Rows and columns of zeros stay zero. The matrix A^-1 itself, rounded to single precision, may be indefinite where the
+  condition of A is 1e7 or more.
+*/
+PetscErrorCode BlockInvertRoot_Private(PetscInt n, const PetscScalar a[], PetscScalar W[])
+{
   PetscBLASInt order;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < n; i++) {
-    PetscBool zero = PETSC_TRUE;
-
-    for (PetscInt j = 0; j < n && zero; j++) zero = (PetscBool)(a[n * i + j] == 0.0);
-    if (!zero) used[m++] = i;
-  }
-  if (2 * m * m + m > 40) PetscCall(PetscMalloc1(2 * m * m + m, &work));
-  packed   = work + m * m;
-  diagonal = packed + m * m;
-  for (PetscInt i = 0; i < m; i++) {
-    for (PetscInt j = 0; j < m; j++) packed[m * i + j] = work[m * i + j] = a[n * used[i] + used[j]];
-    diagonal[i] = work[m * i + i];
-  }
-  if (!InvertByElimination(m, work, diagonal)) {
-    PetscCall(PetscBLASIntCast(m, &order));
-    PetscCall(PetscArraycpy(work, packed, m * m));
-    PetscCall(InvertByEigenvalues(order, work));
-  }
-  for (PetscInt i = 0; i < m; i++) {
-    for (PetscInt j = 0; j < m; j++) a[n * used[i] + used[j]] = work[m * i + j];
-  }
-  if (work != few) PetscCall(PetscFree(work));
+  if (RootByElimination(n, a, W)) PetscFunctionReturn(0);
+  PetscCall(PetscBLASIntCast(n, &order));
+  PetscCall(RootByEigenvalues(order, a, W));
   PetscFunctionReturn(0);
 }

@@ -98,7 +98,8 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
 /*
    Let l be the sum of the absolute entries of a row in columns of other ranks, and g the excess of the diagonal block
    over its own off-diagonal entries. With (l - 0.9 g)/2 added to the diagonal, where that is positive, the sweeps of
-   all ranks together converge, and the cycle stays positive definite.
+   all ranks together converge, and the cycle stays positive definite. At least l/4 is added, which smooths stiff
+   couplings between ranks.
 */
 static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
 {
@@ -114,7 +115,7 @@ static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar 
   for (; *next < border->n && border->place[*next] < 4 * (i + 1); ++*next) {
     const int r = border->place[*next] % 4;
 
-    border->shift[*next] = (float)PetscMax(0.0, border->shift[*next] - 0.45 * PetscMax(excess[r], 0.0));
+    border->shift[*next] *= (float)PetscMax(0.5, 1.0 - 0.45 * PetscMax(excess[r], 0.0) / border->shift[*next]);
     D[(B + 1) * r] += border->shift[*next];
   }
 }
@@ -124,23 +125,23 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   const int   B = level->B, size = B * B;
   LevelBlocks blocks = {0, 0, NULL, NULL};
   int        *unknown, *slot, border = 0;
-  PetscScalar D[16];
+  PetscScalar D[16], W[16];
 
   PetscFunctionBegin;
   PetscCall(LevelGetUnknowns(level, &unknown));
   PetscCall(PetscMalloc1(level->nb, &slot));
   for (int i = 0; i < level->nb; i++) slot[i] = -1;
   PetscCall(PetscMalloc1(level->nb + 1, &level->ptr));
-  PetscCall(PetscCalloc1(4 * (size_t)B * level->nb, &level->Dinv));
+  PetscCall(PetscCalloc1(4 * (size_t)B * level->nb, &level->W));
   PetscCall(BlocksReserve(&blocks, size, (int)(rows->n ? rows->ia[rows->n] / (B == 3 ? 18 : 10) : 0)));
   for (int i = 0; i < level->nb; i++) {
     level->ptr[i] = blocks.n;
     PetscCall(LevelFindBlocks(level, rows, unknown, i, &blocks, slot));
     LevelFillBlocks(level, rows, unknown, i, 1.0 / scale, slot, blocks.val, D);
     LevelShiftDiagonal(level, &border, i, D);
-    PetscCall(BlockInvert_Private(B, D));
+    PetscCall(BlockInvertRoot_Private(B, D, W));
     for (int r = 0; r < B; r++) {
-      for (int c = 0; c < B; c++) level->Dinv[4 * ((size_t)B * i + c) + r] = (float)PetscRealPart(D[B * r + c]);
+      for (int c = 0; c < B; c++) level->W[4 * ((size_t)B * i + c) + r] = (float)PetscRealPart(W[B * r + c]);
     }
   }
   level->ptr[level->nb] = blocks.n;
@@ -263,7 +264,7 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->ptr));
   PetscCall(PetscFree(level->col));
   PetscCall(PetscFree(level->L));
-  PetscCall(PetscFree(level->Dinv));
+  PetscCall(PetscFree(level->W));
   PetscCall(PetscFree(level->border.place));
   PetscCall(PetscFree(level->border.ptr));
   PetscCall(PetscFree(level->border.col));

@@ -26,26 +26,38 @@ static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt *
 }
 
 /*
+  BlockConvertToAIJ_Private - a copy of type AIJ, or A itself if it is of that type
+*/
+PetscErrorCode BlockConvertToAIJ_Private(Mat A, Mat *aij)
+{
+  PetscObjectState state;
+  PetscBool        is;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &is, MATSEQAIJ, MATMPIAIJ, ""));
+  if (is) {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *aij = A;
+  } else {
+    /* Converting a parallel format increases the state of A; without a reset every application would set up again */
+    PetscCall(PetscObjectStateGet((PetscObject)A, &state));
+    PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, aij));
+    PetscCall(PetscObjectStateSet((PetscObject)A, state));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
   BlockRowsGet_Private - the rows of this rank; collective
 */
 PetscErrorCode BlockRowsGet_Private(Mat A, BlockRows *rows)
 {
-  PetscObjectState state;
-  PetscBool        aij, parallel;
-  PetscInt         m;
+  PetscBool parallel;
+  PetscInt  m;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(rows, sizeof(*rows)));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  if (aij) {
-    PetscCall(PetscObjectReference((PetscObject)A));
-    rows->held = A;
-  } else {
-    /* Converting a parallel format increases the state of A; without a reset every application would set up again */
-    PetscCall(PetscObjectStateGet((PetscObject)A, &state));
-    PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, &rows->held));
-    PetscCall(PetscObjectStateSet((PetscObject)A, state));
-  }
+  PetscCall(BlockConvertToAIJ_Private(A, &rows->held));
   PetscCall(PetscObjectBaseTypeCompare((PetscObject)rows->held, MATMPIAIJ, &parallel));
   if (parallel) {
     PetscCall(MatMPIAIJGetSeqAIJ(rows->held, &rows->diag, &rows->off, &rows->ghosts));

@@ -6,15 +6,15 @@
 #include "vec4.h"
 
 /*
-   x_i = D^-1 (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are
+   x_i = W^T W (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are
    read in the direction of the sweep: memory that is read downwards throughout is fetched ahead by the processor.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
 {
   const int          k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
-  const float *const D    = l->Dinv + 4 * B * (size_t)i;
+  const float *const W    = l->W + 4 * B * (size_t)i;
   const Vec4         zero = Vec4Same(0.0f);
-  Vec4               a[4] = {zero, zero, zero, zero}, xi = zero, copies[4];
+  Vec4               a[4] = {zero, zero, zero, zero}, y = zero, xi, copies[4];
 
   for (int k = first; k != end; k += step) {
     const float *v  = l->L + B * B * (size_t)k;
@@ -23,7 +23,9 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
     for (int r = 0; r < B; r++) a[r] = Vec4MultiplyAdd(a[r], Vec4Load(v + B * r), xj);
   }
   f = Vec4Subtract(f, Vec4Sums(a));
-  for (int c = 0; c < B; c++) xi = Vec4MultiplyAdd(xi, Vec4Load(D + 4 * c), Vec4Same(Vec4Get(f, c)));
+  for (int c = 0; c < B; c++) y = Vec4MultiplyAdd(y, Vec4Load(W + 4 * c), Vec4Same(Vec4Get(f, c)));
+  for (int c = 0; c < B; c++) a[c] = Vec4Multiply(Vec4Load(W + 4 * c), y);
+  xi = Vec4Sums(a);
   Vec4Store(l->x + 4 * (size_t)i, xi);
   for (int r = 0; r < B; r++) copies[r] = Vec4Same(Vec4Get(xi, r));
   for (int k = k0; k < k1; k++) { /* the row is in the cache now */
@@ -106,17 +108,24 @@ VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float co
   }
 }
 
-VEC4_CLONES float BlockDot_Private(int n, const float a[], const float b[])
+/*
+  BlockDenseMultiply_Private - n entries of W^T W b from the first on
+*/
+VEC4_CLONES void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[])
 {
-  Vec4  s[4] = {Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f)};
-  float sum  = 0.0f;
-  int   i    = 0;
+  for (int i = 0; i < n; i++) x[i] = 0.0f;
+  for (int k = 0; k < N; k++) {
+    const float *row = W + (size_t)N * k, *own = row + first;
+    Vec4         s[4] = {Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f), Vec4Same(0.0f)};
+    float        y    = 0.0f;
+    int          j    = 0;
 
-  for (; i + 16 <= n; i += 16) {
-    for (int k = 0; k < 4; k++) s[k] = Vec4MultiplyAdd(s[k], Vec4Load(a + i + 4 * k), Vec4Load(b + i + 4 * k));
+    for (; j + 16 <= N; j += 16) {
+      for (int m = 0; m < 4; m++) s[m] = Vec4MultiplyAdd(s[m], Vec4Load(row + j + 4 * m), Vec4Load(b + j + 4 * m));
+    }
+    for (; j < N; j++) y += row[j] * b[j];
+    s[0] = Vec4Sums(s);
+    for (int m = 0; m < 4; m++) y += Vec4Get(s[0], m);
+    for (int i = 0; i < n; i++) x[i] += y * own[i];
   }
-  for (; i < n; i++) sum += a[i] * b[i];
-  s[0] = Vec4Sums(s);
-  for (int k = 0; k < 4; k++) sum += Vec4Get(s[0], k);
-  return sum;
 }

@@ -23,6 +23,11 @@ VEC4_INLINE Vec4 Vec4MultiplyAdd(Vec4 a, Vec4 b, Vec4 c)
   return a + b * c;
 }
 
+VEC4_INLINE Vec4 Vec4Multiply(Vec4 a, Vec4 b)
+{
+  return a * b;
+}
+
 VEC4_INLINE Vec4 Vec4Subtract(Vec4 a, Vec4 b)
 {
   return a - b;
@@ -63,6 +68,12 @@ VEC4_INLINE Vec4 Vec4Same(float s)
 VEC4_INLINE Vec4 Vec4MultiplyAdd(Vec4 a, Vec4 b, Vec4 c)
 {
   for (int i = 0; i < 4; i++) a.v[i] += b.v[i] * c.v[i];
+  return a;
+}
+
+VEC4_INLINE Vec4 Vec4Multiply(Vec4 a, Vec4 b)
+{
+  for (int i = 0; i < 4; i++) a.v[i] *= b.v[i];
   return a;
 }
 

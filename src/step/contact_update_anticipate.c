@@ -74,7 +74,7 @@ static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *fou
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(g, &n));
   PetscCall(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, r, &shell));
-  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (void (*)(void))ResponseMult));
+  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (AMGFOperation *)ResponseMult));
   PetscCall(KSPCreate(comm, &ksp));
   PetscCall(KSPSetType(ksp, KSPGMRES));
   PetscCall(KSPGMRESSetRestart(ksp, ANTICIPATE_ITERATIONS));

@@ -9,9 +9,12 @@
 */
 #include "stepimpl.h"
 
+/* What sticks has a coefficient beyond any that is measured: with an infinite one a vertex may neither stick nor lift
+   off, where it would carry no pressure but a tangential force */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
-  Scene              scene = p->sim->scene;
+  const PetscReal    sticks = 1e3;
+  Scene              scene  = p->sim->scene;
   const PetscScalar *mass;
   PetscScalar       *limit, *coefficient;
 
@@ -25,7 +28,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
 
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
-    coefficient[r] = mu;
+    coefficient[r] = mu >= PETSC_INFINITY && limit[r] >= PETSC_INFINITY ? sticks : mu;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));

@@ -34,12 +34,20 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.violation > small);
 }
 
+/* Whether the constraints are met beside their own terms, too */
+static PetscBool OwnMet(const TAO_IPFILTER *ip)
+{
+  const PetscReal trace = 1e-6;
+
+  return (PetscBool)(ip->kkt.own <= PetscMax(trace, ip->tol));
+}
+
 /* Whether the iterate meets the tolerance in both measures of the KKT error, and the absolute limits */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = &ip->kkt;
 
-  if (IPBothErrors(ip) > ip->tol) return PETSC_FALSE;
+  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip)) return PETSC_FALSE;
   return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) &&
                      k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) &&
                      k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
@@ -48,7 +56,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
+  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol && OwnMet(ip));
 }
 
 /* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
@@ -71,7 +79,7 @@ static PetscErrorCode CountTinySteps(Tao tao)
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal limit = 1e4;
+  const PetscReal limit = 1e4, trace = 1e-3;
   PetscReal       times = 0.0, work = 0.0;
   char            relaxed[64] = "";
 
@@ -85,11 +93,13 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
       "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
       "bounded multipliers may not exist",
       (double)ip->kkt.error, relaxed, (double)times));
-  else if (work > ip->tol)
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, which have no interior: the relaxation is worth %g times the tolerance",
-      (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
-  else
+  else if (work > ip->tol) {
+    const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
+
+    PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
+      "%s: KKT error %g%s, which have no interior: the relaxation is worth %g times the tolerance",
+      share <= trace ? "acceptable" : "no solution", (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
+  } else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
       (double)ip->tol, relaxed));
   PetscFunctionReturn(0);
@@ -103,7 +113,8 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && ip->relax.by == 0.0);
+  *stationary =
+    (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && OwnMet(ip) && ip->relax.by == 0.0);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -183,7 +194,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessDegenerate(tao));
-  } else if (fritz_john && IPConstraintsMet(tao)) {
+  } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g, but gradients of the constraints vanish where the constraints are met, and the "
       "multipliers grow without limit: bounded multipliers may not exist",

@@ -85,6 +85,26 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
+/* Size of the objective, now and at the start, that what is left to gain is held against */
+PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
+{
+  return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first.f)), ip->first.gradient * ip->first.x);
+}
+
+/* Whether the last step changes the objective by a trace of its size: where multipliers do not exist, that alone tells
+   that the point is the end, and not one on the way there */
+static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal trace = 1e-6;
+  PetscScalar     slope;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(tao->gradient, ip->dir.x, &slope));
+  *stands = (PetscBool)(tao->niter && PetscAbsScalar(slope) <= trace * IPDegenerateObjective(ip));
+  PetscFunctionReturn(0);
+}
+
 /* Whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
    vanish, so that their multipliers grow without limit. The stationarity residual is small compared with them */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
@@ -102,5 +122,6 @@ PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first.gradient) && k->dual_norm <= ip->tol * force);
+  if (*holds) PetscCall(DegenerateStands(tao, holds));
   PetscFunctionReturn(0);
 }

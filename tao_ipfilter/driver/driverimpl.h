@@ -11,6 +11,7 @@
 PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
 
 /* degenerate.c */
+PETSC_INTERN PetscReal      IPDegenerateObjective(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPDegenerateCancellation(Tao, PetscReal *times);
 PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
 

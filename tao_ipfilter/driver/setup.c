@@ -78,6 +78,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->rx));
   PetscCall(VecDestroy(&ip->rc));
   PetscCall(VecDestroy(&ip->stiff.rho));
+  PetscCall(VecDestroy(&ip->stiff.reach));
   PetscCall(VecDestroy(&ip->stiff.hdiag));
   PetscCall(VecDestroy(&ip->lin.residual));
   PetscCall(VecDestroy(&ip->rows.inequality));

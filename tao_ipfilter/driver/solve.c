@@ -79,8 +79,12 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscBool     other_fixed, other_scales;
+  PetscReal     size;
 
   PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *finite = (PetscBool)!IPUndefined(size); /* bounds would put a number in the place of what is none */
+  if (!*finite) PetscFunctionReturn(0);
   PetscCall(TaoComputeVariableBounds(tao));
   PetscCall(IPFixedSetUp(tao, &other_fixed));
   PetscCall(IPRowScaleReset(tao, &other_scales));
@@ -428,7 +432,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(FirstPoint(tao, finite));
   if (!*finite) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
-      "the objective, its gradient or a constraint is not a number at the starting point"));
+      "the objective, its gradient, a constraint or an unknown is not a number at the starting point"));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSetMultipliers(tao));
@@ -439,6 +443,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   ip->method.linear   = (PetscBool)(before[1] == after[1]);
   ip->method.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
+  PetscCall(IPMeasureReach(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
     "Norm terms: this library was built without the laws of friction (folder tao_ipfilter/friction)");

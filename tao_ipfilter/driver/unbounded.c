@@ -9,12 +9,38 @@ static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
                                       PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
-/* Whether the iterate indicates an unbounded objective. Not if constraints are significantly violated */
-static PetscBool UnboundedHere(const TAO_IPFILTER *ip)
+/* Whether every unknown has two bounds, or is fixed: no objective falls without end between them */
+static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
 {
-  const PetscReal fall = UnboundedFall(ip), small = 1e-3;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt      n, nfixed = 0;
 
-  return (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(tao->solution, &n));
+  if (ip->fixed) {
+    PetscInt local;
+
+    PetscCall(ISGetLocalSize(ip->fixed, &local));
+    PetscCallMPI(MPI_Allreduce(&local, &nfixed, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)tao)));
+  }
+  *bounded = (PetscBool)(PetscMin(ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n) + nfixed >= n);
+  PetscFunctionReturn(0);
+}
+
+/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x, or
+   beside their own terms, that says nothing */
+static PetscErrorCode UnboundedHere(Tao tao, PetscBool *unbounded)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal fall = UnboundedFall(ip), small = 1e-3, trace = 1e-6;
+  PetscReal       own;
+
+  PetscFunctionBegin;
+  *unbounded = (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+  if (!*unbounded) PetscFunctionReturn(0);
+  PetscCall(IPOwnViolation(tao, &own));
+  *unbounded = (PetscBool)(own <= trace);
+  PetscFunctionReturn(0);
 }
 
 /* Counts successive full steps that only a shift of the Hessian kept short, and along which the objective fell
@@ -94,8 +120,13 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   PetscReal      fall;
 
   PetscFunctionBegin;
-  *f         = ip->at.f;
-  *unbounded = UnboundedHere(ip);
+  *f = ip->at.f;
+  PetscCall(UnboundedCannotBe(tao, unbounded));
+  if (*unbounded) {
+    *unbounded = PETSC_FALSE;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(UnboundedHere(tao, unbounded));
   PetscCall(UnboundedCount(tao, &fall));
   if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)
     PetscCall(UnboundedAlong(tao, fall, f, unbounded));

@@ -241,7 +241,8 @@ static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, T
 static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscBool begin,
   PetscBool late)
 {
-  PetscBool known = PETSC_FALSE;
+  const PetscReal large = 100.0;
+  PetscBool       known = PETSC_FALSE;
 
   for (PetscInt i = 0; i < set->m; i++) known = (PetscBool)(known || s->lambda[i] > 0.0);
   for (PetscInt i = 0; i < set->n; i++) {
@@ -249,7 +250,7 @@ static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, Term
                             : set->coefficient[i] == 0.0                 ? 0.0
                                                                          : set->limit[i];
 
-    convex->bound[i] = late && set->coefficient[i] >= PETSC_INFINITY ? PetscMin(bound, convex->bound[i]) : bound;
+    convex->bound[i] = late && set->coefficient[i] >= large ? PetscMin(bound, convex->bound[i]) : bound;
   }
 }
 

@@ -98,20 +98,25 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 */
 static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], PetscReal by_f[2], PetscReal *by_lambda)
 {
-  PetscInt         a   = 0;
-  const PetscInt   i   = IPTermLawsOfRow(set, row, &a);
-  const PetscReal *way = &set->way[2 * i], *dead = &set->dead[2 * i];
+  PetscInt         a = 0;
+  const PetscInt   i = IPTermLawsOfRow(set, row, &a);
+  const PetscReal *way, *dead;
 
   by_v[0] = by_v[1] = by_f[0] = by_f[1] = *by_lambda = 0.0;
-  if (i < 0) by_v[0] = 1.0;
-  for (PetscInt b = 0; i >= 0 && b < 2; b++) {
+  if (i < 0) {
+    by_v[0] = 1.0;
+    return;
+  }
+  way  = &set->way[2 * i];
+  dead = &set->dead[2 * i];
+  for (PetscInt b = 0; b < 2; b++) {
     const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b], across = one - way[a] * way[b];
 
     by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
     by_v[b] =
       set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive; /* a dead direction is across the way */
   }
-  if (i >= 0 && set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
+  if (set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
 }
 
 /* One row of the system, its diagonal raised by as little as makes dependent rows no obstacle. Rows of terms depend
@@ -265,16 +270,18 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
   PetscFunctionReturn(0);
 }
 
-/* Whether any term sticks with whatever force: its law is one of open and closed, not smooth in the force */
+/* Whether any term sticks with next to any force: its law is one of open and closed, not smooth in the force */
 static PetscBool TermSetSticks(const IPTermSet *set)
 {
-  PetscBool sticks = PETSC_FALSE;
+  const PetscReal large  = 100.0;
+  PetscBool       sticks = PETSC_FALSE;
 
-  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= PETSC_INFINITY);
+  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= large);
   return sticks;
 }
 
-/* Newton's method, where it finds no end from the path's, but where terms stick with whatever force: a path has none */
+/* Newton's method from where we are, and where it finds no end from the end of a path. There is no path where terms
+   stick with next to any force. */
 static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
   PetscBool *solved)
 {

@@ -98,7 +98,7 @@ static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, 
 
   PetscFunctionBegin;
   PetscCall(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, solve, &shell));
-  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (void (*)(void))TermSolveMult));
+  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (AMGFOperation *)TermSolveMult));
   PetscCall(KSPCreate(PETSC_COMM_SELF, ksp));
   PetscCall(KSPSetOptionsPrefix(*ksp, "tao_ipfilter_terms_"));
   PetscCall(KSPSetOperators(*ksp, shell, shell));

@@ -191,23 +191,22 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
   PetscFunctionReturn(0);
 }
 
-/*
-   Whether the factors of the filter's matrix, a principal submatrix of A, have negative pivots. Then A is indefinite,
-   and a Krylov method with few iterations may not notice. Checked only if the problem has shown that it is not convex
-   and its constraints have an interior
-*/
-static PetscErrorCode KrylovFilterIndefinite(Tao tao, PetscBool *indefinite)
+/* Whether factors of A, or of the filter's matrix, a principal part of it, have negative pivots: then A is indefinite,
+   which a Krylov method that these leave few iterations may not meet */
+PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscInt      negative;
-  PetscBool     amgf, drowned;
+  PetscBool     amgf, factored, drowned;
   PC            pc;
 
   PetscFunctionBegin;
   *indefinite = PETSC_FALSE;
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
-  if (!amgf || !ip->lin.filtered || !ip->bar.curved || ip->relax.times) PetscFunctionReturn(0);
+  if (!amgf) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFactored(pc, &factored, NULL));
+  if (!factored && !ip->lin.filtered) PetscFunctionReturn(0);
   PetscCall(KrylovDrowned(tao, &drowned));
   if (drowned) PetscFunctionReturn(0);
   PetscCall(PCAMGFGetFilterPivots(pc, &negative));
@@ -221,7 +220,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   KSPConvergedReason reason;
   PetscInt           its;
-  PetscBool          direct, indefinite, zero = PETSC_FALSE;
+  PetscBool          direct, indefinite = PETSC_FALSE, zero = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (ip->opt.forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
@@ -234,7 +233,8 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   ip->lin.reason = reason;
   ip->lin.its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
-  PetscCall(KrylovFilterIndefinite(tao, &indefinite));
+  /* looked at only where the problem has shown that it is not convex, and its constraints have an interior */
+  if (ip->lin.filtered && ip->bar.curved && !ip->relax.times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
   if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
   else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
   else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;

@@ -22,6 +22,7 @@ PETSC_INTERN PetscErrorCode IPKSPReset(KSP);
 
 /* krylov.c */
 PETSC_INTERN PetscErrorCode IPKrylovRecord(Tao, PetscInt its);
+PETSC_INTERN PetscErrorCode IPKrylovIndefinite(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPKrylovSolve(Tao, Vec, Vec, IPLinearVerdict *);
 
 /* direct.c */

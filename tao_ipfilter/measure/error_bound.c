@@ -190,6 +190,12 @@ PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
   PetscFunctionReturn(0);
 }
 
+/* The same in the units of the objective */
+PetscReal IPErrorBoundOfWork(const TAO_IPFILTER *ip, PetscReal work)
+{
+  return work * IP_WORTH_MULTIPLE * ip->scale.energy;
+}
+
 /* Whether a gap of complementarity is within the tolerance */
 PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 {

@@ -139,6 +139,22 @@ PetscReal IPBothErrors(const TAO_IPFILTER *ip)
   return Larger(ip->kkt.error, ip->kkt.work);
 }
 
+/* Violations beside the constraints' own terms, where nothing else stands against the end. With scales that are given
+   violations are absolute. */
+static PetscErrorCode OwnNearEnd(Tao tao)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal near = PetscMax(ip->tol, ip->opt.acceptable_tol);
+
+  PetscFunctionBegin;
+  ip->kkt.own = 0.0;
+  if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  if (ip->kkt.inf_pr == 0.0) PetscFunctionReturn(0);
+  if (ip->kkt.primal <= near) PetscCall(IPOwnViolation(tao, &ip->kkt.own));
+  else ip->kkt.own = PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
 /* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
 PetscErrorCode IPComputeKKT(Tao tao)
 {
@@ -168,6 +184,7 @@ PetscErrorCode IPComputeKKT(Tao tao)
   k->centrality      = deviation / ip->scale.product;
   k->error           = Larger(Larger(k->dual, k->primal), k->complementarity);
   PetscCall(IPErrorBoundOfResiduals(tao));
+  PetscCall(OwnNearEnd(tao));
   k->unscaled = Larger(Larger(k->inf_du, k->inf_pr), products);
   PetscFunctionReturn(0);
 }

@@ -14,6 +14,17 @@ PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscReal *mean);
 
+/* own.c */
+PETSC_INTERN PetscErrorCode IPOwnTerms(Mat, Vec x, Vec sums, Vec largest);
+PETSC_INTERN PetscErrorCode IPOwnViolation(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPOwnActiveSize(Tao, PetscReal *);
+
+/* reach.c */
+PETSC_INTERN PetscErrorCode IPMeasureReach(Tao);
+PETSC_INTERN PetscReal      IPReachOfUnknowns(const TAO_IPFILTER *);
+PETSC_INTERN PetscErrorCode IPSizeWithinReach(Tao, Vec, PetscReal *);
+PETSC_INTERN PetscErrorCode IPValuesWithinReach(Tao, Vec, Vec);
+
 /* scale.c */
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
@@ -41,6 +52,7 @@ PETSC_INTERN PetscErrorCode IPErrorBoundTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPErrorBoundEnergy(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPErrorBoundOfResiduals(Tao);
 PETSC_INTERN PetscErrorCode IPErrorBoundOfRelaxation(Tao, PetscReal *);
+PETSC_INTERN PetscReal      IPErrorBoundOfWork(const TAO_IPFILTER *, PetscReal work);
 PETSC_INTERN PetscBool      IPErrorBoundWithin(const TAO_IPFILTER *, PetscReal gap);
 PETSC_INTERN PetscReal      IPErrorBoundForceUnit(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPErrorBoundForceUnitAfter(Tao, Vec, PetscReal *);

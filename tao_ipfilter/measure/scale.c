@@ -26,8 +26,8 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscReal     c, t, gradient, upper = 0.0, transmitted = ip->first.jacobian * ip->pair[IP_SLACK].weight / ip->mi;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &c));
-  PetscCall(VecNorm(ip->pair[IP_SLACK].t, NORM_INFINITY, &t));
+  PetscCall(IPSizeWithinReach(tao, ip->at.c, &c));
+  PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
@@ -41,18 +41,19 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscFunctionReturn(0);
 }
 
-/* Values of the equality constraints: the first, or those of their linear parts */
+/* Values of the equality constraints: the first, or the terms of their linear parts */
 static PetscErrorCode EqualityScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           linear;
   PetscReal     norm;
+  Vec           sums;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_EQUALITIES, &linear));
-  PetscCall(MatMult(ip->jac.equality, tao->solution, linear));
-  PetscCall(VecNorm(linear, NORM_INFINITY, &norm));
-  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &linear));
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &sums));
+  PetscCall(IPOwnTerms(ip->jac.equality, tao->solution, sums, NULL));
+  PetscCall(VecNorm(sums, NORM_INFINITY, &norm));
+  ip->scale.equality_terms = norm;
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &sums));
   ip->scale.equality = PetscMax(ip->first.equality,
     Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
   PetscFunctionReturn(0);
@@ -102,7 +103,9 @@ PetscErrorCode IPComputeScale(Tao tao)
   IPScale      *s = &ip->scale;
 
   PetscFunctionBegin;
-  *s = (IPScale){ip->first.unit, 1.0, 1.0, ip->first.unit, 0.0, ip->first.unit, PETSC_INFINITY};
+  *s         = (IPScale){.dual = ip->first.unit, .length = 1.0, .equality = 1.0, .pressure = ip->first.unit};
+  s->product = ip->first.unit;
+  s->energy  = PETSC_INFINITY;
   if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){.dual = 0.0};
   PetscCall(DualScale(tao));

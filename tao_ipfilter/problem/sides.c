@@ -4,7 +4,7 @@
      l <= c_I, l <= c_I <= u   c = c_I - l
      c_I <= u                  c = u - c_I
      l = u                     an equality constraint c_I - l = 0, behind the caller's own ones of this rank
-     none                      nothing
+     none, or 1e19 and more    nothing
 
    Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
 */
@@ -22,9 +22,21 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscFunctionReturn(0);
 }
 
+/* Rows whose bound is this far off have none: IPOPT's nlp_lower_bound_inf and its counterpart */
+#define IP_NO_BOUND 1e19
+
 static inline PetscBool Finite(PetscReal bound)
 {
-  return (PetscBool)(PetscAbsReal(bound) < PETSC_INFINITY);
+  return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
+}
+
+/* Whether c is measured from the lower bound: not where that is so far off beside the upper one that rounding would
+   take what matters */
+static inline PetscBool FromLower(PetscReal l, PetscReal u)
+{
+  const PetscReal far = 1e6;
+
+  return (PetscBool)(Finite(l) && !(Finite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
 }
 
 /* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality
@@ -33,8 +45,8 @@ static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar
   PetscBool *equal)
 {
   *equal = (PetscBool)(Finite(l) && Finite(u) && u - l <= IP_TINY_STEP * PetscMax(PetscAbsReal(l), PetscAbsReal(u)));
-  *sign  = *equal ? 0.0 : (Finite(l) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
-  *base  = Finite(l) ? l : (Finite(u) ? u : 0.0);
+  *sign  = *equal ? 0.0 : (FromLower(l, u) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
+  *base  = FromLower(l, u) ? l : (Finite(u) ? u : 0.0);
   *range = Finite(l) && Finite(u) && !*equal ? u - l : PETSC_INFINITY;
 }
 

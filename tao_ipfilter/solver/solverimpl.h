@@ -127,8 +127,9 @@ static inline PetscBool IPUndefined(PetscReal value)
 typedef struct {
   PetscReal f, gradient; /* objective and norm of its gradient */
   PetscReal unit;        /* of the objective, with scaling by gradients: 1, or what brings them down to the limit */
-  PetscReal length, equality; /* of c_I and c_E */
+  PetscReal length, equality; /* of c_I, but for rows that are out of reach, and of c_E */
   PetscReal x;
+  PetscReal reach;             /* how far unknowns may be expected to move: reach.c; 0: not known */
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* of the terms that make up the objective */
@@ -137,6 +138,7 @@ typedef struct {
 /* Stiffness of the objective at the start, from the diagonal of H */
 typedef struct {
   Vec       rho;    /* pressure per length that resists each constraint */
+  Vec       reach;  /* how far each constraint's value may be expected to change: reach.c; NULL: not known */
   PetscReal mean;   /* harmonic mean of rho, weighted */
   Vec       hdiag;  /* |diagonal of H|, now */
   PetscReal hscale; /* its mean at the start, */
@@ -160,13 +162,14 @@ typedef struct {
 
 /* Sizes by which residuals are divided; all 1 in the published measure */
 typedef struct {
-  PetscReal dual;     /* forces that cancel in the stationarity condition */
-  PetscReal length;   /* values of c_I */
-  PetscReal equality; /* values of c_E */
-  PetscReal pressure; /* multipliers, */
-  PetscReal balance;  /* and those of one active constraint that balances the objective's gradient; 0: not known */
-  PetscReal product;  /* length x pressure: complementarity and mu */
-  PetscReal energy;   /* the objective; PETSC_INFINITY in the measures that do not ask for it */
+  PetscReal dual;           /* forces that cancel in the stationarity condition */
+  PetscReal length;         /* values of c_I */
+  PetscReal equality;       /* values of c_E */
+  PetscReal equality_terms; /* terms that cancel in c_E, now */
+  PetscReal pressure;       /* multipliers, */
+  PetscReal balance; /* and those of one active constraint that balances the objective's gradient; 0: not known */
+  PetscReal product; /* length x pressure: complementarity and mu */
+  PetscReal energy;  /* the objective; PETSC_INFINITY in the measures that do not ask for it */
 } IPScale;
 
 /* Residuals of the optimality conditions at the current iterate */
@@ -174,11 +177,12 @@ typedef struct {
   PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
   PetscReal centrality;                    /* as complementarity, for the present mu */
   PetscReal error;                         /* max(dual, primal, complementarity): decides convergence, together with */
-  PetscReal work;                      /* what the residuals are worth in the objective, over a multiple of its size */
-  PetscReal work_dual;                 /* the stationarity residual's share of it */
-  PetscReal violation;                 /* of constraints, slacks apart, over their first size */
-  PetscReal unscaled;                  /* largest absolute entry of all residuals, mu = 0 */
-  PetscReal dual_norm;                 /* 2-norm of the stationarity residual */
+  PetscReal work;      /* what the residuals are worth in the objective, over a multiple of its size */
+  PetscReal work_dual; /* the stationarity residual's share of it */
+  PetscReal own;       /* largest violation over the terms of its own constraint; looked at near the end alone: own.c */
+  PetscReal violation; /* of constraints, slacks apart, over their first size */
+  PetscReal unscaled;  /* largest absolute entry of all residuals, mu = 0 */
+  PetscReal dual_norm; /* 2-norm of the stationarity residual */
   PetscReal inf_pr, inf_du, inf_compl; /* largest absolute entries of the primal and the dual residual, and of t z */
 } IPKKT;
 
@@ -295,7 +299,8 @@ typedef struct {
   PetscReal theta0;             /* at the first iterate; negative: none yet */
   PetscReal theta_ref, phi_ref; /* units */
   PetscReal equality_weight;    /* brings c_E to the units of theta */
-  PetscReal rounding;           /* changes of phi below this mean nothing */
+  PetscReal rounding;           /* changes of phi below this mean nothing, */
+  PetscReal theta_rounding;     /* and values of theta */
   PetscReal alpha, alpha_dual;
   PetscInt  ntrials;
   PetscBool blocked;              /* whether it was the filter alone that refused the last trial point refused */

@@ -60,7 +60,7 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
   IPSearch        *search = &ip->search;
   const IPOptions *opt    = &ip->opt;
   const PetscReal  first = SearchFirstViolation(ip), change = phi - search->phi;
-  const PetscBool  alone    = (PetscBool)(search->theta <= 0.0);
+  const PetscBool  alone    = (PetscBool)(search->theta <= search->theta_rounding);
   const PetscBool  switches = SearchSwitches(ip, alpha, slope);
   const PetscBool  armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
   PetscBool        descends;

@@ -54,6 +54,27 @@ static PetscErrorCode MeritRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* What rounding leaves of theta where all constraints are met: a few eps of their values, and of the terms that cancel
+   in equality constraints */
+static PetscErrorCode MeritViolationRounding(Tao tao)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       square = 0.0, equality = 0.0;
+  Vec             near;
+
+  PetscFunctionBegin;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &near));
+    PetscCall(IPValuesWithinReach(tao, ip->at.c, near));
+    PetscCall(IPPairWeightedSquare(tao, near, &square));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
+  }
+  if (ip->me) equality = ip->search.equality_weight * ip->scale.equality_terms;
+  ip->search.theta_rounding = rounding * PetscSqrtReal(square + PetscSqr(equality));
+  PetscFunctionReturn(0);
+}
+
 /* Units of theta and phi, and theta at the first iterate, which its limits follow from */
 static PetscErrorCode MeritUnits(Tao tao)
 {
@@ -85,6 +106,7 @@ PetscErrorCode IPMeritMeasure(Tao tao)
   PetscCall(MeritViolation(tao, &ip->at, &ip->search.theta));
   PetscCall(MeritBarrier(tao, ip->at.f, PETSC_FALSE, &ip->search.phi));
   PetscCall(MeritRounding(tao));
+  PetscCall(MeritViolationRounding(tao));
   PetscFunctionReturn(0);
 }
 

@@ -43,12 +43,13 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* Whether the penalized problem is convex along dx */
+/* Whether the penalized problem is convex along dx, and wherever factors tell it */
 static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscScalar   curvature;
   PetscReal     size;
+  PetscBool     indefinite;
   Vec           Ad;
 
   PetscFunctionBegin;
@@ -57,7 +58,8 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
   PetscCall(VecDot(ip->dir.x, Ad, &curvature));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Ad));
   PetscCall(VecNorm(ip->dir.x, NORM_2, &size));
-  *convex = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->stiff.hscale * PetscSqr(size));
+  PetscCall(IPKrylovIndefinite(tao, &indefinite));
+  *convex = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->stiff.hscale * PetscSqr(size) && !indefinite);
   PetscFunctionReturn(0);
 }
 

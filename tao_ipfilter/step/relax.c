@@ -48,11 +48,13 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal before = ip->relax.by;
-  PetscReal       size;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &size));
-  if (!ip->relax.times) ip->relax.size = PetscMax(size, ip->first.length);
+  if (!ip->relax.times) {
+    PetscCall(IPOwnActiveSize(tao, &ip->relax.size));
+    ip->relax.size = PetscMax(ip->relax.size, ip->first.length);
+    if (!(ip->relax.size > 0.0)) ip->relax.size = ip->scale.length;
+  }
   ip->relax.times++;
   ip->relax.by = fraction * ip->tol * ip->relax.size;
   PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack,

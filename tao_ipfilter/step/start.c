@@ -20,7 +20,7 @@ static PetscErrorCode StartCold(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Weighted mean of rho q^2: the product length x pressure of the constraints' present values */
+/* Weighted mean of rho q^2: the product length x pressure of the constraints' present values, of those within reach */
 static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -30,7 +30,8 @@ static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q2));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &weight));
-  PetscCall(VecPointwiseMult(q2, q, q));
+  PetscCall(IPValuesWithinReach(tao, q, q2));
+  PetscCall(VecPointwiseMult(q2, q2, q2));
   PetscCall(VecPointwiseMult(weight, ip->stiff.rho, ip->pair[IP_SLACK].w));
   PetscCall(VecDot(q2, weight, &sum));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &weight));
@@ -54,6 +55,19 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
+/* The same of the constraints' values within reach */
+static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
+{
+  Vec near;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &near));
+  PetscCall(IPValuesWithinReach(tao, ((TAO_IPFILTER *)tao->data)->at.c, near));
+  PetscCall(MeanMagnitude(tao, near, mean));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
+  PetscFunctionReturn(0);
+}
+
 /* Without a penalty step, or an objective that resists one, the stiffness is that of multipliers which balance the
    gradient, over the constraints' mean value */
 static PetscErrorCode GradientStiffness(Tao tao)
@@ -68,7 +82,7 @@ static PetscErrorCode GradientStiffness(Tao tao)
   PetscCall(MatMultTranspose(ip->jac.inequality, ip->pair[IP_SLACK].w, force));
   PetscCall(VecNorm(force, NORM_2, &transmitted));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
-  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  PetscCall(MeanLength(tao, &length));
   if (gradient > 0.0 && transmitted > 0.0 && length > 0.0)
     PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
   PetscFunctionReturn(0);
@@ -92,9 +106,10 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
     if (!ip->pair[b].n) continue;
     PetscCall(VecGetArrayRead(ip->pair[b].t, &t));
     for (PetscInt j = 0; j < n; j++) {
-      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0), way = PetscRealPart(t[j]);
+      const PetscReal force = PetscMax(ip->pair[b].sign * PetscRealPart(g[j]), 0.0);
+      const PetscReal way   = PetscMin(PetscRealPart(t[j]), IPReachOfUnknowns(ip));
 
-      if (way >= PETSC_INFINITY) continue;
+      if (PetscRealPart(t[j]) >= PETSC_INFINITY) continue;
       if (force > linear * PetscRealPart(h[j]) * way) sum[0] += force * way;
       sum[1] += 1.0;
     }
@@ -122,7 +137,7 @@ static PetscErrorCode StartPredicted(Tao tao)
   if (!moved) PetscCall(GradientStiffness(tao));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
   PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
-  PetscCall(MeanMagnitude(tao, ip->at.c, &length));
+  PetscCall(MeanLength(tao, &length));
   PetscCall(MeanMagnitude(tao, z, &pressure));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
@@ -238,7 +253,7 @@ static PetscErrorCode StartBounds(Tao tao)
   if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
     PetscCall(IPFreeStep(tao, &moved, &mean));
   if (moved) ip->mu = ip->opt.mu_start * mean;
-  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM) {
+  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
     ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));

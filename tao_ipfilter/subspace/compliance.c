@@ -16,35 +16,54 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky of K_WW by MUMPS, or by PETSc where there is none; *factored is false where it is not positive definite */
-static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *factored)
+/* Whether a factor of K has no negative pivot. Cholesky factorizations report no error at one: they keep L D L^T. */
+static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
+{
+  PetscInt negative;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetInertia(F, &negative, NULL, NULL));
+  *positive = (PetscBool)(negative == 0);
+  PetscFunctionReturn(0);
+}
+
+/* Cholesky of K_WW by MUMPS, or by PETSc, which counts pivots in its SBAIJ format alone; *definite is false where K_WW
+   is not positive definite */
+static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
   MatFactorInfo  info;
   PetscBool      mumps;
   IS             rows = NULL, columns = NULL;
+  Mat            A;
 
   PetscFunctionBegin;
   PetscCall(MatSetOption(K, MAT_SPD, PETSC_TRUE));
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
-  PetscCall(MatGetFactor(K, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_CHOLESKY, F));
+  if (mumps) {
+    PetscCall(PetscObjectReference((PetscObject)K));
+    A = K;
+  } else PetscCall(MatConvert(K, MATSEQSBAIJ, MAT_INITIAL_MATRIX, &A));
+  PetscCall(MatGetFactor(A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_CHOLESKY, F));
   PetscCall(MatFactorInfoInitialize(&info));
-  if (!mumps) PetscCall(MatGetOrdering(K, MATORDERINGND, &rows, &columns));
-  PetscCall(MatCholeskyFactorSymbolic(*F, K, rows, &info));
-  PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
+  if (!mumps) PetscCall(MatGetOrdering(A, MATORDERINGNATURAL, &rows, &columns));
+  PetscCall(MatCholeskyFactorSymbolic(*F, A, rows, &info));
+  PetscCall(MatCholeskyFactorNumeric(*F, A, &info));
   PetscCall(ISDestroy(&rows));
   PetscCall(ISDestroy(&columns));
+  PetscCall(MatDestroy(&A));
   PetscCall(MatFactorGetError(*F, &error));
-  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  *definite = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  if (*definite) PetscCall(CompliancePositive(*F, definite));
   PetscFunctionReturn(0);
 }
 
-/* Of sequential K_WW and J_W, of which J_W is kept; *factored is false where K_WW is not positive definite */
-PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, Mat J, PetscBool *factored)
+/* Of sequential K_WW and J_W, of which J_W is kept; *definite is false where K_WW is not positive definite */
+PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, Mat J, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPComplianceDestroy(c));
-  PetscCall(ComplianceFactor(K, &c->F, factored));
+  PetscCall(ComplianceFactor(K, &c->F, definite));
   PetscCall(PetscObjectReference((PetscObject)J));
   c->J = J;
   PetscCall(MatGetSize(J, &c->m, &c->n));

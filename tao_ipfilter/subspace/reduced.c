@@ -228,27 +228,38 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* What one rank has found, on all of them */
-static PetscErrorCode ReducedTell(const IPReduced *r, PetscBool *verdict)
+/* What the first rank has found, on all of them; an error of it is one of all ranks */
+static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {
+  PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
+
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(verdict, 1, MPI_PETSCBOOL, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscCallMPI(MPI_Bcast(said, 2, MPI_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscCall(error);
+  PetscCheck(!said[0], PETSC_COMM_SELF, (PetscErrorCode)said[0],
+    "The reduced problem of the filtered subspace failed on the first rank, with error %d", said[0]);
+  *verdict = (PetscBool)said[1];
   PetscFunctionReturn(0);
 }
 
 /* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
-static PetscErrorCode ReducedFactor(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+static PetscErrorCode ReducedFactorFirst(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (r->first) {
-    PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
-    if (*definite) PetscCall(IPCompanionsAreNeeded(KWW, &r->compliance, &singular));
-    if (!*definite || singular) PetscCall(IPCompanionsTake(KWW, &r->companions));
-    if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
-  }
-  PetscCall(ReducedTell(r, definite));
+  PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  if (*definite) PetscCall(IPCompanionsAreNeeded(KWW, &r->compliance, &singular));
+  if (!*definite || singular) PetscCall(IPCompanionsTake(KWW, &r->companions));
+  if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedFactor(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+{
+  PetscFunctionBegin;
+  *definite = PETSC_FALSE;
+  PetscCall(ReducedTell(r, r->first ? ReducedFactorFirst(r, KWW, JW, definite) : (PetscErrorCode)0, definite));
   PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscFunctionReturn(0);
 }
@@ -307,6 +318,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   Mat             KWW, JW;
   const PetscInt *w;
   PetscInt        nw;
+  PetscErrorCode  error = (PetscErrorCode)0;
 
   PetscFunctionBegin;
   PetscCall(IPReducedDestroy(r));
@@ -331,8 +343,8 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscCall(ReducedFactor(r, KWW, JW, definite));
   PetscCall(ReducedCreateSystem(r, basis));
   if (*definite) PetscCall(ReducedAppendCompanions(r));
-  if (*definite && r->nterms) PetscCall(ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws, definite));
-  PetscCall(ReducedTell(r, definite));
+  if (*definite && r->nterms) error = ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws, definite);
+  PetscCall(ReducedTell(r, error, definite));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -537,8 +549,8 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   PetscReal       *w = NULL;
 
   PetscFunctionBegin;
-  if (r->first) PetscCall(ReducedSolveFirst(r, solved));
-  PetscCall(ReducedTell(r, solved));
+  *solved = PETSC_FALSE;
+  PetscCall(ReducedTell(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(r->n, &w));
   if (r->first) PetscCall(ReducedRecover(r, w));

@@ -128,7 +128,7 @@ PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
 PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
 
 /* compliance.c */
-PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, Mat J, PetscBool *factored);
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, Mat J, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscBool transposed, const PetscReal[], PetscReal[]);

@@ -96,9 +96,9 @@ PetscErrorCode IPOperatorUpdate(Tao tao)
   PetscCall(VecGetSize(tao->solution, &N));
   if (!cond->A) {
     PetscCall(MatCreateShell(PetscObjectComm((PetscObject)tao), n, n, N, N, tao, &cond->A));
-    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT, (void (*)(void))OperatorMult));
-    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT_TRANSPOSE, (void (*)(void))OperatorMult));
-    PetscCall(MatShellSetOperation(cond->A, MATOP_GET_DIAGONAL, (void (*)(void))OperatorGetDiagonal));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT, (AMGFOperation *)OperatorMult));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_MULT_TRANSPOSE, (AMGFOperation *)OperatorMult));
+    PetscCall(MatShellSetOperation(cond->A, MATOP_GET_DIAGONAL, (AMGFOperation *)OperatorGetDiagonal));
     PetscCall(MatSetOption(cond->A, MAT_SYMMETRIC, PETSC_TRUE));
   }
   PetscCall(PetscObjectStateIncrease((PetscObject)cond->A));

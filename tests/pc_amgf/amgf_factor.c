@@ -100,7 +100,7 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscOptionsGetString(NULL, NULL, "-type", type, sizeof(type), NULL));
   PetscCall(ProblemSetDefaults(&problem));
-  problem.n = 8;
+  problem.n = 12; /* more unknowns than PCBLOCKAMG solves for at once */
   PetscCall(ProblemCreate(PETSC_COMM_WORLD, &problem, type, PETSC_TRUE, &A));
   PetscCall(ContextCreate(A, PC_AMGF_FACTOR_FALSE, &c));
   PetscCall(Solve(&c, "false"));

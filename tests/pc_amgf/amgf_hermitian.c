@@ -244,6 +244,8 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   comm = PETSC_COMM_WORLD;
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-hermitian", &hermitian, NULL));
+  if (hermitian && !PetscDefined(USE_COMPLEX)) /* in double precision, as with complex scalars */
+    PetscCall(PetscOptionsSetValue(NULL, "-amgf_amg_pc_type", PCHYPRE));
   PetscCall(CreateOperator(comm, &A));
   PetscCall(CreateTied(A, &is));
   PetscCall(ProblemCreateInterpolation(A, is, 0.25 * Phase(0.8), &P));

@@ -1,6 +1,7 @@
 static char help[] =
   "PCAMGF on operators of every kind: it solves, or one sentence says what is missing, on every rank.\n\n";
 
+#include <petsccompat.h>
 #include "amgf_problem.h"
 #include "../lib/attempt.h"
 
@@ -26,7 +27,7 @@ static PetscErrorCode OperatorCreate(Mat A, MatType type, Mat *B)
   if (shell) {
     PetscCall(MatGetLocalSize(A, &m, NULL));
     PetscCall(MatCreateShell(PetscObjectComm((PetscObject)A), m, m, PETSC_DETERMINE, PETSC_DETERMINE, A, B));
-    PetscCall(MatShellSetOperation(*B, MATOP_MULT, (void (*)(void))OperatorMult));
+    PetscCall(MatShellSetOperation(*B, MATOP_MULT, (AMGFOperation *)OperatorMult));
   } else if (nest) PetscCall(MatCreateNest(PetscObjectComm((PetscObject)A), 1, NULL, 1, NULL, &A, B));
   else PetscCall(MatConvert(A, type, MAT_INITIAL_MATRIX, B));
   PetscFunctionReturn(0);

@@ -247,6 +247,7 @@ static PetscErrorCode CheckAmat(void)
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Amat and Pmat\n"));
+  PetscCall(PetscOptionsSetValue(NULL, "-amgf_amg_pc_type", PCHYPRE)); /* symmetric to double precision */
   PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFSetCycle(c.pc, PC_AMGF_BFB));
   c.problem.ax = 1.2;
@@ -272,6 +273,7 @@ static PetscErrorCode CheckAmat(void)
   PetscCall(VecDestroy(&Mx));
   PetscCall(VecDestroy(&My));
   PetscCall(ContextDestroy(&c));
+  PetscCall(PetscOptionsClearValue(NULL, "-amgf_amg_pc_type"));
   PetscFunctionReturn(0);
 }
 

@@ -40,12 +40,12 @@ def pad(key, cells="8, 8, 8", law="", symmetry=""):
     return PLATES.format(cells=cells, law=law, symmetry=symmetry, kind="contact" if key else "ties", key=key)
 
 
-def stack(blocks):
+def stack(blocks, law="friction: 0.3"):
     text, pairs, top = "problem: stack\nbodies:\n" + GROUND, "", 0
     for i, (width, height, cells, young) in enumerate(blocks):
         bottom, top = top, round(top + height, 6)
         text += BLOCK.format(i=i, low=-width / 2, high=width / 2, bottom=bottom, top=top, cells=cells, young=young)
-        pairs += f"  - j{i}: {{mortar: {f'b{i - 1}' if i else 'ground'}.zmax, nonmortar: b{i}.zmin, friction: 0.3}}\n"
+        pairs += f"  - j{i}: {{mortar: {f'b{i - 1}' if i else 'ground'}.zmax, nonmortar: b{i}.zmin, {law}}}\n"
     return text + "displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n  - g: {value: [0, 0, -1]}\ncontact:\n" + pairs
 
 
@@ -56,7 +56,7 @@ SCENES = {
     "tied_quarter": pad("", symmetry=QUARTER),
     "sticks_quarter": pad(", stick: true", symmetry=QUARTER),
     "finite": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean"),
-} | {name: stack(blocks) for name, blocks in STACKS.items()}
+} | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true")}
 
 
 def load(name):
@@ -87,7 +87,7 @@ else:
         for pair in step["pairs"]:
             most = {"grips": 1, "finite": 0.3}[name] * pair["normal_force"]
             say(f"{name}, {pair['name']}: pressed, and friction within its law", 0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
-    for name, blocks in STACKS.items():
+    for name, blocks in (STACKS | {"unlike_sticks": UNLIKE}).items():
         for i, pair in enumerate(load(name)["pairs"]):
             weight = sum(width**2 * height for width, height, _, _ in blocks[i:])
             say(f"{name}, {pair['name']}: carries what is above", abs(pair["force"][2] / weight - 1) < 1e-6, pair["force"][2] / weight - 1)

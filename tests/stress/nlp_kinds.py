@@ -232,3 +232,12 @@ add("quadratic, free along a line", "(x1-x2)^2-x1", 0.0, "1 0", ge=["x1+x2"], en
 add("product over a quadrant", "-x1*x2", 0.0, "1 1", ge=["x1-x2+1", "x2-x1+1"], bounds="2*0:", end=UNBOUNDED)
 add("value not attained, exponential", "exp(-x1)", 0.0, "0")
 add("value not attained, hyperbola", "1/x1", 0.0, "1", bounds="1:")
+
+
+# ---- Homogeneous equalities from zero, and starts beside which any violation is small ----
+
+add("currents at two nodes, from zero", "(x1-1)^2+x2^4+2*x2^2+x3^2+(x4-0.3)^4+x4^2", 0.5035887906424, "4*0", eq=["x1-x2-x3", "x3-x4"])
+add("currents in a loop, cubic, from zero", "x1^2*sqrt(x1^2+1e-4)+2*x2^2*sqrt(x2^2+1e-4)+x3^2-4*x3", -2.711952908477, "3*0", eq=["x1+x2-x3", "3*x1-3*x2+x2^3-x1^3"])
+add("linear dynamics, from zero", "exp(x1)-3*x1+0.01*x2^2+(x3-1)^2+0.01*x4^2", -0.2837654916053, "4*0", eq=["x1-x2", "x3-x1-x4"], bounds=": -2:2 : -2:2")
+add("circle and hyperbola, from afar", "0", 0.0, "1e4 1e-2", eq=["x1^2+x2^2-1e4", "x1*x2-3e3"])
+add("cubic equation, from afar", "0", 0.0, "1e6 -1e6", eq=["x1+x2^3*1e-3-48", "x1-x2"])

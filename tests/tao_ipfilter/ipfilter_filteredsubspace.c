@@ -1,10 +1,13 @@
+#define _GNU_SOURCE /* RTLD_NEXT */
 static char help[] =
   "The filtered subspace method: the interior point method's solution for a fraction of its linear iterations,\n\
 on the same solver and on another\n\
 one again, with dependent rows, by Newton's method where the objective is not quadratic; the interior point\n\
 method where it cannot be.\n\n";
 
+#include "../lib/attempt.h"
 #include "ipfilter_problem.h"
+#include <dlfcn.h>
 
 /* A membrane of n x n points over a cap, min 1/2 u^T H u - b^T u, g + J u >= 0: what J and H are made of */
 typedef struct {
@@ -303,20 +306,117 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
   PetscFunctionReturn(0);
 }
 
+static PetscBool inertia_fails = PETSC_FALSE;
+
+/* In the place of PETSc's, which the library calls on the first rank alone: fails where it is to */
+PetscErrorCode MatGetInertia(Mat F, PetscInt *negative, PetscInt *zero, PetscInt *positive)
+{
+  PetscErrorCode (*theirs)(Mat, PetscInt *, PetscInt *, PetscInt *);
+
+  PetscFunctionBegin;
+  PetscCheck(!inertia_fails, PETSC_COMM_SELF, PETSC_ERR_LIB, "The first rank fails by itself");
+  *(void **)&theirs = dlsym(RTLD_NEXT, "MatGetInertia");
+  PetscCheck(theirs, PETSC_COMM_SELF, PETSC_ERR_LIB, "No MatGetInertia()");
+  PetscCall((*theirs)(F, negative, zero, positive));
+  PetscFunctionReturn(0);
+}
+
+/* What fails on the first rank, which alone solves the reduced problem, fails on all of them */
+static PetscErrorCode TestFirstRank(PetscInt n)
+{
+  Membrane       m = {.copies = 1};
+  PetscErrorCode error;
+  PetscMPIInt    failed, all;
+  Tao            tao;
+  Vec            x;
+
+  PetscFunctionBeginUser;
+  PetscCall(AssembleMembrane(n, &m));
+  PetscCall(AssembleCap(n, 0.0, &m));
+  PetscCall(VecDuplicate(m.q.b, &x));
+  PetscCall(CreateTao(&m, x, "true", &tao));
+  inertia_fails = PETSC_TRUE;
+  PetscCall(AttemptBegin());
+  error = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  inertia_fails = PETSC_FALSE;
+  failed        = error == PETSC_ERR_LIB;
+  PetscCallMPI(MPI_Allreduce(&failed, &all, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error of the first rank: %s\n", all ? "one of all ranks" : "NOT OF ALL"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&m.q));
+  PetscFunctionReturn(0);
+}
+
+/* Two unknowns with the Hessian (1 2; 2 1), 1 +- x_i >= 0, beside others that no row touches: a saddle of -0.003
+   inside, minima of -1.2 and -0.8 at corners. Factors of the two raise no error, and each pivot on the diagonal is
+   positive. */
+static PetscErrorCode TestConcave(void)
+{
+  const PetscInt   size = 20;
+  QuadraticProgram q    = {.H = NULL};
+  PetscReal        f;
+  PetscInt         start, end, first;
+  Tao              tao;
+  Vec              x;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, size, size, 2, NULL, 1, NULL, &q.H));
+  PetscCall(MatCreateVecs(q.H, &x, &q.b));
+  PetscCall(MatGetOwnershipRange(q.H, &start, &end));
+  for (PetscInt i = start; i < end; i++) {
+    PetscCall(MatSetValue(q.H, i, i, 1.0, INSERT_VALUES));
+    if (i < 2) PetscCall(MatSetValue(q.H, i, 1 - i, 2.0, INSERT_VALUES));
+    PetscCall(VecSetValue(q.b, i, i ? (i == 1 ? 0.1 : 0.0) : 0.3, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(q.H, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecAssemblyBegin(q.b));
+  PetscCall(VecAssemblyEnd(q.b));
+  PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, end - start, 4, size, 1, NULL, 1, NULL, &q.J));
+  PetscCall(MatCreateVecs(q.J, NULL, &q.g));
+  PetscCall(MatGetOwnershipRange(q.J, &first, &end));
+  for (PetscInt i = first; i < end; i++) PetscCall(MatSetValue(q.J, i, i / 2, i % 2 ? -1.0 : 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(q.J, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecSet(q.g, -1.0));
+  PetscCall(ProblemCreateSolver(&q, x, &tao));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_subspace", "true"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &f, NULL, NULL, NULL, NULL));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a Hessian that is indefinite on the subspace: %s\n",
+    f < -0.79 ? "the minimum at a bound" : "no minimum"));
+  if (!(f < -0.79)) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  objective %g\n", (double)f));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&q));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const PetscInt n         = 24;
   Membrane       dependent = {.copies = 3}, curved = {.copies = 1, .quartic = 0.5},
            indefinite = {.copies = 1, .stiffness = -0.05}, wells = {.copies = 1, .quartic = 0.5, .stiffness = -0.05};
+  PetscBool first_rank;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-first_rank", &first_rank));
+  if (first_rank) {
+    PetscCall(TestFirstRank(n));
+    PetscCall(PetscFinalize());
+    return 0;
+  }
   PetscCall(TestKept(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));
   PetscCall(TestOne("an indefinite Hessian", n, &indefinite, -1));
   PetscCall(TestOne("a Hessian that is indefinite at the start", n, &wells, 0));
+  PetscCall(TestConcave());
   PetscCall(TestLimit("-tao_max_it", n, 0));
   PetscCall(TestLimit("-tao_ipfilter_ksp_max_it", n, 1));
   PetscCall(PetscFinalize());
@@ -328,5 +428,11 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3 5}}
+
+   # what an error leaves allocated is no leak
+   test:
+      suffix: first_rank
+      nsize: {{1 3}}
+      args: -first_rank -malloc_dump 0
 
 TEST*/

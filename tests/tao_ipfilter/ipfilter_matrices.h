@@ -3,6 +3,7 @@
 #define IPFILTER_MATRICES_H
 
 #include "../lib/attempt.h"
+#include <petsccompat.h>
 #include "ipfilter_problem.h"
 
 /* min 1/2 x^T H x - b^T x subject to J x - g >= 0, E x - e = 0 and -1 <= x <= 1 */
@@ -131,9 +132,9 @@ static inline PetscErrorCode CreateShell(Mat A, PetscBool diagonal, Mat *S)
   PetscCall(MatGetLocalSize(A, &m, &n));
   PetscCall(MatGetSize(A, &M, &N));
   PetscCall(MatCreateShell(PETSC_COMM_WORLD, m, n, M, N, A, S));
-  PetscCall(MatShellSetOperation(*S, MATOP_MULT, (void (*)(void))ShellMult));
-  PetscCall(MatShellSetOperation(*S, MATOP_MULT_TRANSPOSE, (void (*)(void))ShellMultTranspose));
-  if (diagonal) PetscCall(MatShellSetOperation(*S, MATOP_GET_DIAGONAL, (void (*)(void))ShellGetDiagonal));
+  PetscCall(MatShellSetOperation(*S, MATOP_MULT, (AMGFOperation *)ShellMult));
+  PetscCall(MatShellSetOperation(*S, MATOP_MULT_TRANSPOSE, (AMGFOperation *)ShellMultTranspose));
+  if (diagonal) PetscCall(MatShellSetOperation(*S, MATOP_GET_DIAGONAL, (AMGFOperation *)ShellGetDiagonal));
   PetscFunctionReturn(0);
 }
 

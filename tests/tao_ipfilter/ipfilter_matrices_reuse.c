@@ -80,7 +80,7 @@ static PetscErrorCode TestConversions(PetscInt n)
   PetscCall(CreateProgram(n, &p));
   PetscCall(VecDuplicate(p.q.b, &x));
   PetscCall(CreateShell(p.q.J, PETSC_FALSE, &J));
-  PetscCall(MatShellSetOperation(J, MATOP_MULT, (void (*)(void))CountProduct));
+  PetscCall(MatShellSetOperation(J, MATOP_MULT, (AMGFOperation *)CountProduct));
   PetscCall(CreateTao(&p, p.q.H, J, NULL, "", x, &tao));
   PetscCall(TaoSetJacobianInequalityRoutine(tao, J, J, CountEvaluation, &nevaluations));
   PetscCall(VecDuplicate(p.q.g, &lower));

@@ -1,0 +1,119 @@
+/* Violations beside the terms that the constraints themselves are made of, now: the sizes at a start that lay far off,
+   or those of other rows, would let anything pass. */
+#include "measureimpl.h"
+
+/* Of every row of J: sum_j |J_ij x_j|, the terms that cancel where it is met, and max_j |J_ij|; largest may be NULL */
+PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
+{
+  Mat          terms;
+  PetscScalar *sum, *most = NULL;
+  PetscInt     rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &terms));
+  PetscCall(MatDiagonalScale(terms, NULL, x));
+  PetscCall(MatGetOwnershipRange(terms, &rstart, &rend));
+  PetscCall(VecGetArrayWrite(sums, &sum));
+  if (largest) PetscCall(VecGetArrayWrite(largest, &most));
+  for (PetscInt i = 0; i < rend - rstart; i++) {
+    const PetscScalar *v;
+    PetscInt           n;
+
+    PetscCall(MatGetRow(terms, rstart + i, &n, NULL, &v));
+    sum[i] = 0.0;
+    for (PetscInt k = 0; k < n; k++) sum[i] += PetscAbsScalar(v[k]);
+    PetscCall(MatRestoreRow(terms, rstart + i, &n, NULL, &v));
+    if (!most) continue;
+    PetscCall(MatGetRow(J, rstart + i, &n, NULL, &v));
+    most[i] = 0.0;
+    for (PetscInt k = 0; k < n; k++) most[i] = PetscMax(PetscRealPart(most[i]), PetscAbsScalar(v[k]));
+    PetscCall(MatRestoreRow(J, rstart + i, &n, NULL, &v));
+  }
+  if (largest) PetscCall(VecRestoreArrayWrite(largest, &most));
+  PetscCall(VecRestoreArrayWrite(sums, &sum));
+  PetscCall(MatDestroy(&terms));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation over the terms of its row: those of the unknowns and the rest of c. Rows all of whose terms vanish
+   have no less than a trace of what the largest unknown would make there, and than what rounding left of the first
+   ones. */
+static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal first, PetscReal *own)
+{
+  const PetscReal    trace = 1e-6;
+  const PetscScalar *a[5];
+  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* and J x, the sums, the largest entries */
+  PetscReal          local = 0.0, xsize;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 2; k < 5; k++) PetscCall(IPGetWork(tao, space, &v[k]));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  PetscCall(MatMult(J, tao->solution, v[2]));
+  PetscCall(IPOwnTerms(J, tao->solution, v[3], v[4]));
+  PetscCall(VecGetLocalSize(c, &n));
+  for (PetscInt k = 0; k < 5; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal terms = PetscMax(PetscRealPart(a[3][i]), PetscAbsScalar(a[0][i] - a[2][i]));
+    const PetscReal size =
+      PetscMax(PetscMax(terms, trace * PetscRealPart(a[4][i]) * xsize), PETSC_MACHINE_EPSILON * first);
+
+    if (a[1][i] != 0.0) local = PetscMax(local, size > 0.0 ? PetscAbsScalar(a[1][i]) / size : PETSC_INFINITY);
+  }
+  for (PetscInt k = 0; k < 5; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
+  for (PetscInt k = 4; k >= 2; k--) PetscCall(IPRestoreWork(tao, space, &v[k]));
+  PetscCallMPI(MPI_Allreduce(&local, own, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* Largest violation of all constraints, as they are relaxed, over their own terms */
+PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
+{
+  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
+  const IPFirst *first = &ip->first;
+  PetscReal      other = 0.0;
+  Vec            v;
+
+  PetscFunctionBegin;
+  *own = 0.0;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
+    PetscCall(IPSlackViolation(tao, ip->at.c, v));
+    PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v,
+      PetscMax(first->length, first->jacobian * first->x), own));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
+  }
+  if (ip->me)
+    PetscCall(OwnLargest(tao, IP_EQUALITIES, ip->jac.equality, ip->at.ce, ip->at.ce,
+      PetscMax(first->equality, first->equality_jacobian * first->x), &other));
+  *own = PetscMax(*own, other);
+  PetscFunctionReturn(0);
+}
+
+/* Size of the inequality constraints that are active, those whose slack is next to nothing beside the terms of the row:
+   the largest of these terms; 0 where none is */
+PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
+{
+  TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal    active = 1e-3;
+  const PetscScalar *a[4];
+  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* and J x, the sums */
+  PetscReal          local = 0.0;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 2; k < 4; k++) PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v[k]));
+  PetscCall(MatMult(ip->jac.inequality, tao->solution, v[2]));
+  PetscCall(IPOwnTerms(ip->jac.inequality, tao->solution, v[3], NULL));
+  PetscCall(VecGetLocalSize(ip->at.c, &n));
+  for (PetscInt k = 0; k < 4; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal terms = PetscMax(PetscRealPart(a[3][i]), PetscAbsScalar(a[0][i] - a[2][i]));
+
+    if (PetscRealPart(a[1][i]) <= active * terms) local = PetscMax(local, terms);
+  }
+  for (PetscInt k = 0; k < 4; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
+  for (PetscInt k = 3; k >= 2; k--) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v[k]));
+  PetscCallMPI(MPI_Allreduce(&local, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}

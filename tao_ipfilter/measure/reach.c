@@ -1,0 +1,152 @@
+/*
+   Constraints out of reach: no unknown that moves as far as can be expected makes them zero. Rows of 1e8 or 1e10 that
+   stand for none are such. No size hangs on them: beside them all that matters would be small.
+*/
+#include "measureimpl.h"
+
+#define IP_FAR  1e3  /* times the change of a constraint that can be expected: its value is out of reach */
+#define IP_SOFT 1e-8 /* of the largest curvature: less counts as none */
+
+/* |x_j|, and the Newton step of each unknown by itself */
+static PetscErrorCode ReachUnknowns(Tao tao, Vec way)
+{
+  Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
+  const PetscScalar *g, *h;
+  PetscScalar       *w;
+  PetscReal          hmax;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecMax(hdiag, NULL, &hmax));
+  PetscCall(VecCopy(tao->solution, way));
+  PetscCall(VecAbs(way));
+  PetscCall(VecGetLocalSize(way, &n));
+  PetscCall(VecGetArrayRead(tao->gradient, &g));
+  PetscCall(VecGetArrayRead(hdiag, &h));
+  PetscCall(VecGetArray(way, &w));
+  for (PetscInt j = 0; j < n; j++)
+    if (PetscRealPart(h[j]) > IP_SOFT * hmax) w[j] += PetscAbsScalar(g[j]) / PetscRealPart(h[j]);
+  PetscCall(VecRestoreArray(way, &w));
+  PetscCall(VecRestoreArrayRead(hdiag, &h));
+  PetscCall(VecRestoreArrayRead(tao->gradient, &g));
+  PetscFunctionReturn(0);
+}
+
+/* The way to constraints that are not met, and to the nearest of those that are: over the largest row of J */
+static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nearest)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  const PetscScalar *c;
+  PetscReal          way[2] = {0.0, PETSC_NINFINITY}; /* the largest, - the least */
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(ip->at.c, &n));
+  PetscCall(VecGetArrayRead(ip->at.c, &c));
+  for (PetscInt i = 0; i < n; i++) {
+    way[0] = PetscMax(way[0], -PetscRealPart(c[i]) / ip->first.jacobian);
+    if (PetscRealPart(c[i]) > 0.0) way[1] = PetscMax(way[1], -PetscRealPart(c[i]) / ip->first.jacobian);
+  }
+  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, way, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  if (ip->first.equality_jacobian > 0.0) way[0] = PetscMax(way[0], ip->first.equality / ip->first.equality_jacobian);
+  *violated = way[0];
+  *nearest  = way[1] > PETSC_NINFINITY ? -way[1] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* How far each constraint may change, by its own unknowns, and no less than it takes to meet it; by all of them where
+   its own stay where they are */
+static PetscErrorCode ReachRows(Tao tao, Vec way)
+{
+  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
+  const PetscScalar *c;
+  PetscScalar       *r;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(ip->at.c, &ip->stiff.reach));
+  PetscCall(IPOwnTerms(ip->jac.inequality, way, ip->stiff.reach, NULL));
+  PetscCall(VecGetLocalSize(ip->at.c, &n));
+  PetscCall(VecGetArrayRead(ip->at.c, &c));
+  PetscCall(VecGetArray(ip->stiff.reach, &r));
+  for (PetscInt i = 0; i < n; i++) {
+    if (r[i] == 0.0) r[i] = ip->first.jacobian * ip->first.reach;
+    r[i] = PetscMax(PetscRealPart(r[i]), -PetscRealPart(c[i]));
+  }
+  PetscCall(VecRestoreArray(ip->stiff.reach, &r));
+  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
+  PetscFunctionReturn(0);
+}
+
+/* How far unknowns and constraints may be expected to move, from what is known at the start. With it, what c_I measures
+   there. */
+PetscErrorCode IPMeasureReach(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFirst      *first = &ip->first;
+  PetscReal     largest, violated, nearest;
+  Vec           way;
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&ip->stiff.reach));
+  if (!ip->mi || !(first->jacobian > 0.0)) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &way));
+  PetscCall(ReachUnknowns(tao, way));
+  PetscCall(VecNorm(way, NORM_INFINITY, &largest));
+  PetscCall(ReachViolated(tao, &violated, &nearest));
+  first->reach = PetscMax(largest, violated);
+  if (first->reach == 0.0) first->reach = nearest;
+  if (first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, way));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &way));
+  if (!ip->stiff.reach) PetscFunctionReturn(0);
+  PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &largest));
+  PetscCall(IPSizeWithinReach(tao, ip->at.c, &first->length));
+  if (first->length == 0.0 && largest > 0.0) first->length = first->jacobian * first->reach;
+  PetscFunctionReturn(0);
+}
+
+/* No unknown is expected to move farther than that */
+PetscReal IPReachOfUnknowns(const TAO_IPFILTER *ip)
+{
+  return ip->first.reach > 0.0 ? IP_FAR * ip->first.reach : PETSC_INFINITY;
+}
+
+/* The entries of v, a vector in the layout of c_I, that are within reach; zeros in the place of the others. The reach
+   grows with x. */
+PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
+{
+  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscReal    runaway = 100.0;
+  PetscReal          xsize, far;
+  const PetscScalar *r;
+  PetscScalar       *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(v, near));
+  if (!ip->stiff.reach) PetscFunctionReturn(0);
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
+  far = IP_FAR * PetscClipInterval(xsize / ip->first.reach, 1.0, runaway);
+  PetscCall(VecGetLocalSize(near, &n));
+  PetscCall(VecGetArrayRead(ip->stiff.reach, &r));
+  PetscCall(VecGetArray(near, &a));
+  for (PetscInt i = 0; i < n; i++)
+    if (PetscAbsScalar(a[i]) > far * PetscRealPart(r[i])) a[i] = 0.0;
+  PetscCall(VecRestoreArray(near, &a));
+  PetscCall(VecRestoreArrayRead(ip->stiff.reach, &r));
+  PetscFunctionReturn(0);
+}
+
+/* The largest of them */
+PetscErrorCode IPSizeWithinReach(Tao tao, Vec v, PetscReal *size)
+{
+  Vec near;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &near));
+  PetscCall(IPValuesWithinReach(tao, v, near));
+  PetscCall(VecNorm(near, NORM_INFINITY, size));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,126 @@
+static char help[] = "Sizes of one constraint, bound or start that must not decide what the others may violate, and "
+                     "how the solve ends.\n\n";
+
+#include "ipfilter_formulas.h"
+
+/* Rows with bounds of TaoSetInequalityBounds() beside those of the problem itself; none where row_bounds is empty */
+typedef struct {
+  NLP         p;
+  const char *row_bounds;
+} Case;
+
+#define HS35 "9-8*x1-6*x2-4*x3+2*x1^2+2*x2^2+x3^2+2*x1*x2+2*x1*x3"
+
+static const Case cases[] = {
+  {{"bounds of 1e19", HS35, "x1+x2+2*x3; x1-x2", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0, NLP_SOLVED, NULL},
+    "-1e19:3 -1e19:1e19"},
+  {{"bounds of 1e20", HS35, "x1+x2+2*x3; x1-x2", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0, NLP_SOLVED, NULL},
+    "-1e20:3 -1e20:1e20"},
+  {{"bounds of 1e30", HS35, "x1+x2+2*x3; x1-x2", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0, NLP_SOLVED, NULL},
+    "-1e30:3 -1e30:1e30"},
+  {{"bounds of 1e10", HS35, "x1+x2+2*x3; x1-x2", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0, NLP_SOLVED, NULL},
+    "-1e10:3 -1e10:1e10"},
+  {{"rows out of reach, 1e8", HS35, "3-x1-x2-2*x3; x1+1e8; 1e8-x3", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0,
+     NLP_SOLVED, NULL},
+    ""},
+  {{"rows out of reach, 1e10", HS35, "3-x1-x2-2*x3; x1+1e10; 1e10-x3-x1", "", "0: 0: 0:", "0.5 0.5 0.5", 1.0 / 9.0,
+     NLP_SOLVED, NULL},
+    ""},
+  {{"rows out of reach, curved", "5*x1+50000/x1+20*x2+72000/x2+10*x3+144000/x3", "1-4/x1-32/x2-120/x3; x1+1e8", "",
+     "1e-5: 1e-5: 1e-5:", "1 1 1", 6299.842428, NLP_SOLVED, NULL},
+    ""},
+  {{"currents at two nodes, from zero", "(x1-1)^2+x2^4+2*x2^2+x3^2+(x4-0.3)^4+x4^2", "", "x1-x2-x3; x3-x4", "",
+     "0 0 0 0", 0.5035887906424, NLP_SOLVED, NULL},
+    ""},
+  {{"linear dynamics, from zero", "exp(x1)-3*x1+0.01*x2^2+(x3-1)^2+0.01*x4^2", "", "x1-x2; x3-x1-x4", ": -2:2 : -2:2",
+     "0 0 0 0", -0.2837654916053, NLP_SOLVED, NULL},
+    ""},
+  {{"circle and hyperbola, from afar", "0", "", "x1^2+x2^2-1e4; x1*x2-3e3", "", "1e4 1e-2", 0.0, NLP_SOLVED, NULL}, ""},
+  {{"cubic equation, from afar", "0", "", "x1+x2^3*1e-3-48; x1-x2", "", "1e6 -1e6", 0.0, NLP_SOLVED, NULL}, ""},
+  {{"steep between bounds", "-x1^4", "", "", "0:1e6", "1", -1e24, NLP_SOLVED, NULL}, ""},
+  {{"no number in the start", "x1^2+x2^2", "x1+x2-1", "", "", "nan 1", 0.5, NLP_DEGENERATE, NULL}, ""},
+};
+
+static PetscErrorCode SetRowBounds(FormulasProblem *problem, const char text[])
+{
+  Vec b[2];
+
+  PetscFunctionBeginUser;
+  if (!*text) PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < 2; k++) PetscCall(FormulasVector(PETSC_COMM_WORLD, problem->formulas.ci.m, text, k, &b[k]));
+  PetscCall(TaoSetInequalityBounds(problem->tao, b[0], b[1]));
+  for (PetscInt k = 0; k < 2; k++) PetscCall(VecDestroy(&b[k]));
+  PetscFunctionReturn(0);
+}
+
+/* The optimum to 1e-6, and constraints met to 1e-6 beside the rows of the Jacobian; for what has no answer, an end by
+   the reason that it has */
+static PetscErrorCode RunCase(const Case *test)
+{
+  FormulasProblem    problem;
+  TaoConvergedReason reason;
+  const char        *sentence;
+  PetscReal          f, violation = 0.0;
+  PetscBool          right;
+
+  PetscFunctionBeginUser;
+  PetscCall(FormulasCreate(PETSC_COMM_WORLD, &test->p, &problem));
+  PetscCall(SetRowBounds(&problem, test->row_bounds));
+  PetscCall(TaoSolve(problem.tao));
+  PetscCall(TaoGetSolutionStatus(problem.tao, NULL, &f, NULL, NULL, NULL, &reason));
+  PetscCall(TaoIPFilterGetReason(problem.tao, &sentence));
+  if (!*test->row_bounds) PetscCall(FormulasViolation(&problem, PETSC_TRUE, &violation));
+  if (test->p.end == NLP_DEGENERATE) right = (PetscBool)(reason == TAO_DIVERGED_NAN);
+  else
+    right = (PetscBool)(reason > 0 && violation < 1e-6 &&
+                        PetscAbsReal(f - test->p.optimum) < 1e-6 * PetscMax(1.0, PetscAbsReal(test->p.optimum)));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", test->p.name, right ? "right" : "NOT AS EXPECTED"));
+  if (!right)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s, objective %.9g, violation %g; %s\n", TaoConvergedReasons[reason],
+      (double)f, (double)violation, sentence));
+  PetscCall(FormulasDestroy(&problem));
+  PetscFunctionReturn(0);
+}
+
+/* A cold start begins with the barrier parameter of the option, with rows or without */
+static PetscErrorCode TestFirstBarrier(void)
+{
+  const NLP   bounded = {"", "(x1-2)^2+(x2-3)^2+x1*x2", "", "", "0:1 0:1", "0.5 0.5", 0.0, NLP_SOLVED, NULL};
+  const char *mu[2]   = {"1e-9", "1e3"};
+  PetscInt    its[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_start", "cold"));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_barrier", "monotone"));
+  for (PetscInt k = 0; k < 2; k++) {
+    FormulasProblem problem;
+
+    PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_mu_init", mu[k]));
+    PetscCall(FormulasCreate(PETSC_COMM_WORLD, &bounded, &problem));
+    PetscCall(TaoSolve(problem.tao));
+    PetscCall(TaoGetSolutionStatus(problem.tao, &its[k], NULL, NULL, NULL, NULL, NULL));
+    PetscCall(FormulasDestroy(&problem));
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "-tao_ipfilter_mu_init without rows: %s\n",
+    its[0] < its[1] ? "fewer steps from a small one" : "NO EFFECT"));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscAMGFInitializePackage());
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(cases); k++) PetscCall(RunCase(&cases[k]));
+  PetscCall(TestFirstBarrier());
+  PetscCall(PetscFinalize());
+  return 0;
+}
+
+/*TEST
+
+   test:
+      suffix: 1
+      nsize: {{1 2}}
+
+TEST*/
