@@ -97,6 +97,7 @@ include share/doc.mk
 include share/install.mk
 include share/checks.mk
 include share/bench.mk
+include share/published.mk
 
 clean:
 	rm -rf build bin lib

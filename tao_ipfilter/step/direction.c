@@ -201,6 +201,21 @@ static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corre
   PetscFunctionReturn(0);
 }
 
+/* How far apart the weights of the inequality rows are, with -info */
+static PetscErrorCode DirectionTellWeights(Tao tao, Vec D)
+{
+  PetscBool told;
+  PetscReal least, largest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfoEnabled(TAO_CLASSID, &told));
+  if (!told) PetscFunctionReturn(0);
+  PetscCall(VecMin(D, NULL, &least));
+  PetscCall(VecMax(D, NULL, &largest));
+  PetscCall(PetscInfo(tao, "Newton system with D_max/D_min %g\n", (double)(largest / least)));
+  PetscFunctionReturn(0);
+}
+
 /* The matrix with the present delta */
 static PetscErrorCode DirectionAssemble(Tao tao)
 {
@@ -209,7 +224,10 @@ static PetscErrorCode DirectionAssemble(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
-  if (ip->mi) PetscCall(IPSlackSigma(tao, D));
+  if (ip->mi) {
+    PetscCall(IPSlackSigma(tao, D));
+    PetscCall(DirectionTellWeights(tao, D));
+  }
   PetscCall(IPCondenseMatrix(tao, D));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
   PetscFunctionReturn(0);
