@@ -99,7 +99,7 @@ static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, Petsc
   for (PetscInt i = 0; i < n; i += 3)
     wide = (PetscBool)(wide || (PetscRealPart(a[i + 2]) > 0.0 && PetscRealPart(a[i + 1] - a[i + 2]) < 0.5));
   PetscCall(VecRestoreArrayRead(count, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &wide, 1, MPIU_BOOL, MPI_LOR, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &wide, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
   *narrow = (PetscBool)!wide;
   PetscCall(VecDestroy(&closed));
   PetscCall(VecDestroy(&count));

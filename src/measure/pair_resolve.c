@@ -67,7 +67,7 @@ static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mar
   PetscFunctionBegin;
   *any = PETSC_FALSE;
   for (PetscInt r = 0; r < n; ++r) *any = (PetscBool)(*any || mark[r] > 0.0);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
   PetscFunctionReturn(0);
 }
 

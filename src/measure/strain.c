@@ -4,7 +4,7 @@
 #define STRAIN_LIMIT   0.25 /* principal strain, mean over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
 
-/* At the last state; once for a body, in the first load step that goes so far. Collective */
+/* At the last state; once for a body, in the first load step that goes so far. A rigid body may turn. Collective */
 PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;
@@ -17,7 +17,9 @@ PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
-    if (sim->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
+    if (sim->beyond[b] || scene->bodies[b].material.type == MATERIAL_RIGID ||
+        (turned && values[b][1] <= ROTATION_LIMIT))
+      continue;
     sim->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "body \"%s\" is %s by %.2g %s in the mean in load step %" PetscInt_FMT

@@ -31,6 +31,17 @@ displacements:
 block turned linear "displacements:
   - turn: {face: block.zmin, value: [0, 0, 0], rotation: [0, 30, 0], center: [0, 0, 0]}"
 
+cat > turned_rigid.yaml <<'SCENE'
+problem: turned_rigid
+bodies:
+  - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: rigid}
+  - held: {lower: [3, 0, 0], upper: [4, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0.3}
+displacements:
+  - turn: {body: block, value: [0, 0, 0], rotation: [0, 30, 0], center: [0, 0, 0]}
+  - hold: {face: held.zmin, value: [0, 0, 0]}
+SCENE
+run turned_rigid
+
 # A die whose contact is one facet wide or so slides by half a facet a step; then over smaller facets
 for cells in 16 48; do
   cat > slide_$cells.yaml <<SCENE
