@@ -137,6 +137,7 @@ typedef struct {
 /* Dead load on a face, uniform; or with a resultant, and then linear where there is a moment */
 typedef struct {
   char     *name;
+  PetscInt  body;      /* of a resultant: that rigid body; PETSC_DECIDE: it is on a face */
   char     *face;      /* of a resultant also all of a rigid body, "<body>" SCENE_WHOLE_BODY */
   PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
   PetscReal value[3];
@@ -222,7 +223,7 @@ typedef struct {
   PetscBool set; /* by the scene: neither the command line nor an options file has it */
 } SceneOption;
 
-typedef struct {
+typedef struct _n_Scene {
   char              *name;
   char              *units; /* a note for tables; NULL: not said */
   PetscInt           nbodies;

@@ -6,6 +6,7 @@
 #include <petscsys.h>
 
 /* Not collective. The known name with the fewest letters to change; "" of none */
+PETSC_EXTERN PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance);
 PETSC_EXTERN PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[],
   const char **nearest);
 /* Collective. An error where an option of ours has a value, not asked for so far, of another kind than it needs */

@@ -10,6 +10,8 @@
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
+/* The keys of the format, in tables */
+PETSC_EXTERN PetscErrorCode SceneViewKeys(PetscViewer);
 /* The text of a scene as it is viewed; what sets another one apart from such a text, but for how the load goes on,
    mesh and solver */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);

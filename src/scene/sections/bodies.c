@@ -1,61 +1,114 @@
-/* bodies: a list of named bodies, each with its shape, mesh and material */
+/* bodies: shape, material and element of each */
 #include "sectionsimpl.h"
+#include <petscviewer.h>
+#include <string.h>
 
-static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
+/* A file's name is relative to the folder of the scene */
+PetscErrorCode SceneResolveFile(const char scene[], char **file)
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  PetscInt    element = ELEMENT_FULL;
+  const char *slash = strrchr(scene, '/');
+  char        path[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
-  body->order = body->material.type == MATERIAL_RIGID ? 1 : 0;
-  if (body->material.type == MATERIAL_RIGID) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_element", body->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (text) PetscCall(SceneParseEnum(keys, key, text, ElementTypes, &element));
-  body->element = (ElementType)element;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_order", body->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (!text) PetscFunctionReturn(0);
-  PetscCall(SceneParseInt(keys, key, text, &body->order));
-  if (!body->order) PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
+  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
+  PetscCall(PetscFree(*file));
+  PetscCall(PetscStrallocpy(path, file));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const SceneBody *body)
+/* The corner of an octant; spheres are around it unless they have centers of their own, which come later */
+static PetscErrorCode CornerRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
+{
+  SceneOctant *octant = &((SceneBody *)entry)->octant;
+
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(SceneParseReals(keys, key, text, 3, octant->corner));
+  PetscCall(PetscArraycpy(octant->inner.center, octant->corner, 3));
+  PetscCall(PetscArraycpy(octant->outer.center, octant->corner, 3));
+  PetscCall(PetscArraycpy(octant->cap.center, octant->corner, 3));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool CornerIsShown(const void *entry)
+{
+  const PetscReal *x = ((const SceneBody *)entry)->octant.corner;
+
+  return (PetscBool)(x[0] != 0 || x[1] != 0 || x[2] != 0);
+}
+
+static PetscErrorCode CornerView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(SceneViewList(viewer, 3, ((const SceneBody *)entry)->octant.corner));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnCorner = {CornerRead, CornerIsShown, CornerView, 0};
+
+static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], const SceneBody *body)
 {
   static const char *const elastic[] = {"young", "poisson", "element", "order"};
-  const char              *text;
+  PetscBool                has;
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(elastic); ++i) {
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "bodies_%s_%s", body->name, elastic[i]));
-    if (text) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
+    PetscCall(SceneHasKey(keys, owner, elastic[i], &has));
+    if (has) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
+/* The key mesh without a shape says gmsh */
+static PetscErrorCode BodyFinishShape(SceneKeys keys, Scene scene, const char owner[], SceneBody *body)
 {
+  PetscBool   shape, mesh, known = PETSC_FALSE;
   char        key[SCENE_KEY_LENGTH];
   const char *text;
-  PetscBool   listed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_material", body->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_shape", owner));
+  shape = (PetscBool)(text != NULL);
+  for (PetscInt i = 0; text && i <= SHAPE_GMSH && !known; ++i) PetscCall(PetscStrcasecmp(text, BodyShapes[i], &known));
+  if (text && !known) keys->decides = PETSC_TRUE;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "-%s_mesh", owner));
+  PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &text, &mesh));
+  if (!shape && mesh) body->shape = SHAPE_GMSH;
+  PetscCall(
+    SceneReadRows(keys, scene, owner, SceneFindList("bodies")->rows, BodyShapes[body->shape], PETSC_FALSE, body));
+  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], void *entry)
+{
+  SceneBody  *body   = entry;
+  PetscBool   listed = PETSC_FALSE;
+  char        key[SCENE_KEY_LENGTH];
+  const char *text;
+
+  PetscFunctionBegin;
+  PetscCall(BodyFinishShape(keys, scene, owner, body));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
   if (body->material.type == MATERIAL_RIGID) {
-    PetscCall(SceneRefuseOfRigid(keys, body));
+    body->order = 1;
+    PetscCall(SceneRefuseOfRigid(keys, owner, body));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s", body->name));
-  PetscCall(SceneReadConstants(keys, key, listed, &body->material));
+  PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
+  PetscCall(SceneReadRows(keys, scene, owner, SceneFindList("bodies")->rows, "elastic", PETSC_FALSE, body));
+  PetscCall(SceneHasKey(keys, owner, "order", &listed));
+  if (listed && !body->order)
+    PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
   PetscFunctionReturn(0);
 }
 
-/* Its rows of the matrix are to be as large as those of the others */
-static PetscErrorCode SceneScaleRigid(Scene scene)
+/* The matrix's rows of rigid bodies are to be as large as those of the others */
+PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;
 
@@ -67,41 +120,31 @@ static PetscErrorCode SceneScaleRigid(Scene scene)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadBodies(SceneKeys keys, Scene scene)
+static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const SceneBody *body)
 {
-  char **names;
+  const SceneList *list = SceneFindList("bodies");
 
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "bodies", PETSC_TRUE, &scene->nbodies, &names));
-  PetscCall(PetscCalloc1(scene->nbodies, &scene->bodies));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    SceneBody *body = &scene->bodies[b];
-
-    body->name = names[b];
-    PetscCall(SceneReadShape(keys, body));
-    PetscCall(SceneReadMaterial(keys, body));
-    PetscCall(SceneReadElement(keys, body));
-  }
-  PetscCall(SceneScaleRigid(scene));
-  PetscCall(PetscFree(names));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(SceneViewRows(scene, viewer, list->rows, NULL, body, list->initial));
+  PetscCall(SceneViewRows(scene, viewer, list->rows, BodyShapes[body->shape], body, list->initial));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
+  PetscCall(SceneViewConstants(scene, &body->material, viewer));
+  if (body->material.type != MATERIAL_RIGID)
+    PetscCall(SceneViewRows(scene, viewer, list->rows, "elastic", body, list->initial));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
 
-/* The body that <list>_<name> names by its key body; PETSC_DECIDE, any or every one, where it names none */
-PetscErrorCode SceneReadBodyName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *body)
+PetscErrorCode SceneViewBodies(Scene scene, PetscViewer viewer)
 {
-  const char *text;
-  PetscBool   same;
-
   PetscFunctionBegin;
-  *body = PETSC_DECIDE;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_body", list, name));
-  if (!text) PetscFunctionReturn(0);
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    PetscCall(PetscStrcmp(text, scene->bodies[b].name, &same));
-    if (same) *body = b;
-  }
-  if (*body < 0)
-    PetscCall(SceneKeysComplain(keys, "%s_%s_body is \"%s\", which is no body of the scene", list, name, text));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "bodies:\n"));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(SceneViewBody(scene, viewer, &scene->bodies[b]));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
