@@ -19,7 +19,7 @@ programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard a
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo demo-published check stress scene-stress clean help dependencies FORCE
+.PHONY: all complex demo demo-published check stress scene-stress clean help dependencies print-contact-libs FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -100,6 +100,10 @@ include share/bench.mk
 
 clean:
 	rm -rf build bin lib
+
+# For scripts that link with the mechanics library
+print-contact-libs:
+	@echo '$(CONTACT_LIBS)'
 
 help:
 	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'

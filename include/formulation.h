@@ -8,12 +8,17 @@
   #error "contact needs a PETSc with real scalars: displacements, gaps and pressures are real numbers"
 #endif
 
-/* Trilinear hexahedra, all of them */
+/* The elements: a new one is a file of src/elasticity/elements and a line here. What it is called in C, and by scenes */
+#define ELEMENT_TYPES(ELEMENT) \
+  ELEMENT(FULL, Full, "full") /* full integration; locks as Poisson's ratio nears 1/2, and in bending */ \
+  ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation: the volume change is constant in an element (B-bar, F-bar) */ \
+  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* incompatible modes: locks in neither way; small strain only */
+
+#define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
 typedef enum {
-  ELEMENT_FULL, /* full integration; locks as Poisson's ratio nears 1/2, and in bending */
-  ELEMENT_BBAR, /* mean dilatation: the volume change is constant in an element (B-bar, F-bar at finite strain) */
-  ELEMENT_INCOMPATIBLE /* incompatible modes: locks in neither way; small strain only */
+  ELEMENT_TYPES(ELEMENT_TYPE)
 } ElementType;
+#undef ELEMENT_TYPE
 PETSC_EXTERN const char *const ElementTypes[];
 
 typedef enum {

@@ -4,15 +4,23 @@
 
 #include <petscsys.h>
 
+/* The laws: a new one is a file of src/material and a line here. What it is called in C, and by scenes */
+#define MATERIAL_LAWS(LAW) \
+  LAW(LINEAR, Linear, "linear")                     /* small strain, isotropic */ \
+  LAW(NEOHOOKEAN, NeoHookean, "neohookean")         /* compressible neo-Hookean, finite strain */ \
+  LAW(SAINT_VENANT, SaintVenant, "saint_venant")    /* Saint Venant-Kirchhoff, large rotations at moderate strain */ \
+  LAW(MOONEY_RIVLIN, MooneyRivlin, "mooney_rivlin") /* compressible Mooney-Rivlin, finite strain */ \
+  LAW(ORTHOTROPIC, Orthotropic, "orthotropic")      /* small strain, three planes of symmetry */ \
+  LAW(RIGID, Rigid, "rigid")                        /* no strain: every displacement of the body is prescribed */
+
+#define MATERIAL_TYPE(name, law, text) MATERIAL_##name,
 typedef enum {
-  MATERIAL_LINEAR,        /* small strain, isotropic */
-  MATERIAL_NEOHOOKEAN,    /* compressible neo-Hookean, finite strain */
-  MATERIAL_SAINT_VENANT,  /* Saint Venant-Kirchhoff, large rotations at moderate strain */
-  MATERIAL_MOONEY_RIVLIN, /* compressible Mooney-Rivlin, finite strain */
-  MATERIAL_ORTHOTROPIC,   /* small strain, three planes of symmetry */
-  MATERIAL_RIGID          /* no strain: every displacement of the body is prescribed */
+  MATERIAL_LAWS(MATERIAL_TYPE)
 } MaterialType;
+#undef MATERIAL_TYPE
 PETSC_EXTERN const char *const MaterialTypes[];
+
+#define MATERIAL_OWN 8 /* constants, and moduli, that a law may have beside those that have names here */
 
 typedef struct {
   MaterialType type;
@@ -25,6 +33,7 @@ typedef struct {
     axes[2][3]; /* G12 G23 G13 [force/length^2]; first axis, and one with which it spans the first two; 0: x, y */
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
+  PetscReal own[MATERIAL_OWN];
 } Material;
 
 /* What a law is evaluated with [force/length^2] */
@@ -33,7 +42,18 @@ typedef struct {
   PetscReal bulk;          /* kappa = lambda + 2 mu/3 */
   PetscReal share;         /* Mooney-Rivlin: c01/(c10 + c01) */
   PetscReal stiffness[36]; /* orthotropic: of strains xx yy zz 2xy 2yz 2zx */
+  PetscReal own[MATERIAL_OWN];
 } MaterialModuli;
+
+/* A constant of a law, as scenes have it: so many numbers of a Material, each between two bounds */
+typedef struct {
+  const char *name; /* of its key; NULL ends a list */
+  PetscInt    n;
+  size_t      at; /* offset in a Material */
+  PetscBool   required;
+  const char *label, *symbol; /* in sentences; NULL: its name */
+  PetscReal   lower, upper;   /* both excluded; PETSC_INFINITY: none. Both 0: any number will do */
+} MaterialConstant;
 
 /*
    A constitutive law at a point. H = F - I is the displacement gradient, H[3 i + j] = du_i/dX_j: small strains
@@ -60,6 +80,12 @@ typedef struct {
   PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
   /* Adds pressure times the second derivative of theta to a tangent */
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
+  PetscBool               finite; /* strains are */
+  const MaterialConstant *constants;
+  /* Its bulk modulus, 2 mu/3 + lambda, and what else the functions above read; an error where there is no such material */
+  PetscErrorCode (*moduli)(const Material *, MaterialModuli *);
+  /* Young's modulus, about, from other constants; NULL: it is one of them */
+  void (*scale)(Material *);
 } MaterialLaw;
 
 /* Whether strains are finite */

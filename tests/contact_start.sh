@@ -23,7 +23,7 @@ try() {
   shift
   "$contact" stone.yaml -quiet -summary stone.json "$@" > out 2> err
   echo "  exit $?"
-  sed -e 's/fell from .*; body/fell; body/' -e 's/axis along .*:/axis ...:/' -e 's/^/  /' err
+  sed -e 's/fell from .*; body/fell; body/' -e 's/fell from .*/fell/' -e 's/axis along .*:/axis ...:/' -e 's/^/  /' err
   "$PYTHON" -c 'import json; print("  warnings in the summary: %d" % len(json.load(open("stone.json"))["warnings"]))'
 }
 

@@ -1,6 +1,7 @@
 static char help[] =
   "What fails on one rank fails on all: one sentence, the same error on every rank, and no hang.\n\n";
 
+#include <scene.h>
 #include <mesh.h>
 #include <elasticity.h>
 #include <output.h>

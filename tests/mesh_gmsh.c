@@ -1,6 +1,7 @@
 static char help[] = "Gmsh files: a sound one, and every way in which one is not; one sentence each, the same on every "
                      "rank, and no hang.\n\n";
 
+#include <scene.h>
 #include <mesh.h>
 #include "attempt.h"
 

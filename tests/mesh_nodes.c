@@ -1,6 +1,7 @@
 static char help[] =
   "Nodes of order 2 on curved bodies: volumes of fourth order, the same number of nodes on any number of ranks.\n\n";
 
+#include <scene.h>
 #include "elasticity_problem.h"
 #include "elasticity_point.h"
 

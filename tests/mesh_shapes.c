@@ -1,6 +1,7 @@
 static char help[] = "Every built-in shape: sizes, faces, parts of faces; vertices on the true surfaces and volumes "
                      "under refinement, with and without facets kept.\n\n";
 
+#include <scene.h>
 #include <mesh.h>
 #include "elasticity_problem.h"
 

@@ -123,6 +123,22 @@ def crowded_folders():
     yield from (f"{folder} has {n} source files, more than {FILES}" for folder, n in sorted(count.items()) if n > FILES)
 
 
+def readmes():
+    """Every folder has a README.md of a screen that names its files"""
+    for folder in sorted({os.path.dirname(path) for path in sources("c") + sources("h")}):
+        if not os.path.exists(os.path.join(TOP, folder, "README.md")):
+            yield f"{folder} has no README.md"
+            continue
+        page = text(folder + "/README.md")
+        lines = len(page.splitlines())
+        if not 8 <= lines <= 40:
+            yield f"{folder}/README.md has {lines} lines, not 8 to 40"
+        named = set(re.findall(r"`(\w+\.c)`", page))
+        own = {os.path.basename(path) for path in sources("c") if os.path.dirname(path) == folder}
+        yield from (f"{folder}/README.md does not name {name}" for name in sorted(own - named))
+        yield from (f"{folder}/README.md names {name}, which is not there" for name in sorted(named - own))
+
+
 def wide_lines():
     for path in sources("c") + sources("h"):
         for number, line in enumerate(text(path).splitlines(), 1):
@@ -182,6 +198,7 @@ def main():
         "no folder calls one above it": calls_upwards(graph),
         "no folder includes a header of one above it": includes_upwards(),
         f"no folder has more than {FILES} source files": crowded_folders(),
+        "every folder has a README that names its files": readmes(),
         f"no line is wider than {COLUMNS} columns": wide_lines(),
         "the sources are as `make format` writes them": unformatted(),
         "no two static functions have one name": repeated_statics(),

@@ -63,5 +63,15 @@ static void MaterialCurvature_Linear(PetscReal pressure, const PetscReal H[9], P
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawLinear = {PETSC_TRUE, PETSC_TRUE, MaterialEnergy_Linear, MaterialStress_Linear,
-  MaterialTangent_Linear, MaterialCauchy_Linear, MaterialDilatation_Linear, MaterialCurvature_Linear};
+const MaterialLaw MaterialLawLinear = {
+  .constant   = PETSC_TRUE,
+  .isotropic  = PETSC_TRUE,
+  .energy     = MaterialEnergy_Linear,
+  .stress     = MaterialStress_Linear,
+  .tangent    = MaterialTangent_Linear,
+  .cauchy     = MaterialCauchy_Linear,
+  .dilatation = MaterialDilatation_Linear,
+  .curvature  = MaterialCurvature_Linear,
+  .constants  = MaterialConstantsSmall,
+  .moduli     = MaterialModuliIsotropic,
+};

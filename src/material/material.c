@@ -1,41 +1,11 @@
 /* Parameters of materials and the table of laws */
 #include "materialimpl.h"
 
-const char *const MaterialTypes[] = {"linear", "neohookean", "saint_venant", "mooney_rivlin", "orthotropic", "rigid",
-  "MaterialType", "MATERIAL_", NULL};
+#define MATERIAL_NAME(name, law, text) text,
+const char *const MaterialTypes[] = {MATERIAL_LAWS(MATERIAL_NAME) "MaterialType", "MATERIAL_", NULL};
 
-/*@
-  MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))
-
-  Not Collective
-
-  Input Parameter:
-. material - the material
-
-  Output Parameters:
-+ lambda - first Lame parameter [force/length^2]
-- mu     - shear modulus [force/length^2]
-
-  Level: intermediate
-
-  Notes:
-  It is an error unless E > 0 and -1 < nu < 1/2, both finite.
-
-.seealso: `MaterialGetLaw()`
-@*/
-PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, PetscReal *mu)
-{
-  const PetscReal E = material->young, nu = material->poisson;
-
-  PetscFunctionBegin;
-  PetscCheck(E > 0 && !PetscIsInfOrNanReal(E), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-    "Young's modulus must be positive, but is %g", (double)E);
-  PetscCheck(nu > -1 && nu < 0.5, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-    "Poisson's ratio must lie between -1 and 0.5, but is %g", (double)nu);
-  *lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
-  *mu     = E / (2 * (1 + nu));
-  PetscFunctionReturn(0);
-}
+#define MATERIAL_ENTRY(name, law, text) &MaterialLaw##law,
+static const MaterialLaw *const laws[] = {MATERIAL_LAWS(MATERIAL_ENTRY)};
 
 /*@
   MaterialGetModuli - Gets what a material's law is evaluated with
@@ -56,26 +26,12 @@ PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, Pets
 @*/
 PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *moduli, MaterialModuli *isochoric)
 {
+  const MaterialLaw *law;
+
   PetscFunctionBegin;
   *moduli = (MaterialModuli){0};
-  switch (material->type) {
-  case MATERIAL_MOONEY_RIVLIN:
-    PetscCheck(material->c10 >= 0 && material->c01 >= 0 && material->c10 + material->c01 > 0 && material->bulk > 0,
-      PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "c10 and c01 must not be negative, nor both zero, and the bulk modulus positive, but they are %g, %g and %g",
-      (double)material->c10, (double)material->c01, (double)material->bulk);
-    moduli->mu    = 2 * (material->c10 + material->c01);
-    moduli->share = material->c01 / (material->c10 + material->c01);
-    moduli->bulk  = material->bulk;
-    break;
-  case MATERIAL_ORTHOTROPIC:
-    PetscCheck(OrthotropicModuli(material, moduli), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "There is no orthotropic material with these constants, or its axes are not two");
-    break;
-  default:
-    PetscCall(MaterialGetLame(material, &moduli->lambda, &moduli->mu));
-    moduli->bulk = moduli->lambda + 2 * moduli->mu / 3;
-  }
+  PetscCall(MaterialGetLaw(material, &law));
+  PetscCall(law->moduli(material, moduli));
   moduli->lambda = moduli->bulk - 2 * moduli->mu / 3;
   if (!isochoric) PetscFunctionReturn(0);
   *isochoric        = *moduli;
@@ -100,12 +56,11 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
 @*/
 PetscErrorCode MaterialSetScale(Material *material)
 {
-  const PetscReal mu = 2 * (material->c10 + material->c01);
+  const MaterialLaw *law;
 
   PetscFunctionBegin;
-  if (material->type == MATERIAL_MOONEY_RIVLIN) material->young = 9 * material->bulk * mu / (3 * material->bulk + mu);
-  if (material->type == MATERIAL_ORTHOTROPIC)
-    material->young = PetscMax(PetscMax(material->youngs[0], material->youngs[1]), material->youngs[2]);
+  PetscCall(MaterialGetLaw(material, &law));
+  if (law->scale) law->scale(material);
   PetscFunctionReturn(0);
 }
 
@@ -142,8 +97,7 @@ PetscErrorCode MaterialGetExpansion(const Material *material, PetscReal A[9])
 
 PetscBool MaterialIsFinite(const Material *material)
 {
-  return (PetscBool)(material->type == MATERIAL_NEOHOOKEAN || material->type == MATERIAL_SAINT_VENANT ||
-                     material->type == MATERIAL_MOONEY_RIVLIN);
+  return laws[material->type]->finite;
 }
 
 /*@
@@ -164,14 +118,8 @@ PetscBool MaterialIsFinite(const Material *material)
 PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
 {
   PetscFunctionBegin;
-  switch (material->type) {
-  case MATERIAL_LINEAR: *law = &MaterialLawLinear; break;
-  case MATERIAL_NEOHOOKEAN: *law = &MaterialLawNeoHookean; break;
-  case MATERIAL_SAINT_VENANT: *law = &MaterialLawSaintVenant; break;
-  case MATERIAL_MOONEY_RIVLIN: *law = &MaterialLawMooneyRivlin; break;
-  case MATERIAL_ORTHOTROPIC: *law = &MaterialLawOrthotropic; break;
-  case MATERIAL_RIGID: *law = &MaterialLawRigid; break;
-  default: SETERRQ(PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE, "Unknown material type %d", (int)material->type);
-  }
+  PetscCheck(material->type >= 0 && (size_t)material->type < PETSC_STATIC_ARRAY_LENGTH(laws), PETSC_COMM_SELF,
+    PETSC_ERR_ARG_OUTOFRANGE, "Unknown material type %d", (int)material->type);
+  *law = laws[material->type];
   PetscFunctionReturn(0);
 }

@@ -1,23 +1,29 @@
 /*
-   Material, private: the map of src/material.
+   Material, private: the laws, one a file; material.c has their table.
 */
 #ifndef MATERIALIMPL_H
 #define MATERIALIMPL_H
 
 #include <material.h>
+#include <stddef.h>
 
-/* linear.c, neohookean.c, saintvenant.c, mooneyrivlin.c, orthotropic.c, rigid.c: one constitutive law a file;
-   material.c lists them */
-PETSC_INTERN const MaterialLaw MaterialLawLinear;
-PETSC_INTERN const MaterialLaw MaterialLawNeoHookean;
-PETSC_INTERN const MaterialLaw MaterialLawSaintVenant;
-PETSC_INTERN const MaterialLaw MaterialLawMooneyRivlin;
-PETSC_INTERN const MaterialLaw MaterialLawOrthotropic;
-PETSC_INTERN const MaterialLaw MaterialLawRigid;
+#define MATERIAL_LAW(name, law, text) PETSC_INTERN const MaterialLaw MaterialLaw##law;
+MATERIAL_LAWS(MATERIAL_LAW)
+#undef MATERIAL_LAW
 
-/* orthotropic.c: rows are the material's axes, whether they are three; bulk modulus and stiffness, whether they are
-   positive */
+/* isotropic.c: Young's modulus and Poisson's ratio, of small strain with the thermal expansion; the moduli of them */
+#define MATERIAL_YOUNG \
+  { \
+    "young", 1, offsetof(Material, young), PETSC_TRUE, "Young's modulus", "E", 0, PETSC_INFINITY \
+  }
+#define MATERIAL_POISSON \
+  { \
+    "poisson", 1, offsetof(Material, poisson), PETSC_TRUE, "Poisson's ratio", "nu", -1, 0.5 \
+  }
+PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
+PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
+
+/* orthotropic.c: rows are the material's axes, whether they are three */
 PETSC_INTERN PetscBool OrthotropicAxes(const Material *, PetscReal R[3][3]);
-PETSC_INTERN PetscBool OrthotropicModuli(const Material *, MaterialModuli *);
 
 #endif

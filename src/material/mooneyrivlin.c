@@ -128,6 +128,44 @@ static void MaterialCurvature_MooneyRivlin(PetscReal pressure, const PetscReal H
   MaterialLawNeoHookean.curvature(pressure, H, A);
 }
 
-const MaterialLaw MaterialLawMooneyRivlin = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_MooneyRivlin,
-  MaterialStress_MooneyRivlin, MaterialTangent_MooneyRivlin, MaterialCauchy_MooneyRivlin,
-  MaterialDilatation_MooneyRivlin, MaterialCurvature_MooneyRivlin};
+static PetscErrorCode MaterialModuli_MooneyRivlin(const Material *material, MaterialModuli *moduli)
+{
+  PetscFunctionBegin;
+  PetscCheck(material->c10 >= 0 && material->c01 >= 0 && material->c10 + material->c01 > 0 && material->bulk > 0,
+    PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+    "c10 and c01 must not be negative, nor both zero, and the bulk modulus positive, but they are %g, %g and %g",
+    (double)material->c10, (double)material->c01, (double)material->bulk);
+  moduli->mu    = 2 * (material->c10 + material->c01);
+  moduli->share = material->c01 / (material->c10 + material->c01);
+  moduli->bulk  = material->bulk;
+  PetscFunctionReturn(0);
+}
+
+static void MaterialScale_MooneyRivlin(Material *material)
+{
+  const PetscReal mu = 2 * (material->c10 + material->c01);
+
+  material->young = 9 * material->bulk * mu / (3 * material->bulk + mu);
+}
+
+static const MaterialConstant constants[] = {
+  {"c10", 1, offsetof(Material, c10), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"c01", 1, offsetof(Material, c01), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"bulk", 1, offsetof(Material, bulk), PETSC_TRUE, "a bulk modulus", NULL, 0, PETSC_INFINITY},
+  {NULL},
+};
+
+const MaterialLaw MaterialLawMooneyRivlin = {
+  .constant   = PETSC_FALSE,
+  .isotropic  = PETSC_FALSE,
+  .energy     = MaterialEnergy_MooneyRivlin,
+  .stress     = MaterialStress_MooneyRivlin,
+  .tangent    = MaterialTangent_MooneyRivlin,
+  .cauchy     = MaterialCauchy_MooneyRivlin,
+  .dilatation = MaterialDilatation_MooneyRivlin,
+  .curvature  = MaterialCurvature_MooneyRivlin,
+  .finite     = PETSC_TRUE,
+  .constants  = constants,
+  .moduli     = MaterialModuli_MooneyRivlin,
+  .scale      = MaterialScale_MooneyRivlin,
+};

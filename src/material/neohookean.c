@@ -162,6 +162,16 @@ static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9
   }
 }
 
-const MaterialLaw MaterialLawNeoHookean = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_NeoHookean,
-  MaterialStress_NeoHookean, MaterialTangent_NeoHookean, MaterialCauchy_NeoHookean, MaterialDilatation_NeoHookean,
-  MaterialCurvature_NeoHookean};
+const MaterialLaw MaterialLawNeoHookean = {
+  .constant   = PETSC_FALSE,
+  .isotropic  = PETSC_FALSE,
+  .energy     = MaterialEnergy_NeoHookean,
+  .stress     = MaterialStress_NeoHookean,
+  .tangent    = MaterialTangent_NeoHookean,
+  .cauchy     = MaterialCauchy_NeoHookean,
+  .dilatation = MaterialDilatation_NeoHookean,
+  .curvature  = MaterialCurvature_NeoHookean,
+  .finite     = PETSC_TRUE,
+  .constants  = MaterialConstantsFinite,
+  .moduli     = MaterialModuliIsotropic,
+};

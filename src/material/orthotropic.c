@@ -63,10 +63,6 @@ static void MaterialCurvature_Orthotropic(PetscReal pressure, const PetscReal H[
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawOrthotropic = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Orthotropic,
-  MaterialStress_Orthotropic, MaterialTangent_Orthotropic, MaterialCauchy_Orthotropic, MaterialDilatation_Orthotropic,
-  MaterialCurvature_Orthotropic};
-
 /* Rows of R are the material's axes; whether they are three */
 PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
 {
@@ -125,7 +121,7 @@ static PetscReal OrthotropicTurn(PetscReal R[3][3], int s, int p)
 
 /* C in space from C along the axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd; kappa = 1/(1:S:1). Whether there is such a
    material */
-PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
+static PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
 {
   PetscReal R[3][3], N[3][3], local[6][6] = {{0}}, sum;
 
@@ -148,3 +144,40 @@ PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
   }
   return PETSC_TRUE;
 }
+
+static PetscErrorCode MaterialModuli_Orthotropic(const Material *material, MaterialModuli *moduli)
+{
+  PetscFunctionBegin;
+  PetscCheck(OrthotropicModuli(material, moduli), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+    "There is no orthotropic material with these constants, or its axes are not two");
+  PetscFunctionReturn(0);
+}
+
+static void MaterialScale_Orthotropic(Material *material)
+{
+  material->young = PetscMax(PetscMax(material->youngs[0], material->youngs[1]), material->youngs[2]);
+}
+
+static const MaterialConstant constants[] = {
+  {"young", 3, offsetof(Material, youngs), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"poisson", 3, offsetof(Material, poissons), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"shear", 3, offsetof(Material, shears), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"first_axis", 3, offsetof(Material, axes[0]), PETSC_FALSE, NULL, NULL, 0, 0},
+  {"second_axis", 3, offsetof(Material, axes[1]), PETSC_FALSE, NULL, NULL, 0, 0},
+  {"expansion", 3, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0},
+  {NULL},
+};
+
+const MaterialLaw MaterialLawOrthotropic = {
+  .constant   = PETSC_TRUE,
+  .isotropic  = PETSC_FALSE,
+  .energy     = MaterialEnergy_Orthotropic,
+  .stress     = MaterialStress_Orthotropic,
+  .tangent    = MaterialTangent_Orthotropic,
+  .cauchy     = MaterialCauchy_Orthotropic,
+  .dilatation = MaterialDilatation_Orthotropic,
+  .curvature  = MaterialCurvature_Orthotropic,
+  .constants  = constants,
+  .moduli     = MaterialModuli_Orthotropic,
+  .scale      = MaterialScale_Orthotropic,
+};

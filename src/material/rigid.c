@@ -43,5 +43,17 @@ static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], Pe
   (void)pressure, (void)H, (void)A;
 }
 
-const MaterialLaw MaterialLawRigid = {PETSC_TRUE, PETSC_FALSE, MaterialEnergy_Rigid, MaterialStress_Rigid,
-  MaterialTangent_Rigid, MaterialCauchy_Rigid, MaterialDilatation_Rigid, MaterialCurvature_Rigid};
+static const MaterialConstant none[] = {{NULL}};
+
+const MaterialLaw MaterialLawRigid = {
+  .constant   = PETSC_TRUE,
+  .isotropic  = PETSC_FALSE,
+  .energy     = MaterialEnergy_Rigid,
+  .stress     = MaterialStress_Rigid,
+  .tangent    = MaterialTangent_Rigid,
+  .cauchy     = MaterialCauchy_Rigid,
+  .dilatation = MaterialDilatation_Rigid,
+  .curvature  = MaterialCurvature_Rigid,
+  .constants  = none,
+  .moduli     = MaterialModuliIsotropic,
+};

@@ -108,6 +108,16 @@ static void MaterialCurvature_SaintVenant(PetscReal pressure, const PetscReal H[
   for (int k = 0; k < 9; ++k) A[10 * k] += pressure;
 }
 
-const MaterialLaw MaterialLawSaintVenant = {PETSC_FALSE, PETSC_FALSE, MaterialEnergy_SaintVenant,
-  MaterialStress_SaintVenant, MaterialTangent_SaintVenant, MaterialCauchy_SaintVenant, MaterialDilatation_SaintVenant,
-  MaterialCurvature_SaintVenant};
+const MaterialLaw MaterialLawSaintVenant = {
+  .constant   = PETSC_FALSE,
+  .isotropic  = PETSC_FALSE,
+  .energy     = MaterialEnergy_SaintVenant,
+  .stress     = MaterialStress_SaintVenant,
+  .tangent    = MaterialTangent_SaintVenant,
+  .cauchy     = MaterialCauchy_SaintVenant,
+  .dilatation = MaterialDilatation_SaintVenant,
+  .curvature  = MaterialCurvature_SaintVenant,
+  .finite     = PETSC_TRUE,
+  .constants  = MaterialConstantsFinite,
+  .moduli     = MaterialModuliIsotropic,
+};

@@ -146,8 +146,9 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds to the reason of a step that failed so the body that moves the farthest at u */
-PetscErrorCode RigidMotionReport(Simulation sim, Vec u, StepReport *report)
+/* Collective. Adds to the reason of a step that failed so the body that moves the farthest at u, and what is known of
+   that */
+PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], StepReport *report)
 {
   RigidFitSums sums;
   PetscReal    distance = 0.0;
@@ -158,8 +159,8 @@ PetscErrorCode RigidMotionReport(Simulation sim, Vec u, StepReport *report)
   PetscCall(RigidFitFindFarthest(sim, u, &body, &distance));
   PetscCall(RigidFitSum(sim, u, body, &sums));
   PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion)));
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: nothing stops it", report->reason,
-    sim->scene->bodies[body].name, motion));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s", report->reason,
+    sim->scene->bodies[body].name, motion, known));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

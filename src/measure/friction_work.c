@@ -2,6 +2,23 @@
    changes from one load step to the next; the forces on the vertices are those of all of them. */
 #include "measureimpl.h"
 
+/* Of a pair at this time: 0 without friction, PETSC_INFINITY where pressure does not limit it */
+PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt which, PetscReal *coefficient)
+{
+  const SceneContactPair *pair   = &scene->pairs[which];
+  PetscReal               factor = 1.0;
+
+  PetscFunctionBegin;
+  if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, time, &factor));
+  PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
+    "not be negative",
+    pair->name, (double)factor, (double)time);
+  if (!SceneContactPairRubs(pair)) *coefficient = 0.0;
+  else *coefficient = pair->friction < PETSC_INFINITY ? factor * pair->friction : PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
 /* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
    those before and now on the way from the last state to u */
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolution *sol, PetscInt pair, Vec force,

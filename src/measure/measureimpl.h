@@ -8,13 +8,31 @@
 #include "src/state/stateimpl.h"
 
 /* friction_work.c */
+PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
 PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* diagnose_rigid_motion.c */
-PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], StepReport *);
+
+/* free_motions.c: the rigid motions of all bodies that neither prescribed displacements nor springs nor ties resist */
+typedef struct {
+  Simulation sim;
+  PetscInt   nbodies, n;
+  Vec        x;             /* places of the nodes [length] */
+  PetscReal *center, *size; /* 3 a body, 1 a body [length] */
+  PetscReal *motion;        /* [6 nbodies n], orthonormal: of each body translations, and angles times its size */
+} FreeMotions;
+
+PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);
+PETSC_INTERN PetscErrorCode FreeMotionsDisplace(const FreeMotions *, const PetscReal motion[], Vec w);
+PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Vec force, PetscReal motion[]);
+PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
+
+/* diagnose_equilibrium.c */
+PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Simulation, PetscReal time, Vec load, StepReport *, PetscBool *none);
 
 /* forces.c: forces and moments by pair, by face and by body */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);

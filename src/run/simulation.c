@@ -257,6 +257,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->report.warnings));
   PetscCall(PetscFree2(s->pressure, s->gap));
   PetscCall(PetscFree2(s->shear, s->slip));
+  PetscCall(PetscFree(s->cause));
   PetscCall(PetscFree(s->stress));
   PetscCall(PetscFree(s->points));
   PetscCall(PetscFree(s->beyond));

@@ -156,6 +156,8 @@ struct _n_Simulation {
   Forecast             forecast;
   Progress             progress;
   StepObserver         observer;
+  PetscInt             unheld;      /* attempts at this load step in a row that contact does not hold */
+  char                *cause;       /* of the first of them; NULL: there was none */
   int                  interrupted; /* the signal that asked for an end */
   PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
   RunReport            report;

@@ -433,6 +433,24 @@ static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool for
   PetscFunctionReturn(0);
 }
 
+/* Failures that smaller parts of the load step may not end: two in a row do not. Where it is proved that contact does
+   not hold the loads, and nothing prescribed moves, one is enough: smaller parts have the same places */
+static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport *report)
+{
+  Simulation sim = p->sim;
+  PetscBool  still;
+
+  PetscFunctionBegin;
+  if (report->converged || (!p->unheld && !p->moves_on)) {
+    sim->unheld = 0;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecEqual(p->base, sim->path.u, &still));
+  sim->unheld += still && p->unheld ? 2 : 1;
+  if (!sim->cause) PetscCall(PetscStrallocpy(report->reason, &sim->cause));
+  PetscFunctionReturn(0);
+}
+
 /*
    The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures
    and gaps of the last good solve stay with it.
@@ -462,6 +480,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
   } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
 
+  PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {
     PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));

@@ -20,18 +20,12 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscCall(VecGetArrayWrite(p->friction.limit, &limit));
   PetscCall(VecGetArrayWrite(p->friction.coefficient, &coefficient));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    const SceneContactPair *pair   = &scene->pairs[lin->pair[r]];
-    PetscReal               factor = 1.0;
+    const SceneContactPair *pair = &scene->pairs[lin->pair[r]];
+    PetscReal               mu   = 0.0;
 
-    if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, p->time, &factor));
-    PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-      "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
-      "not be negative",
-      pair->name, (double)factor, (double)p->time);
+    PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
-    coefficient[r] = !SceneContactPairRubs(pair)       ? 0.0
-                     : pair->friction < PETSC_INFINITY ? factor * pair->friction
-                                                       : PETSC_INFINITY;
+    coefficient[r] = mu;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));

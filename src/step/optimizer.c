@@ -164,12 +164,29 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u,
+/* Of a solve that has found no solution: who moves, where there is none; or else what may be the cause */
+static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
+{
+  char  reason[512];
+  char *unbounded;
+
+  PetscFunctionBegin;
+  if (!p->lower) PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (p->unheld) PetscFunctionReturn(0);
+  PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
+  if (unbounded) {
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "no equilibrium was found: %s", report->reason));
+    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  }
+  if (p->friction.T) PetscCall(OptimizerSuspectFriction(report));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u,
   StepReport *report)
 {
   TaoConvergedReason reason;
-  const char        *sentence  = NULL;
-  char              *unbounded = NULL;
+  const char        *sentence = NULL;
   PetscReal          residual, infeasibility;
   PetscInt           n;
 
@@ -177,9 +194,7 @@ static PetscErrorCode OptimizerReport(Simulation sim, Tao tao, PetscBool ours, c
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
-  if (sentence) PetscCall(PetscStrstr(sentence, "unbounded", &unbounded));
-  if (unbounded) PetscCall(RigidMotionReport(sim, u, report));
-  if (reason < 0 && sim->linearization && sim->linearization->slip) PetscCall(OptimizerSuspectFriction(report));
+  if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
@@ -253,7 +268,7 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
-    PetscCall(OptimizerReport(sim, tao, ours, &before, u, report));
+    PetscCall(OptimizerReport(p, tao, ours, &before, u, report));
     if (sim->interrupted) PetscCall(InterruptReport(sim, report));
     if (ours) PetscCall(OptimizerKeepSubspace(sim, tao));
     if (p->J && report->converged) PetscCall(OptimizerKeepContact(p, tao, ours, u, sol));

@@ -76,8 +76,8 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   Mat             K;
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->sim->interrupted &&
-                       EnergyIsFinite(p->energy));
+  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld &&
+                       !p->sim->interrupted && EnergyIsFinite(p->energy));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));
@@ -96,8 +96,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Solves about one centre after another that move on by the same way each: friction does not hold a body, whichever
-   way the first solve failed */
+/* Solves about one centre after another that move on by the same way each: no proof that nothing holds the body */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
   Vec way;
@@ -105,9 +104,20 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &way));
   PetscCall(VecWAXPY(way, -1.0, p->centre, u));
-  PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
-  PetscCall(RigidMotionReport(p->sim, way, report));
+  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found that friction holds"));
+  PetscCall(RigidMotionReport(p->sim, way, "no solve brings it to rest", report));
   PetscCall(VecDestroy(&way));
+  p->moves_on = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that forces drive is not held"));
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (!p->unheld)
+    PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found of the rigid bodies that forces drive"));
   PetscFunctionReturn(0);
 }
 
@@ -135,9 +145,8 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
   p->carried = carried;
   if (*again) PetscCall(ProximalCentre(p, u));
-  else if (p->failed && !falls) PetscCall(ProximalReportRigidMotion(p, u, report));
-  else
-    PetscCall(ReportReason(report, PETSC_FALSE,
-      p->failed ? p->failed : "a rigid body that forces drive moves away or turns over: nothing stops it"));
+  else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, report));
+  else if (!falls) PetscCall(ProximalReportRigidMotion(p, u, report));
+  else PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   PetscFunctionReturn(0);
 }

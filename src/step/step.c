@@ -20,6 +20,8 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
   sim->report.nsteps   = step + 1 - sim->first_step;
   sim->path.unbalanced = sim->path.turnover = 0.0;
+  sim->unheld                               = 0;
+  PetscCall(PetscFree(sim->cause));
   PetscFunctionReturn(0);
 }
 
@@ -68,7 +70,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact); /* such a system does not get easier */
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!linear && !sim->interrupted && report->cuts < sim->maxcuts);
+  *again = (PetscBool)(!linear && !sim->interrupted && report->cuts < sim->maxcuts && sim->unheld < 2);
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
@@ -145,6 +147,8 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
   }
+  if (!report->converged && sim->cause && !sim->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->cause)); /* not what came of smaller parts of the step */
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;

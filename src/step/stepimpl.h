@@ -60,6 +60,8 @@ typedef struct {
   ContactUpdateSecants secants;      /* where the load is taken next */
   Vec                  followed; /* displacement at which the load is taken; NULL where no pressure follows its face */
   Vec                  centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
+  PetscBool            unheld;       /* contact cannot hold the loads where the bodies were at the last state */
+  PetscBool            moves_on;     /* no solve brings a body to rest that friction ought to hold */
   char                *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
   PetscReal            carried;      /* what was left between the last solution and its centre [force] */
   PetscReal            tolerance; /* KKT error that the present linearization is solved to; 0: that of the load step */

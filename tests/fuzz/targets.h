@@ -6,6 +6,7 @@
 #ifndef FUZZ_TARGETS_H
 #define FUZZ_TARGETS_H
 
+#include <scene.h>
 #include <mesh.h>
 #include <stdio.h>
 #include "../attempt.h"

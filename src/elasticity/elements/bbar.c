@@ -207,5 +207,10 @@ static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, P
   }
 }
 
-const Element ElementBbar = {ElementEnergy_Bbar, ElementForce_Bbar, ElementStiffness_Bbar, ElementCauchy_Bbar,
-  ElementStrains_Bbar};
+const Element ElementBbar = {
+  .energy    = ElementEnergy_Bbar,
+  .force     = ElementForce_Bbar,
+  .stiffness = ElementStiffness_Bbar,
+  .cauchy    = ElementCauchy_Bbar,
+  .strains   = ElementStrains_Bbar,
+};

@@ -108,8 +108,7 @@ PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, Petsc
    full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from
    its law and its vertices.
 
-   A new element is one file with an Element, one line in element.c, and its name in src/model/formulation.c. Where it
-   is left out what order it is of, it takes cells of any.
+   A new element is one file with an Element, and one line in formulation.h.
 */
 typedef struct {
   const MaterialLaw *law;
@@ -123,6 +122,7 @@ typedef struct {
    PETSC_INFINITY, and the others return PETSC_FALSE and what they wrote means nothing.
 */
 typedef struct {
+  PetscInt nnodes; /* of the cells that it takes; 0: any */
   PetscReal (
     *energy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES]);
   /* Derivative of the energy, F[d][a] */
@@ -139,9 +139,9 @@ typedef struct {
     PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
 
-PETSC_INTERN const Element ElementFull;
-PETSC_INTERN const Element ElementBbar;
-PETSC_INTERN const Element ElementIncompatible;
+#define ELEMENT_DECLARE(name, element, text) PETSC_INTERN const Element Element##element;
+ELEMENT_TYPES(ELEMENT_DECLARE)
+#undef ELEMENT_DECLARE
 
 /* element.c: the table of elements */
 PETSC_INTERN PetscErrorCode ElementGet(ElementType, PetscInt nnodes, const Element **);

@@ -117,5 +117,10 @@ static void ElementStrains_Full(const CellBasis *basis, const BodyMaterial *m, P
   CELL_CALL(FullStrains, basis, m, X, U, w, H);
 }
 
-const Element ElementFull = {ElementEnergy_Full, ElementForce_Full, ElementStiffness_Full, ElementCauchy_Full,
-  ElementStrains_Full};
+const Element ElementFull = {
+  .energy    = ElementEnergy_Full,
+  .force     = ElementForce_Full,
+  .stiffness = ElementStiffness_Full,
+  .cauchy    = ElementCauchy_Full,
+  .strains   = ElementStrains_Full,
+};

@@ -190,5 +190,11 @@ static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMateri
   }
 }
 
-const Element ElementIncompatible = {ElementEnergy_Incompatible, ElementForce_Incompatible,
-  ElementStiffness_Incompatible, ElementCauchy_Incompatible, ElementStrains_Incompatible};
+const Element ElementIncompatible = {
+  .nnodes    = 8,
+  .energy    = ElementEnergy_Incompatible,
+  .force     = ElementForce_Incompatible,
+  .stiffness = ElementStiffness_Incompatible,
+  .cauchy    = ElementCauchy_Incompatible,
+  .strains   = ElementStrains_Incompatible,
+};

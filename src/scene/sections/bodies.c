@@ -131,7 +131,7 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const Scene
   PetscCall(SceneViewRows(scene, viewer, list->rows, NULL, body, list->initial));
   PetscCall(SceneViewRows(scene, viewer, list->rows, BodyShapes[body->shape], body, list->initial));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
-  PetscCall(SceneViewConstants(scene, &body->material, viewer));
+  PetscCall(SceneViewConstants(&body->material, viewer));
   if (body->material.type != MATERIAL_RIGID)
     PetscCall(SceneViewRows(scene, viewer, list->rows, "elastic", body, list->initial));
   PetscCall(PetscViewerASCIIPopTab(viewer));

@@ -1,38 +1,109 @@
-/* Constants of a material: read, viewed, described and checked */
+/* Constants of a material: which ones its law has, read, viewed, described and checked */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
-#include <string.h>
 
-/* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces. A law without
-   an expansion says which have one, where it is given */
-PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *m)
+static PetscReal *MaterialConstantAt(const MaterialConstant *constant, Material *material)
 {
-  static const char *const directions[] = {"first_axis", "second_axis"};
-  PetscBool                has;
+  return (PetscReal *)((char *)material + constant->at);
+}
+
+static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, const PetscReal value[])
+{
+  for (PetscInt i = 0; i < constant->n; ++i) {
+    if (value[i] != 0) return PETSC_TRUE;
+  }
+  return constant->required;
+}
+
+/* A direction, which cannot be zero; zero stands for one that is not given */
+static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
+{
+  return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
+}
+
+/* A law that has no expansion says which have, where one is given */
+static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
+{
+  const char *text;
 
   PetscFunctionBegin;
-  PetscCall(SceneReadRows(keys, NULL, owner, SceneConstantRows, MaterialTypes[m->type], listed, m));
-  for (PetscInt i = 0; i < 2 && m->type == MATERIAL_ORTHOTROPIC; ++i) {
-    PetscCall(SceneHasKey(keys, owner, directions[i], &has));
-    if (has && m->axes[i][0] == 0 && m->axes[i][1] == 0 && m->axes[i][2] == 0)
-      PetscCall(SceneKeysComplain(keys, "%s_%s is zero, which is no direction", owner, directions[i]));
+  if (!MaterialIsFinite(material)) PetscFunctionReturn(0);
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_expansion", owner));
+  if (text)
+    PetscCall(
+      SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
+        owner, MaterialTypes[material->type]));
+  PetscFunctionReturn(0);
+}
+
+/* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
+PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
+{
+  const MaterialLaw *law;
+  char               key[SCENE_KEY_LENGTH];
+  const char        *text;
+
+  PetscFunctionBegin;
+  PetscCall(MaterialGetLaw(material, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) {
+    PetscReal *value = MaterialConstantAt(c, material);
+
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", owner, c->name));
+    PetscCall(SceneKeysGet(keys, (PetscBool)(c->required && !listed), &text, "%s", key));
+    if (text && c->n == 1) PetscCall(SceneParseReal(keys, key, text, value));
+    else if (text) PetscCall(SceneParseReals(keys, key, text, c->n, value));
+    if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, value))
+      PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
-  if (MaterialIsFinite(m)) {
-    PetscCall(SceneHasKey(keys, owner, "expansion", &has));
-    if (has)
-      PetscCall(
-        SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
-          owner, MaterialTypes[m->type]));
+  PetscCall(SceneReadNoExpansion(keys, owner, material));
+  PetscCall(MaterialSetScale(material));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConstantView(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", constant->name));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+  if (constant->n == 1) PetscCall(SceneViewReal(viewer, *value));
+  else PetscCall(SceneViewList(viewer, constant->n, value));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+{
+  const char *name = constant->symbol ? constant->symbol : constant->name;
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
+  for (PetscInt k = 0; k < constant->n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Those that are required or not 0 */
+static PetscErrorCode ConstantsShow(const Material *material,
+  PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
+{
+  const MaterialLaw *law;
+  Material           copy = *material;
+
+  PetscFunctionBegin;
+  PetscCall(MaterialGetLaw(material, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) {
+    const PetscReal *value = MaterialConstantAt(c, &copy);
+
+    if (MaterialConstantIsSet(c, value)) PetscCall(show(c, value, viewer));
   }
-  PetscCall(MaterialSetScale(m));
   PetscFunctionReturn(0);
 }
 
 /* A line each, as it is read */
-PetscErrorCode SceneViewConstants(Scene scene, const Material *material, PetscViewer viewer)
+PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(SceneViewRows(scene, viewer, SceneConstantRows, MaterialTypes[material->type], material, NULL));
+  PetscCall(ConstantsShow(material, ConstantView, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -40,19 +111,7 @@ PetscErrorCode SceneViewConstants(Scene scene, const Material *material, PetscVi
 PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  for (const SceneKey *row = SceneConstantRows; row->name; ++row) {
-    const PetscReal *value = (const PetscReal *)((const char *)material + row->at);
-    const char      *name  = row->n > 1                      ? row->name
-                             : !strcmp(row->name, "young")   ? "E"
-                             : !strcmp(row->name, "poisson") ? "nu"
-                                                             : row->name;
-    PetscBool        any   = (PetscBool)(row->need == SCENE_REQUIRED);
-
-    for (PetscInt k = 0; k < row->n; ++k) any = (PetscBool)(any || value[k] != 0);
-    if (!any || !SceneRowIsOf(row, MaterialTypes[material->type])) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
-    for (PetscInt k = 0; k < row->n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
-  }
+  PetscCall(ConstantsShow(material, ConstantDescribe, viewer));
   PetscFunctionReturn(0);
 }
 
@@ -80,27 +139,42 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const SceneBody *body)
+/* Within the bounds that its law gives it */
+static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
+  const MaterialConstant *c)
 {
-  const Material *m = &body->material;
+  Material         copy  = body->material;
+  const PetscReal *value = MaterialConstantAt(c, &copy);
+  const char      *label = c->label ? c->label : c->name;
+  char             lower[32], upper[32];
 
   PetscFunctionBegin;
-  switch (m->type) {
-  case MATERIAL_MOONEY_RIVLIN:
+  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's would print 0. */
+  (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
+  for (PetscInt i = 0; i < c->n && c->lower < c->upper; ++i) {
+    PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has %s %s = %g, which must be above %s", file, body->name, label, c->name, (double)value[i],
+      lower);
+    PetscCheck(value[i] > c->lower && value[i] < c->upper, comm, PETSC_ERR_USER_INPUT,
+      "%s: body \"%s\" has %s %s = %g, which must lie between %s and %s, both excluded", file, body->name, label,
+      c->name, (double)value[i], lower, upper);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const SceneBody *body)
+{
+  const Material    *m = &body->material;
+  const MaterialLaw *law;
+
+  PetscFunctionBegin;
+  if (m->type == MATERIAL_MOONEY_RIVLIN)
     PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT,
       "%s: body \"%s\" has c10 = %g and c01 = %g, of which none may be negative, or its energy has no lower bound, nor "
       "both be 0",
       file, body->name, (double)m->c10, (double)m->c01);
-    PetscCheck(m->bulk > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has a bulk modulus bulk = %g, which must be above 0", file, body->name, (double)m->bulk);
-    break;
-  case MATERIAL_ORTHOTROPIC: PetscCall(SceneValidateOrthotropic(comm, file, body)); break;
-  default:
-    PetscCheck(m->young > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has Young's modulus young = %g, which must be above 0", file, body->name, (double)m->young);
-    PetscCheck(m->poisson > -1 && m->poisson < 0.5, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has Poisson's ratio poisson = %g, which must lie between -1 and 0.5, both excluded", file,
-      body->name, (double)m->poisson);
-  }
+  if (m->type == MATERIAL_ORTHOTROPIC) PetscCall(SceneValidateOrthotropic(comm, file, body));
+  PetscCall(MaterialGetLaw(m, &law));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) PetscCall(ConstantValidate(comm, file, body, c));
   PetscFunctionReturn(0);
 }

@@ -150,27 +150,6 @@ static const SceneKey body_rows[] = {NAMED("shape", NULL, CHOICE, SceneBody, sha
     "of the displacements in a cell, 1 or 2; 2: hexahedra of 27 and tetrahedra of 10 nodes, curved as the surface is"),
   {NULL}};
 
-const SceneKey SceneConstantRows[] = {REALS("young", "linear neohookean saint_venant", 1, Material, young, REQUIRED,
-                                        ANY, "F/L²", "", "Young's modulus, above 0"),
-  REALS("poisson", "linear neohookean saint_venant", 1, Material, poisson, REQUIRED, ANY, "", "",
-    "Poisson's ratio, between -1 and 1/2, both excluded"),
-  REALS("expansion", "linear", 1, Material, expansion, OPTIONAL, ANY, "1/temperature", "0", "linear thermal expansion"),
-  REALS("c10", "mooney_rivlin", 1, Material, c10, REQUIRED, ANY, "F/L²", "",
-    "factor of the first invariant, not negative"),
-  REALS("c01", "mooney_rivlin", 1, Material, c01, REQUIRED, ANY, "F/L²", "",
-    "factor of the second invariant, not negative"),
-  REALS("bulk", "mooney_rivlin", 1, Material, bulk, REQUIRED, ANY, "F/L²", "", "bulk modulus, above 0"),
-  REALS("young", "orthotropic", 3, Material, youngs, REQUIRED, ANY, "F/L²", "", "E₁, E₂, E₃, above 0"),
-  REALS("poisson", "orthotropic", 3, Material, poissons, REQUIRED, ANY, "", "", "ν₁₂, ν₂₃, ν₁₃"),
-  REALS("shear", "orthotropic", 3, Material, shears, REQUIRED, ANY, "F/L²", "", "G₁₂, G₂₃, G₁₃, above 0"),
-  REALS("first_axis", "orthotropic", 3, Material, axes[0], OPTIONAL, ANY, "", "x",
-    "the first axis of the material, a direction in space"),
-  REALS("second_axis", "orthotropic", 3, Material, axes[1], OPTIONAL, ANY, "", "y",
-    "with the first one it spans the first two axes"),
-  REALS("expansion", "orthotropic", 3, Material, expansion, OPTIONAL, ANY, "1/temperature", "0",
-    "along the three axes of the material"),
-  {NULL}};
-
 static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMaterial, material.type, OPTIONAL,
                                            MaterialTypes, "`linear`", "the law; its constants as of a body"),
   {NULL}};
@@ -358,7 +337,6 @@ const SceneList SceneLists[] = {
   {"probes", probe_rows, sizeof(SceneProbe), OF_SCENE(nprobes, probes), .initial = &probe_initial,
     .finish = SceneFinishProbe, .hides = SceneProbeHides},
   {"materials", material_rows, sizeof(SceneMaterial), .finish = SceneFinishMaterial},
-  {.name = "constants of a material", .rows = SceneConstantRows},
   {.name = "load", .rows = load_rows},
   {.name = "ramps", .rows = ramp_rows},
   {.name = NULL},
@@ -419,6 +397,24 @@ static PetscErrorCode KeyView(const SceneKey *row, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Those of a body's material, or of an entry of the list materials, which the laws have */
+static PetscErrorCode KeysViewConstants(PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n### Keys: constants of a material\n\n| key | of | type | symbol | "
+                                           "default |\n| --- | --- | --- | --- | --- |\n"));
+  for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
+    const Material     material = {.type = (MaterialType)t};
+    const MaterialLaw *law;
+
+    PetscCall(MaterialGetLaw(&material, &law));
+    for (const MaterialConstant *c = law->constants; c && c->name; ++c)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %s | %s | %s |\n", c->name, MaterialTypes[t],
+        c->n == 1 ? "a number" : "three numbers", c->symbol ? c->symbol : "", c->required ? "required" : "0"));
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SceneViewKeys - Prints the keys of the scene file, list by list, as tables of Markdown
 
@@ -443,5 +439,6 @@ PetscErrorCode SceneViewKeys(PetscViewer viewer)
       list == SceneLists ? "" : "\n", list->name[0] ? list->name : "top level"));
     for (const SceneKey *row = list->rows; row->name; ++row) PetscCall(KeyView(row, viewer));
   }
+  PetscCall(KeysViewConstants(viewer));
   PetscFunctionReturn(0);
 }

@@ -8,7 +8,6 @@
 
 /* keytable.c: all lists, the top level first, ended by a name of NULL; one of them; the constants of materials */
 PETSC_INTERN const SceneList  SceneLists[]; /* the first one is the top level; ends with a name of NULL */
-PETSC_INTERN const SceneKey   SceneConstantRows[];
 PETSC_INTERN const SceneList *SceneFindList(const char name[]);
 
 /* ramps.c: the load and the other ramps; all of them in another number of steps */
@@ -19,7 +18,7 @@ PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
 /* constants.c: those of a material's law, below <owner>_: read, viewed, in words within a line, and checked */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
-PETSC_INTERN PetscErrorCode SceneViewConstants(Scene, const Material *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], const SceneBody *);
 

@@ -1,0 +1,363 @@
+/*
+   Whether there is an equilibrium at all. Forces in the contacts balance the loads on the bodies only if the loads,
+   with the sign turned, are in the cone of what such forces do on the free rigid motions of all bodies: of every row
+   its normal force, with as much friction as that allows. The point of the cone nearest to them is found by rays of it,
+   one after another: of all rows the one that works the most against what is left of the loads. Where none does and
+   something is left, that is a motion which the loads drive and no contact resists: there is no equilibrium (Farkas).
+*/
+#include "measureimpl.h"
+
+/* The rays that make up the nearest point so far, n numbers each, and how much of each */
+typedef struct {
+  PetscInt   n, nrays, nmax;
+  PetscReal *ray, *normal; /* normal: of the row's normal force alone */
+  PetscReal *amount;       /* [force] */
+} ContactCone;
+
+/* The row that works the most against a motion, and its friction, on all ranks */
+typedef struct {
+  PetscReal rate;     /* work of a unit of its force on the motion: negative */
+  PetscInt  row;      /* global; PETSC_DECIDE: there is no row */
+  PetscReal shear[2]; /* by normal force */
+  PetscReal normal;   /* 1; 0: friction alone, which needs next to none */
+} ConeRow;
+
+static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
+{
+  PetscFunctionBegin;
+  *cone = (ContactCone){.n = n, .nmax = 20 * n + 100};
+  PetscCall(PetscMalloc3(n * cone->nmax, &cone->ray, n * cone->nmax, &cone->normal, cone->nmax, &cone->amount));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConeFree(ContactCone *cone)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
+  PetscFunctionReturn(0);
+}
+
+/* Coefficients without limit: whatever is asked for, as of pairs that stick, or have another limit */
+static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
+{
+  Vec                rates, slips = NULL;
+  const PetscScalar *a, *s        = NULL;
+  PetscInt           first;
+  struct {
+    double value;
+    int    rank;
+  } best = {0.0, 0};
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  *found = (ConeRow){.row = PETSC_DECIDE};
+  PetscCall(VecDuplicate(lin->g, &rates));
+  PetscCall(MatMult(lin->J, w, rates));
+  if (lin->slip) {
+    PetscCall(MatCreateVecs(lin->slip, NULL, &slips));
+    PetscCall(MatMult(lin->slip, w, slips));
+    PetscCall(VecGetArrayRead(slips, &s));
+  }
+  PetscCall(VecGetOwnershipRange(rates, &first, NULL));
+  PetscCall(VecGetArrayRead(rates, &a));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    const PetscReal slip[2] = {s ? PetscRealPart(s[2 * r]) : 0.0, s ? PetscRealPart(s[2 * r + 1]) : 0.0};
+    const PetscReal size    = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
+    PetscReal       mu, rate = PetscRealPart(a[r]);
+    PetscBool       alone = PETSC_FALSE;
+
+    PetscCall(FrictionGetCoefficient(sim->scene, time, lin->pair[r], &mu));
+    if (mu < PETSC_INFINITY) rate -= mu * size;
+    else if (-size < rate) {
+      rate  = -size;
+      alone = PETSC_TRUE;
+    } else mu = 0.0;
+    if (found->row >= 0 && rate >= found->rate) continue;
+    *found = (ConeRow){.rate = rate, .row = first + r, .normal = alone ? 0.0 : 1.0};
+    for (PetscInt c = 0; size > 0.0 && c < 2; ++c) found->shear[c] = -(alone ? 1.0 : mu) * slip[c] / size;
+  }
+  PetscCall(VecRestoreArrayRead(rates, &a));
+  if (slips) PetscCall(VecRestoreArrayRead(slips, &s));
+  PetscCall(VecDestroy(&slips));
+  PetscCall(VecDestroy(&rates));
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  best.value = found->row >= 0 ? (double)found->rate : (double)PETSC_MAX_REAL;
+  best.rank  = rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, sim->comm));
+  PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(*found), MPI_BYTE, best.rank, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* What a unit of a row's force does on the free motions; shear: with its friction */
+static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin, const ConeRow *row, PetscBool shear,
+  PetscReal ray[])
+{
+  Vec      unit, force;
+  PetscInt first, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(m->x, &force));
+  PetscCall(VecDuplicate(lin->g, &unit));
+  PetscCall(VecZeroEntries(unit));
+  PetscCall(VecGetOwnershipRange(unit, &first, &end));
+  if (row->row >= first && row->row < end) PetscCall(VecSetValue(unit, row->row, row->normal, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(unit));
+  PetscCall(VecAssemblyEnd(unit));
+  PetscCall(MatMultTranspose(lin->J, unit, force));
+  PetscCall(VecDestroy(&unit));
+  if (lin->slip && shear) {
+    PetscCall(MatCreateVecs(lin->slip, NULL, &unit));
+    PetscCall(VecZeroEntries(unit));
+    for (PetscInt c = 0; c < 2; ++c) {
+      if (row->row >= first && row->row < end)
+        PetscCall(VecSetValue(unit, 2 * row->row + c, row->shear[c], INSERT_VALUES));
+    }
+    PetscCall(VecAssemblyBegin(unit));
+    PetscCall(VecAssemblyEnd(unit));
+    PetscCall(MatMultTransposeAdd(lin->slip, unit, force, force));
+    PetscCall(VecDestroy(&unit));
+  }
+  PetscCall(FreeMotionsSum(m, force, ray));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/* left = load + the rays' sum */
+static void ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
+{
+  for (PetscInt i = 0; i < cone->n; ++i) {
+    left[i] = load[i];
+    for (PetscInt k = 0; k < cone->nrays; ++k) left[i] += cone->amount[k] * cone->ray[cone->n * k + i];
+  }
+}
+
+static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/* Amounts, of any sign, with which the rays leave the least of the load: by their part across those before them */
+static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[], PetscReal amount[])
+{
+  const PetscInt  n = cone->n, nrays = cone->nrays;
+  const PetscReal dependent = 1e-12;
+  PetscReal      *across, *share;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(n * nrays, &across, nrays * nrays, &share));
+  PetscCall(PetscArraycpy(across, cone->ray, n * nrays));
+  for (PetscInt k = 0; k < nrays; ++k) {
+    PetscReal *q = &across[n * k], whole = ConeDot(n, q, q), rest;
+
+    for (PetscInt j = 0; j < k; ++j) {
+      share[nrays * k + j] = ConeDot(n, q, &across[n * j]);
+      for (PetscInt i = 0; i < n; ++i) q[i] -= share[nrays * k + j] * across[n * j + i];
+    }
+    rest                 = ConeDot(n, q, q);
+    share[nrays * k + k] = rest > dependent * whole ? PetscSqrtReal(rest) : 0.0;
+    for (PetscInt i = 0; i < n; ++i) q[i] = share[nrays * k + k] > 0.0 ? q[i] / share[nrays * k + k] : 0.0;
+  }
+  for (PetscInt k = nrays - 1; k >= 0; --k) {
+    amount[k] = -ConeDot(n, load, &across[n * k]);
+    for (PetscInt j = k + 1; j < nrays; ++j) amount[k] -= share[nrays * j + k] * amount[j];
+    amount[k] = share[nrays * k + k] > 0.0 ? amount[k] / share[nrays * k + k] : 0.0;
+  }
+  PetscCall(PetscFree2(across, share));
+  PetscFunctionReturn(0);
+}
+
+/* Takes off the rays of which there is nothing */
+static void ConeDrop(ContactCone *cone)
+{
+  PetscReal largest = 0.0;
+  PetscInt  kept    = 0;
+
+  for (PetscInt k = 0; k < cone->nrays; ++k) largest = PetscMax(largest, cone->amount[k]);
+  for (PetscInt k = 0; k < cone->nrays; ++k) {
+    if (cone->amount[k] <= 1e-14 * largest) continue;
+    cone->amount[kept] = cone->amount[k];
+    for (PetscInt i = 0; i < cone->n; ++i) {
+      cone->ray[cone->n * kept + i]    = cone->ray[cone->n * k + i];
+      cone->normal[cone->n * kept + i] = cone->normal[cone->n * k + i];
+    }
+    ++kept;
+  }
+  cone->nrays = kept;
+}
+
+/* The amounts, none of them negative, with which the rays leave the least of the load (Lawson and Hanson) */
+static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
+{
+  PetscReal *wanted, part = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(cone->nmax, &wanted));
+  while (part < 1.0 && cone->nrays) {
+    PetscCall(ConeSolve(cone, load, wanted));
+    part = 1.0;
+    for (PetscInt k = 0; k < cone->nrays; ++k) {
+      if (wanted[k] < 0.0) part = PetscMin(part, cone->amount[k] / (cone->amount[k] - wanted[k]));
+    }
+    for (PetscInt k = 0; k < cone->nrays; ++k) {
+      cone->amount[k] += part * (wanted[k] - cone->amount[k]);
+      if (part < 1.0 && wanted[k] < 0.0 && cone->amount[k] <= 1e-14 * -wanted[k]) cone->amount[k] = 0.0;
+    }
+    if (part < 1.0) ConeDrop(cone);
+  }
+  PetscCall(PetscFree(wanted));
+  PetscFunctionReturn(0);
+}
+
+/*
+   What contact leaves of the load, size: the sum of the sizes of the loads at the nodes. none: it is proved that there
+   is no equilibrium, or one only with contact forces that are a thousand times the loads
+*/
+static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
+  const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
+{
+  const PetscReal beyond = 1e3, negligible = 1e-7;
+  const PetscInt  n = m->n;
+  Vec             w;
+
+  PetscFunctionBegin;
+  *none = PETSC_FALSE;
+  PetscCall(VecDuplicate(m->x, &w));
+  for (PetscInt it = 0; it < cone->nmax && cone->nrays < cone->nmax; ++it) {
+    ConeRow  row, best = {.row = PETSC_DECIDE};
+    PetscInt of = 0;
+
+    ConeSubtract(cone, load, left);
+    if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
+    PetscCall(FreeMotionsDisplace(m, left, w));
+    for (PetscInt l = 0; l < nlins; ++l) {
+      PetscCall(ConeFindRow(m->sim, time, lins[l], w, &row));
+      if (row.row >= 0 && (best.row < 0 || row.rate < best.rate)) {
+        best = row;
+        of   = l;
+      }
+    }
+    *none = (PetscBool)(best.row < 0 || best.rate >= -ConeDot(n, load, left) / (beyond * size));
+    if (*none) break;
+    PetscCall(ConeGetRay(m, lins[of], &best, PETSC_TRUE, &cone->ray[n * cone->nrays]));
+    PetscCall(ConeGetRay(m, lins[of], &best, PETSC_FALSE, &cone->normal[n * cone->nrays]));
+    cone->amount[cone->nrays++] = 0.0;
+    PetscCall(ConeBalance(cone, load));
+  }
+  PetscCall(VecDestroy(&w));
+  PetscFunctionReturn(0);
+}
+
+/* Takes off a motion what opens the rows that press: bodies slide, and do not climb as friction would have it */
+static void ConeSlide(const ContactCone *cone, PetscReal motion[])
+{
+  const PetscInt n   = cone->n;
+  PetscReal     *own = cone->normal;
+
+  for (PetscInt k = 0; k < cone->nrays; ++k) {
+    PetscReal *v = &own[n * k], whole = ConeDot(n, v, v), rest;
+
+    for (PetscInt pass = 0; pass < 2; ++pass) {
+      for (PetscInt j = 0; j < k; ++j) {
+        const PetscReal along = ConeDot(n, v, &own[n * j]);
+
+        for (PetscInt i = 0; i < n; ++i) v[i] -= along * own[n * j + i];
+      }
+    }
+    rest = ConeDot(n, v, v);
+    for (PetscInt i = 0; i < n; ++i) v[i] = rest > 1e-12 * whole ? v[i] / PetscSqrtReal(rest) : 0.0;
+  }
+  for (PetscInt k = 0; k < cone->nrays; ++k) {
+    const PetscReal along = ConeDot(n, motion, &own[n * k]);
+
+    for (PetscInt i = 0; i < n; ++i) motion[i] -= along * own[n * k + i];
+  }
+}
+
+/* The sum of the sizes of the loads at the nodes */
+static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
+{
+  const PetscScalar *f;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *size = 0.0;
+  PetscCall(VecGetLocalSize(load, &n));
+  PetscCall(VecGetArrayRead(load, &f));
+  for (PetscInt i = 0; i < n; i += 3)
+    *size += PetscSqrtReal(
+      PetscSqr(PetscRealPart(f[i])) + PetscSqr(PetscRealPart(f[i + 1])) + PetscSqr(PetscRealPart(f[i + 2])));
+  PetscCall(VecRestoreArrayRead(load, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)load)));
+  PetscFunctionReturn(0);
+}
+
+/* The rows of the last state: those within the usual reach, and those as far as the bodies extend, for a body that
+   moves away may meet others there */
+static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[2])
+{
+  Simulation sim = m->sim;
+  PetscReal  extent;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
+  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[0]));
+  PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
+  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[1]));
+  PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+  PetscFunctionReturn(0);
+}
+
+/* How the bodies move that contact does not hold: motion, what it leaves of the loads on the free motions */
+static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone *cone, const PetscReal left[],
+  PetscBool rubs, StepReport *report)
+{
+  PetscReal *motion, whole = ConeDot(m->n, left, left);
+  Vec        w;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(m->n, &motion));
+  PetscCall(PetscArraycpy(motion, left, m->n));
+  ConeSlide(cone, motion);
+  PetscCall(VecDuplicate(m->x, &w));
+  PetscCall(FreeMotionsDisplace(m, ConeDot(m->n, motion, motion) > 1e-6 * whole ? motion : left, w));
+  if (rubs) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
+  PetscCall(RigidMotionReport(m->sim, w, "nothing stops it", report));
+  PetscCall(VecDestroy(&w));
+  PetscCall(PetscFree(motion));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Of a solve that has found no solution: whether there is none, as is known of the loads and the places of the last
+   state. Then the report says which body moves, and how
+*/
+PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
+{
+  ContactLinearization lins[2];
+  ContactCone          cone;
+  FreeMotions          motions;
+  PetscReal           *load, *left, size;
+
+  PetscFunctionBegin;
+  *none = PETSC_FALSE;
+  if (!sim->contact || !force) PetscFunctionReturn(0);
+  PetscCall(EquilibriumMeasureLoad(force, &size));
+  PetscCall(FreeMotionsCreate(sim, &motions));
+  if (motions.n && size > 0.0) {
+    PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));
+    PetscCall(ConeAllocate(motions.n, &cone));
+    PetscCall(EquilibriumLinearize(&motions, lins));
+    PetscCall(FreeMotionsSum(&motions, force, load));
+    PetscCall(ConeProject(time, &motions, 2, lins, load, size, &cone, left, none));
+    if (*none) PetscCall(EquilibriumReport(&motions, &cone, left, (PetscBool)(lins[0]->slip != NULL), report));
+    PetscCall(ContactLinearizationDestroy(&lins[0]));
+    PetscCall(ContactLinearizationDestroy(&lins[1]));
+    PetscCall(ConeFree(&cone));
+    PetscCall(PetscFree2(load, left));
+  }
+  PetscCall(FreeMotionsDestroy(&motions));
+  PetscFunctionReturn(0);
+}
