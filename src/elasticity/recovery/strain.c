@@ -1,5 +1,5 @@
 /* How far bodies of a small-strain law are strained and turned */
-#include "src/elasticity/elasticityimpl.h"
+#include "recoveryimpl.h"
 
 /* Largest principal strain, by its size, and the angle of the infinitesimal rotation of a displacement gradient */
 static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
