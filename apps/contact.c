@@ -166,9 +166,8 @@ static void AppLeave(const AppError *error)
 /* contact --help, contact -version, contact -scene_keys: a text, and no run */
 static PetscBool AppAsksForText(int argc, char **argv)
 {
-  return (PetscBool)(argc == 2 &&
-                     (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version") ||
-                      !strcmp(argv[1], "-scene_keys")));
+  return (PetscBool)(argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") ||
+                                    !strcmp(argv[1], "-version") || !strcmp(argv[1], "-scene_keys")));
 }
 
 static PetscErrorCode AppGetVersions(char text[], size_t length)

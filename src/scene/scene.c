@@ -50,7 +50,7 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 {
   PetscFunctionBegin;
   for (const SceneList *list = SceneLists; list->name; ++list) {
-    if (!strcmp(list->name, "faces")) PetscCall(SceneReadFaces(keys, scene));
+    if (!strcmp(list->name, "faces")) PetscCall(SceneReadFaces(keys, scene, list));
     else if (!strcmp(list->name, "symmetry")) PetscCall(SceneReadSymmetry(keys, scene));
     else if (list->entries)
       PetscCall(
@@ -107,7 +107,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
-  PetscCall(SceneReadMaterials(keys, s));
+  PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
   PetscCall(SceneReadLists(keys, s));
   PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));

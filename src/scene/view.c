@@ -45,8 +45,8 @@ static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const ch
   const SceneList *list = SceneFindList(name);
 
   PetscFunctionBegin;
-  if (!strcmp(name, "bodies")) PetscCall(SceneViewBodies(scene, viewer));
-  else if (!strcmp(name, "faces")) PetscCall(SceneViewFaces(scene, viewer));
+  if (!strcmp(name, "bodies")) PetscCall(SceneViewBodies(scene, viewer, list));
+  else if (!strcmp(name, "faces")) PetscCall(SceneViewFaces(scene, viewer, list));
   else if (!strcmp(name, "load")) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
     PetscCall(PetscViewerASCIIPushTab(viewer));

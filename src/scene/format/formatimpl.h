@@ -28,15 +28,16 @@ typedef struct {
 } SceneMaterial;
 
 typedef struct {
-  MPI_Comm                  comm;
-  const char               *file;
-  PetscOptions              options;
-  PetscInt                  nasked, maxasked;
-  char                    **asked;
-  const struct _n_SceneKey *top; /* rows of the top level, for what is misspelt there */
-  SceneKeyLines             lines;
-  char                      complaint[1024]; /* the first; empty if none */
-  PetscBool                 decides; /* which keys are known hangs on what is complained of: it comes before them */
+  MPI_Comm                   comm;
+  const char                *file;
+  PetscOptions               options;
+  PetscInt                   nasked, maxasked;
+  char                     **asked;
+  const struct _n_SceneList *list; /* that is being read */
+  const struct _n_SceneKey  *top;  /* rows of the top level, for what is misspelt there */
+  SceneKeyLines              lines;
+  char                       complaint[1024]; /* the first; empty if none */
+  PetscBool                  decides; /* which keys are known hangs on what is complained of: it comes before them */
 
   char           library[PETSC_MAX_PATH_LEN]; /* where materials come from, in words; empty: no library */
   PetscInt       nmaterials;                  /* that have names, once they are read */
@@ -51,6 +52,8 @@ PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const ch
 PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
+/* A file's name, relative to the folder of the scene */
+PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
 /* parse.c: values; key is for the complaint. A list has exactly n entries, or any number where *n is PETSC_DECIDE on
    entry */
@@ -84,8 +87,8 @@ PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscI
   PetscBool *found);
 
 /*
-   The table of keys, which sections/keytable.c has. A row is read into an entry, which is a struct of model.h, at so many bytes; is shown
-   unless it is as it began; and frees the texts that it has.
+   The table of keys, which sections/keytable.c has. A row is read into an entry, which is a struct of model.h, at so
+   many bytes; is shown unless it is as it began; and frees the texts that it has.
 */
 typedef enum {
   SCENE_REALS,
@@ -133,7 +136,7 @@ typedef struct _n_SceneKey {
   const char        *unit, *otherwise, *help; /* F force, L length; what holds without the key; a sentence */
 } SceneKey;
 
-typedef struct {
+typedef struct _n_SceneList {
   const char     *name;
   const SceneKey *rows;
   size_t          size;             /* of an entry, whose name comes first */

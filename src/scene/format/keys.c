@@ -199,6 +199,9 @@ static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], si
       PetscCall(PetscStrcmp((*names)[k], keys->asked[i] + *below, &twice));
     if (here && !twice) (*names)[(*n)++] = keys->asked[i] + *below;
   }
+  for (PetscInt i = 0; !keys->top && !*below && i < keys->nasked; ++i) {
+    if (!strchr(keys->asked[i], '_')) (*names)[(*n)++] = keys->asked[i];
+  }
   for (const SceneKey *row = keys->top; row && !*below && row->name && *n < 64; ++row) (*names)[(*n)++] = row->name;
   PetscFunctionReturn(0);
 }
@@ -286,6 +289,20 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   if (unknown) PetscCall(SceneKeysRaiseUnknown(keys, unknown));
   PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
   PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
+  PetscFunctionReturn(0);
+}
+
+/* A file's name is relative to the folder of the scene */
+PetscErrorCode SceneResolveFile(const char scene[], char **file)
+{
+  const char *slash = strrchr(scene, '/');
+  char        path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
+  PetscCall(PetscFree(*file));
+  PetscCall(PetscStrallocpy(path, file));
   PetscFunctionReturn(0);
 }
 

@@ -111,6 +111,7 @@ PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list,
     *(char **)entry = names[i];
     PetscCall(PetscSNPrintf(owner, sizeof(owner), "%s_%s", list->name, names[i]));
     PetscCall(SceneReadRows(keys, scene, owner, list->rows, NULL, PETSC_FALSE, entry));
+    keys->list = list;
     if (list->finish) PetscCall(list->finish(keys, scene, owner, entry));
   }
   PetscCall(PetscFree(names));

@@ -3,19 +3,8 @@
 #include <petscviewer.h>
 #include <string.h>
 
-/* A file's name is relative to the folder of the scene */
-PetscErrorCode SceneResolveFile(const char scene[], char **file)
-{
-  const char *slash = strrchr(scene, '/');
-  char        path[PETSC_MAX_PATH_LEN];
-
-  PetscFunctionBegin;
-  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
-  PetscCall(PetscFree(*file));
-  PetscCall(PetscStrallocpy(path, file));
-  PetscFunctionReturn(0);
-}
+const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh",
+  "BodyShape", "SHAPE_", NULL};
 
 /* The corner of an octant; spheres are around it unless they have centers of their own, which come later */
 static PetscErrorCode CornerRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
@@ -76,8 +65,7 @@ static PetscErrorCode BodyFinishShape(SceneKeys keys, Scene scene, const char ow
   PetscCall(PetscSNPrintf(key, sizeof(key), "-%s_mesh", owner));
   PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &text, &mesh));
   if (!shape && mesh) body->shape = SHAPE_GMSH;
-  PetscCall(
-    SceneReadRows(keys, scene, owner, SceneFindList("bodies")->rows, BodyShapes[body->shape], PETSC_FALSE, body));
+  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, BodyShapes[body->shape], PETSC_FALSE, body));
   if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
   PetscFunctionReturn(0);
 }
@@ -100,7 +88,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
     PetscFunctionReturn(0);
   }
   PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
-  PetscCall(SceneReadRows(keys, scene, owner, SceneFindList("bodies")->rows, "elastic", PETSC_FALSE, body));
+  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order)
     PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
@@ -120,10 +108,8 @@ PetscErrorCode SceneScaleRigid(Scene scene)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const SceneBody *body)
+static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const SceneList *list, const SceneBody *body)
 {
-  const SceneList *list = SceneFindList("bodies");
-
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
   PetscCall(PetscViewerASCIIPushTab(viewer));
@@ -139,12 +125,12 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const Scene
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneViewBodies(Scene scene, PetscViewer viewer)
+PetscErrorCode SceneViewBodies(Scene scene, PetscViewer viewer, const SceneList *list)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "bodies:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(SceneViewBody(scene, viewer, &scene->bodies[b]));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(SceneViewBody(scene, viewer, list, &scene->bodies[b]));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

@@ -141,13 +141,13 @@ const SceneOwn SceneOwnLower = {LowerRead, LowerIsShown, LowerView, 0};
 const SceneOwn SceneOwnUpper = {UpperRead, UpperIsShown, UpperView, 0};
 
 /* Each becomes one of its body's */
-PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
+PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list)
 {
   PetscInt      n     = 0;
   SceneSubface *faces = NULL;
 
   PetscFunctionBegin;
-  PetscCall(SceneReadList(keys, scene, SceneFindList("faces"), &n, &faces));
+  PetscCall(SceneReadList(keys, scene, list, &n, &faces));
   for (PetscInt f = 0; f < n; ++f) {
     const char    *face;
     const PetscInt b = SceneFindBody(scene, faces[f].of, &face);
@@ -174,11 +174,10 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
 }
 
 /* With the names of their bodies */
-PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer)
+PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *list)
 {
-  const SceneList *list = SceneFindList("faces");
-  SceneSubface    *faces;
-  PetscInt         n = 0, k = 0;
+  SceneSubface *faces;
+  PetscInt      n = 0, k = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) n += scene->bodies[b].nsubfaces;

@@ -24,9 +24,9 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
 }
 
 /* Appends those of a file, a library or the scene itself, to the scene's */
-static PetscErrorCode MaterialsReadList(SceneKeys keys, PetscBool library, SceneKeys scene)
+static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, PetscBool library, SceneKeys scene)
 {
-  SceneList      list  = *SceneFindList("materials");
+  SceneList      list  = *rows;
   const PetscInt first = scene->nmaterials;
   PetscBool      same;
 
@@ -45,7 +45,7 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, PetscBool library, Scene
 }
 
 /* Its units are those of the scene, unless that says its own: they must be the same words then */
-static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Scene scene)
+static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows, const char name[], Scene scene)
 {
   SceneKeys   library;
   char       *file;
@@ -61,7 +61,7 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
   PetscCall(PetscSNPrintf(keys->library, sizeof(keys->library), "the scene or its library %s", file));
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));
-  PetscCall(MaterialsReadList(library, PETSC_TRUE, keys));
+  PetscCall(MaterialsReadList(library, rows, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
   if (!same)
     PetscCall(
@@ -74,14 +74,14 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
 }
 
 /* Before the bodies */
-PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene)
+PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *rows)
 {
   const char *text;
 
   PetscFunctionBegin;
-  PetscCall(MaterialsReadList(keys, PETSC_FALSE, keys));
+  PetscCall(MaterialsReadList(keys, rows, PETSC_FALSE, keys));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "library"));
-  if (text) PetscCall(MaterialsReadLibrary(keys, text, scene));
+  if (text) PetscCall(MaterialsReadLibrary(keys, rows, text, scene));
   PetscFunctionReturn(0);
 }
 
@@ -89,8 +89,9 @@ PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene)
 static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;
-  char         laws[SCENE_KEY_LENGTH] = "";
-  PetscInt     n                      = 0;
+  char         meant[512];
+  size_t       distance, letters;
+  PetscInt     n = 0;
 
   PetscFunctionBegin;
   while (MaterialTypes[n + 2]) ++n;
@@ -98,13 +99,16 @@ static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const 
   for (PetscInt t = 0; t < n; ++t) names[t] = MaterialTypes[t];
   for (PetscInt m = 0; m < keys->nmaterials; ++m) names[n++] = keys->materials[m].name;
   PetscCall(OptionsNearest(n, names, name, &nearest));
-  for (PetscInt k = 0; k < n; ++k) {
-    PetscCall(PetscStrlcat(laws, k ? ", " : "", sizeof(laws)));
-    PetscCall(PetscStrlcat(laws, names[k], sizeof(laws)));
+  PetscCall(OptionsDistance(name, nearest, &distance));
+  PetscCall(PetscStrlen(name, &letters));
+  if (2 * distance < letters) PetscCall(PetscSNPrintf(meant, sizeof(meant), "the nearest one is \"%s\"", nearest));
+  else PetscCall(PetscStrncpy(meant, "there are", sizeof(meant)));
+  for (PetscInt k = 0; k < n && 2 * distance >= letters; ++k) {
+    PetscCall(PetscStrlcat(meant, k ? ", " : " ", sizeof(meant)));
+    PetscCall(PetscStrlcat(meant, names[k], sizeof(meant)));
   }
-  PetscCall(
-    SceneKeysComplain(keys, "%s is \"%s\", which is neither a law nor a material of %s; the nearest of %s is \"%s\"",
-      key, name, keys->library[0] ? keys->library : "the scene, which names no library", laws, nearest));
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
+    keys->library[0] ? keys->library : "the scene, which names no library", meant));
   keys->decides = PETSC_TRUE;
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);

@@ -23,24 +23,23 @@ PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer
 PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], const SceneBody *);
 
 /* materials.c: materials by name; that of a body, and whether it is one of them rather than a law */
-PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene);
+PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneFinishMaterial(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed,
   Material *);
 
-/* bodies.c; a file's name, relative to the folder of the scene */
+/* bodies.c */
 PETSC_INTERN const SceneOwn SceneOwnCorner;
-PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 PETSC_INTERN PetscErrorCode SceneFinishBody(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneScaleRigid(Scene);
-PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer, const SceneList *);
 
 /* faces.c: the body of a name <body>.<face>, PETSC_DECIDE if there is none, and the face; the faces cut out of others
  */
 PETSC_INTERN const SceneOwn SceneOwnLower, SceneOwnUpper;
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
-PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene);
-PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene, const SceneList *);
+PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer, const SceneList *);
 /* Collective; what and owner name the thing that refers to the face, as in: displacement "bottom" */
 PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[],
   const char name[]);
