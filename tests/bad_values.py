@@ -113,7 +113,7 @@ def judge(right, contents):
     """What is wrong with how it ends; None: nothing"""
     with open("bad.yaml", "w") as file:
         file.write(contents)
-    end = subprocess.run([CONTACT, "bad.yaml", "-scene_check"], capture_output=True, text=True, timeout=60)
+    end = subprocess.run([CONTACT, "bad.yaml", "-scene_check"], capture_output=True, text=True, timeout=600)
     said = end.stderr.strip().split("\n")
     if right:
         return None if end.returncode == 0 else "refused: %s" % said

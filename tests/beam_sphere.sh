@@ -8,7 +8,7 @@ run() {
   name=$1
   scene=$2
   shift 2
-  timeout 300 "$contact" "$scenes/$scene.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
+  timeout 1200 "$contact" "$scenes/$scene.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
 }
 
 run linear_published beam_sphere_linear -options_file "$published"

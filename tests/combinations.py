@@ -200,7 +200,7 @@ def run(scene, *more):
     command = [CONTACT, "combination.yaml", "-quiet", "-tao_ipfilter_tol", "1e-11", "-summary", "combination.json", *scene.options, *more]
     if scene.ranks > 1:
         command = ["mpiexec", "--oversubscribe", "-n", str(scene.ranks), *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300)
+    return subprocess.run(command, capture_output=True, text=True, timeout=1200)
 
 
 def off(step):

@@ -20,7 +20,7 @@ example() {
   local file=$1
   shift
   for ranks in 1 2; do
-    timeout 300 mpiexec --oversubscribe -n $ranks "$@" > out 2> err
+    timeout 1200 mpiexec --oversubscribe -n $ranks "$@" > out 2> err
     if told "$file" | diff - out > difference; then $said "$file, ranks $ranks: as told"; else
       echo "$file, ranks $ranks:"
       cat difference

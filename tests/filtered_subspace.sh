@@ -7,7 +7,7 @@ run() {
   shift 3
   launch=()
   [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
-  timeout 300 "${launch[@]}" "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/$scene.yaml" -quiet -refine 0 -contact_updates 1 -tao_gatol 1e-10 -summary "$name.json" "$@" 2> /dev/null || echo "$name: exit code $?"
+  timeout 1200 "${launch[@]}" "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/$scene.yaml" -quiet -refine 0 -contact_updates 1 -tao_gatol 1e-10 -summary "$name.json" "$@" 2> /dev/null || echo "$name: exit code $?"
 }
 
 run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false -tao_gatol 1e-12

@@ -4,7 +4,7 @@ run() {
   name=$1
   scene=$2
   shift 2
-  timeout 300 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json" $options
+  timeout 1200 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json" $options
 }
 for scene in greco_32 greco_64 torque_42 torque_84 capstan_90_24 capstan_90_48 capstan_180_48 capstan_180_96 pulled hung lift_rough lift_100 roller_8 roller_16; do run $scene $scene; done
 for scene in cattaneo_14 cattaneo_21; do options="-output $scene" run $scene $scene; done

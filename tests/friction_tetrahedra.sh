@@ -11,7 +11,7 @@ run() { # scene, kind and order of the ground and the block, ranks
   case $3 in t*) bodies+=("block=block_${3#t}.msh:${3#t}") ;; esac
   "$PYTHON" -B "$AMGF_DIR/tests/tetrahedra_contact.py" mesh "$1.yaml" "${bodies[@]}" > "$name.yaml"
   [ "$4" = 1 ] || set -- "$1" "$2" "$3" "$4" mpiexec --oversubscribe -n "$4"
-  timeout 300 "${@:5}" "$AMGF_DIR/bin/contact" "$name.yaml" -quiet -summary "$name${5:+_$4}.json" 2> /dev/null
+  timeout 1200 "${@:5}" "$AMGF_DIR/bin/contact" "$name.yaml" -quiet -summary "$name${5:+_$4}.json" 2> /dev/null
 }
 for kind in "t1 t1" "t2 t2" "h1 t2" "t2 h1"; do
   run sticks $kind 1

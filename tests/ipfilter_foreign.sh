@@ -16,7 +16,7 @@ done
 objective() {
   local name=$1 ranks=$2
   shift 2
-  timeout 60 mpiexec --oversubscribe -n "$ranks" "$@" -tao_view -tao_converged_reason > out 2>&1
+  timeout 600 mpiexec --oversubscribe -n "$ranks" "$@" -tao_view -tao_converged_reason > out 2>&1
   value=$(sed -n 's/.*Objective value=//p' out | tail -n 1)
   echo "$name: $(grep -o 'CONVERGED_[A-Z]*' out | head -n 1)"
 }

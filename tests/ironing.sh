@@ -3,7 +3,7 @@
 run() {
   name=$1
   shift
-  timeout 300 "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/ironing.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
+  timeout 1200 "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/ironing.yaml" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
 }
 
 run coarse_published -refine 0 -options_file "$AMGF_DIR/share/options/published.opts" -tao_ipfilter_tol 1e-9

@@ -19,7 +19,7 @@ body_forces:
   - weight: {body: block, value: [0, 0, -1]}
 SCENE
 run() {
-  timeout 300 "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -summary "$1_$2.json" -elasticity_pc_amgf_factor "$2" || echo "$1 $2: exit code $?"
+  timeout 1200 "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -summary "$1_$2.json" -elasticity_pc_amgf_factor "$2" || echo "$1 $2: exit code $?"
 }
 
 for factor in auto false true; do run beam $factor; done

@@ -44,7 +44,7 @@ contact:
 load: {steps: 3}
 END
 "$contact" row.yaml $options -summary whole.json
-timeout 60 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 || echo "a rank without vertices: exit code $?"
+timeout 600 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 || echo "a rank without vertices: exit code $?"
 "$contact" row.yaml $options -restart row.h5 -summary part.json
 judge "from ranks without vertices" 1e-9 whole.json part.json
 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -restart row.h5 -summary part.json
@@ -57,37 +57,41 @@ judge "refined" 1e-9 whole.json part.json energy
 judge "another load program" 1e-9 whole.json part.json
 
 "$contact" press.yaml $options -summary whole.json
+# begun PID COMMAND...: waits until the command succeeds, as long as the run lives
+begun() {
+  pid=$1
+  shift
+  until "$@" || ! kill -0 $pid 2> /dev/null; do sleep 0.1; done
+}
 for part in 2 4 6; do
   rm -f killed.h5*
   "$contact" press.yaml $options -checkpoint_every 1 -checkpoint killed.h5 &
   pid=$!
-  for i in $(seq 900); do [ -f killed.h5 ] && break; sleep 0.1; done
+  begun $pid test -f killed.h5
   sleep 0.0$(((part * 37 + $$) % 89 + 10))
   kill -KILL $pid 2> /dev/null
   wait $pid 2> /dev/null
   "$contact" press.yaml $options -restart killed.h5 -summary part.json 2> err && judge "killed" 1e-12 whole.json part.json || sed 's/.*: the analysis is already complete/killed: energy, work and forces as without a stop to 1e-12: yes/' err
 done
 
-# begun LOG: waits until a run has solved a load step
-begun() { for i in $(seq 900); do grep -q "$2" "$1" && break; sleep 0.1; done; }
-"$contact" press.yaml -load_steps 400 -checkpoint term.h5 > log 2>&1 &
+"$contact" press.yaml -load_steps 4000 -checkpoint term.h5 > log 2>&1 &
 pid=$!
-begun log 'Load step 3'
+begun $pid grep -q 'Load step 3' log
 kill -TERM $pid
 wait $pid
 echo "SIGTERM: exit $?, $(ls term.h5*)"
-"$contact" press.yaml -load_steps 400 -restart term.h5 -checkpoint term.h5 > log 2>&1 &
+"$contact" press.yaml -load_steps 4000 -restart term.h5 -checkpoint term.h5 > log 2>&1 &
 pid=$!
-begun log 'Load step 5'
+begun $pid grep -q 'Load step' log
 kill -TERM $pid
 wait $pid
-echo "and again: exit $?, $(grep -c '^Going on from term.h5 at time \([2-9]\|[1-9][0-9]\)' log) $(grep -c '^Checkpoint term.h5: time' log)"
+echo "and again: exit $?, $(grep -c '^Going on from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' log) $(grep -c '^Checkpoint term.h5: time' log)"
 
 rm -f full.h5
 trap '' XFSZ # the disk is full: a write fails, and no signal says so
 "$contact" press.yaml -quiet -load_steps 4000 -checkpoint_every 1 -checkpoint full.h5 2> err &
 pid=$!
-for i in $(seq 900); do [ -f full.h5 ] && break; sleep 0.1; done
+begun $pid test -f full.h5
 prlimit --pid $pid --fsize=16384
 wait $pid
 echo "full disk: exit $?, $(sed 's/full? .*/full?/' err)"
@@ -152,7 +156,7 @@ PY
 for name in step time previous_time increment work field value; do try press.yaml -restart bad_$name.h5; done
 for name in cells body vertex field value place; do
   try press.yaml -restart bad_$name.h5 -refine 1
-  timeout 200 mpiexec --oversubscribe -n 2 "$contact" press.yaml -restart bad_$name.h5 -refine 1 -quiet > err 2>&1
+  timeout 600 mpiexec --oversubscribe -n 2 "$contact" press.yaml -restart bad_$name.h5 -refine 1 -quiet > err 2>&1
   echo "two ranks: exit $?, $(grep -ac 'contact: error' err) sentence"
 done
 # Nothing that a run refuses touches the results of an earlier one, nor does a run before it has solved a load step
@@ -160,7 +164,7 @@ earlier="-output earlier -checkpoint_every 1 -checkpoint earlier_state.h5 -summa
 "$contact" press.yaml -quiet $earlier
 refuse() {
   sums=$(md5sum earlier*)
-  timeout 200 "$contact" "$@" -quiet $earlier > err 2>&1
+  timeout 600 "$contact" "$@" -quiet $earlier > err 2>&1
   code=$?
   changed=$(md5sum earlier* | diff <(echo "$sums") - | sed -n 's/^[<>].* //p' | sort -u | tr '\n' ' ')
   echo "exit $code, changed: ${changed:-nothing}; $(grep -ah 'contact: ' err)"

@@ -2,9 +2,9 @@
 # scene in full, and a scene that is wrong.
 contact=$AMGF_DIR/bin/contact
 for scene in "$AMGF_DIR"/share/scenes/*.yaml; do
-  timeout 60 "$contact" "$scene" -scene_check > one 2>&1
+  timeout 600 "$contact" "$scene" -scene_check > one 2>&1
   codes=$?
-  timeout 60 mpiexec --oversubscribe -n 3 "$contact" "$scene" -scene_check > three 2>&1
+  timeout 600 mpiexec --oversubscribe -n 3 "$contact" "$scene" -scene_check > three 2>&1
   codes="$codes $?"
   echo "$(basename "$scene"): exit $codes, $(cmp -s one three && echo same || echo different), solved: $(grep -c 'Load step 1' one),$(grep 'in all' one)"
 done

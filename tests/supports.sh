@@ -43,3 +43,16 @@ try 's/to: low.zmax/onto: low.zmax/'
 try 's/4, 4, 20/0, 4, 20/'
 try 's/4, 4, 20/4, 4, inf/'
 try 's/^springs:/cyclic: {low: low.xmin, high: low.ymin, axis: z}\n&/'
+# Many bodies on one another, each held by the one below; one of them, in the midst, along one axis by nothing
+pile() {
+  echo "bodies:"
+  for i in $(seq 60); do echo "  - b$i: {lower: [0, 0, $((i - 1))], upper: [1, 1, $i], cells: [1, 1, 1], young: 1, poisson: 0.3}"; done
+  printf 'displacements:\n  - foot: {face: b1.zmin, value: [0, 0, 0]}\ncontact:\n'
+  for i in $(seq 59); do echo "  - p$i: {mortar: b$i.zmax, nonmortar: b$((i + 1)).zmin, friction: 0.3}"; done
+}
+pile > pile.yaml
+sed 's/b40.zmin, friction: 0.3/b40.zmin/; s/b41.zmin, friction: 0.3/b41.zmin/' pile.yaml > slips.yaml
+for scene in pile slips; do # seconds of the processor: far more than it takes
+  (ulimit -t 2 && "$contact" $scene.yaml -scene_check > /dev/null 2> err)
+  echo "$scene: exit code $? $(cat err)"
+done

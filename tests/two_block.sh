@@ -10,7 +10,7 @@ run() {
   shift 2
   launch=()
   [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
-  timeout 300 "${launch[@]}" "$contact" "$scene" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
+  timeout 1200 "${launch[@]}" "$contact" "$scene" -quiet -summary "$name.json" "$@" || echo "$name: exit code $?"
 }
 
 run published 1 -contact_free -options_file "$published"

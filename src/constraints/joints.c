@@ -89,35 +89,17 @@ static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt ti
   PetscFunctionReturn(0);
 }
 
-/* Longest row of this rank */
-static PetscErrorCode JointsLongestRow(Mat all, PetscInt *longest)
-{
-  PetscInt start, end, n;
-
-  PetscFunctionBegin;
-  *longest = 1;
-  PetscCall(MatGetOwnershipRange(all, &start, &end));
-  for (PetscInt i = start; i < end; ++i) {
-    PetscCall(MatGetRow(all, i, &n, NULL, NULL));
-    *longest = PetscMax(*longest, n);
-    PetscCall(MatRestoreRow(all, i, &n, NULL, NULL));
-  }
-  PetscFunctionReturn(0);
-}
-
 /* The matrix of the ties alone, and its rows that follow others; all: of nodes */
 PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
   PetscBool follows[])
 {
-  PetscInt nlocal, rstart, start, longest;
+  PetscInt nlocal, rstart, start;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(c->bodies.mass, &nlocal));
   PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(MatGetOwnershipRange(all, &start, NULL));
-  PetscCall(JointsLongestRow(all, &longest));
-  PetscCall(
-    MatCreateAIJ(c->bodies.comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL, C));
+  PetscCall(CouplingsReserve(&c->bodies, all, C));
   for (PetscInt i = 0; i < nlocal; ++i) {
     const PetscInt     row = rstart + i, node = i / 3;
     PetscInt           n;

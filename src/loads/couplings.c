@@ -5,23 +5,40 @@
 */
 #include "loadsimpl.h"
 
-/* 1 - M, each entry for the three components, in the rows of one face; others are empty */
-static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *stretch)
+/* A matrix with three rows a node, in which there is room for the node's entries in another one and for the diagonal */
+PetscErrorCode CouplingsReserve(const Bodies *bodies, Mat nodes, Mat *A)
 {
-  PetscInt nlocal, start, end, longest = 1;
+  PetscInt nlocal, start, end, *here, *elsewhere;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(bodies->mass, &nlocal));
-  PetscCall(MatGetOwnershipRange(means, &start, &end));
-  for (PetscInt i = start; i < end; ++i) {
-    PetscInt n;
+  PetscCall(MatGetOwnershipRange(nodes, &start, &end));
+  PetscCall(PetscMalloc2(nlocal, &here, nlocal, &elsewhere));
+  for (PetscInt i = 0; i < nlocal / 3; ++i) {
+    const PetscInt *columns;
+    PetscInt        n, local = 0;
 
-    PetscCall(MatGetRow(means, i, &n, NULL, NULL));
-    longest = PetscMax(longest, n + 1);
-    PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
+    PetscCall(MatGetRow(nodes, start + i, &n, &columns, NULL));
+    for (PetscInt k = 0; k < n; ++k) local += columns[k] >= start && columns[k] < end;
+    for (PetscInt d = 0; d < 3; ++d) {
+      here[3 * i + d]      = 1 + local;
+      elsewhere[3 * i + d] = n - local;
+    }
+    PetscCall(MatRestoreRow(nodes, start + i, &n, &columns, NULL));
   }
-  PetscCall(MatCreateAIJ(bodies->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, longest, NULL, longest, NULL,
-    stretch));
+  PetscCall(MatCreateAIJ(bodies->comm, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE, 0, here, 0, elsewhere, A));
+  PetscCall(PetscFree2(here, elsewhere));
+  PetscFunctionReturn(0);
+}
+
+/* 1 - M, each entry for the three components, in the rows of one face; others are empty */
+static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *stretch)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(means, &start, &end));
+  PetscCall(CouplingsReserve(bodies, means, stretch));
   for (PetscInt i = start; i < end; ++i) {
     const PetscInt    *columns;
     const PetscScalar *values;

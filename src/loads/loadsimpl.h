@@ -63,6 +63,7 @@ PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec 
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
 /* couplings.c */
+PETSC_INTERN PetscErrorCode CouplingsReserve(const Bodies *, Mat nodes, Mat *);
 PETSC_INTERN PetscErrorCode CouplingsCreate(const Bodies *, Mat *stiffness);
 PETSC_INTERN PetscErrorCode CouplingsAddStiffness(const Springs *, Mat C, Mat stiffness);
 

@@ -6,11 +6,21 @@
 */
 #include "meshimpl.h"
 
+#define SUPPORT_BLOCK 12 /* modes of two bodies */
+
+/* Rows of one displacement, spring, pair or tie */
+typedef struct {
+  PetscInt body[2]; /* the second one is negative where the first is held to the ground */
+} SupportLink;
+
 typedef struct {
   DM       dm;
   PetscInt nbodies, n; /* n: 6 modes a body */
   PetscReal (*center)[3], *size;
-  PetscReal *gram, *row; /* n x n sum of the rows' outer products, on this rank's facets; one row */
+  PetscInt     nlinks;
+  SupportLink *links;
+  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* of each link the sum of its rows' outer products */
+  PetscReal row[SUPPORT_BLOCK];                     /* of the last link */
 } Support;
 
 /* Middle and half the largest side of every body's bounding box */
@@ -53,7 +63,7 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
 static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign)
 {
-  PetscReal arm[3], *row = support->row + 6 * b;
+  PetscReal arm[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
 
   for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
   for (PetscInt d = 0; d < 3; ++d) {
@@ -67,13 +77,21 @@ static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direc
 /* Takes the row into account with a weight, and clears it */
 static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 {
+  PetscReal *gram = support->gram[support->nlinks - 1];
+
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < support->n; ++i) {
-    for (PetscInt j = 0; support->row[i] != 0 && j < support->n; ++j)
-      support->gram[i * support->n + j] += weight * support->row[i] * support->row[j];
+  for (PetscInt i = 0; i < SUPPORT_BLOCK; ++i) {
+    for (PetscInt j = 0; support->row[i] != 0 && j < SUPPORT_BLOCK; ++j)
+      gram[i * SUPPORT_BLOCK + j] += weight * support->row[i] * support->row[j];
   }
-  PetscCall(PetscArrayzero(support->row, support->n));
+  PetscCall(PetscArrayzero(support->row, SUPPORT_BLOCK));
   PetscFunctionReturn(0);
+}
+
+/* The rows that follow are of these bodies; b negative: of the first alone */
+static void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
+{
+  support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
 }
 
 /* Body of a face from its facets, and their number over all ranks; every face weighs the same */
@@ -111,6 +129,7 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscCall(ISGetLocalSize(vertices, &n));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
   PetscCall(ISGetIndices(vertices, &v));
+  SupportBeginLink(support, spot->body, PETSC_DECIDE);
   for (PetscInt k = 0; k < 3 * n; ++k) {
     PetscReal x[1][3];
 
@@ -138,7 +157,7 @@ static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement 
   for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
     if (displacement->released[m]) continue;
     if (m < 3) SupportAddMotion(support, b, axes[m], displacement->center, 1);
-    else support->row[6 * b + m] = 1;
+    else support->row[m] = 1;
     PetscCall(SupportAddRow(support, 1));
   }
   PetscFunctionReturn(0);
@@ -162,6 +181,7 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   for (PetscInt d = 0; d < 3; ++d)
     normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
+  SupportBeginLink(support, b, PETSC_DECIDE);
   PetscCall(SupportAddRigid(support, displacement, b, &released));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
@@ -192,6 +212,7 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
+  SupportBeginLink(support, nonmortar, mortar);
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
@@ -232,6 +253,7 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscCall(SupportGetFace(support, mortar_face, &facets, &mortar, &total));
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, nonmortar_face, &facets, &nonmortar, &total));
+  SupportBeginLink(support, nonmortar, mortar);
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
@@ -261,43 +283,174 @@ static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal r
   for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
 }
 
-/* How much of each mode of each body moves freely: 1 less its part in the span of the rows, which is that of the Gram
-   matrix. Gram-Schmidt with pivoting, on the matrix's own rows: the basis comes to stand in its first ones */
-static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
+/* Adds the block of a link's first or second body */
+static void SupportAddBlock(const Support *support, PetscInt link, PetscInt end, PetscReal block[36])
 {
-  const PetscInt n    = support->n;
-  PetscReal     *gram = support->gram, first = 0;
+  for (PetscInt k = 0; k < 36; ++k)
+    block[k] += support->gram[link][(6 * end + k / 6) * SUPPORT_BLOCK + 6 * end + k % 6];
+}
+
+/* Whether a symmetric matrix without negative eigenvalues is well within full rank: Cholesky's pivots */
+static PetscBool SupportIsFull(const PetscReal block[36])
+{
+  PetscReal A[36], largest = 0;
+  PetscBool done[6] = {PETSC_FALSE};
+
+  for (PetscInt k = 0; k < 36; ++k) A[k] = block[k];
+  for (PetscInt k = 0; k < 6; ++k) largest = PetscMax(largest, A[7 * k]);
+  for (PetscInt rank = 0; rank < 6; ++rank) {
+    PetscInt p = -1;
+
+    for (PetscInt k = 0; k < 6; ++k) {
+      if (!done[k] && (p < 0 || A[7 * k] > A[7 * p])) p = k;
+    }
+    if (!(A[7 * p] > 1e-6 * largest)) return PETSC_FALSE;
+    done[p] = PETSC_TRUE;
+    for (PetscInt i = 0; i < 6; ++i) {
+      const PetscReal factor = A[6 * i + p] / A[7 * p];
+
+      for (PetscInt j = 0; !done[i] && j < 6; ++j) A[6 * i + j] -= factor * A[6 * p + j];
+    }
+  }
+  return PETSC_TRUE;
+}
+
+/* Where the links of each body are: those of body b are links[start[b]] to links[start[b + 1] - 1] */
+static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start, PetscInt **links)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(support->nbodies + 1, start));
+  PetscCall(PetscMalloc1(2 * support->nlinks, links));
+  for (PetscInt l = 0; l < support->nlinks; ++l) {
+    for (PetscInt end = 0; end < 2; ++end) {
+      if (support->links[l].body[end] >= 0) ++(*start)[support->links[l].body[end]];
+    }
+  }
+  for (PetscInt b = 0, sum = 0; b <= support->nbodies; ++b) {
+    sum += (*start)[b];
+    (*start)[b] = sum;
+  }
+  for (PetscInt l = 0; l < support->nlinks; ++l) {
+    for (PetscInt end = 0; end < 2; ++end) {
+      if (support->links[l].body[end] >= 0) (*links)[--(*start)[support->links[l].body[end]]] = l;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Bodies that the ground holds, and those that are held by bodies that are: one after another, which settles most
+   assemblies in time proportional to their links */
+static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
+{
+  PetscInt *start, *links, *queue, n = 0;
+  PetscReal(*ground)[36];
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, gram, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM,
-    PetscObjectComm((PetscObject)support->dm)));
+  PetscCall(SupportSortLinks(support, &start, &links));
+  PetscCall(PetscMalloc1(support->nbodies, &queue));
+  PetscCall(PetscCalloc1(support->nbodies, &ground));
+  for (PetscInt l = 0; l < support->nlinks; ++l) {
+    if (support->links[l].body[1] < 0) SupportAddBlock(support, l, 0, ground[support->links[l].body[0]]);
+  }
+  for (PetscInt b = 0; b < support->nbodies; ++b) {
+    held[b] = SupportIsFull(ground[b]);
+    if (held[b]) queue[n++] = b;
+  }
+  for (PetscInt k = 0; k < n; ++k) {
+    for (PetscInt i = start[queue[k]]; i < start[queue[k] + 1]; ++i) {
+      const SupportLink *link = &support->links[links[i]];
+      const PetscInt     end = link->body[0] == queue[k] ? 1 : 0, other = link->body[end];
+
+      if (other < 0 || held[other]) continue;
+      SupportAddBlock(support, links[i], end, ground[other]);
+      held[other] = SupportIsFull(ground[other]);
+      if (held[other]) queue[n++] = other;
+    }
+  }
+  PetscCall(PetscFree(ground));
+  PetscCall(PetscFree(queue));
+  PetscCall(PetscFree(links));
+  PetscCall(PetscFree(start));
+  PetscFunctionReturn(0);
+}
+
+/* The Gram matrix of the bodies that are not known to be held; place: of each in it, negative of the others */
+static void SupportGather(const Support *support, const PetscInt place[], PetscInt n, PetscReal gram[])
+{
+  for (PetscInt l = 0; l < support->nlinks; ++l) {
+    for (PetscInt i = 0; i < SUPPORT_BLOCK; ++i) {
+      const PetscInt a = support->links[l].body[i / 6];
+
+      for (PetscInt j = 0; a >= 0 && place[a] >= 0 && j < SUPPORT_BLOCK; ++j) {
+        const PetscInt b = support->links[l].body[j / 6];
+
+        if (b >= 0 && place[b] >= 0)
+          gram[(6 * place[a] + i % 6) * n + 6 * place[b] + j % 6] += support->gram[l][i * SUPPORT_BLOCK + j];
+      }
+    }
+  }
+}
+
+/* How much of each mode moves freely: 1 less its part in the span of the matrix's rows. Gram-Schmidt with pivoting:
+   the basis comes to stand in its first rows */
+static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
+{
+  PetscReal first = 0;
+
   for (PetscInt k = 0; k < n; ++k) outside[k] = 1;
   for (PetscInt rank = 0; rank < n; ++rank) {
-    PetscReal *pivot = gram + rank * n, largest = 0;
+    PetscReal *pivot = gram + rank * n, largest = -1;
+    PetscInt   best = rank;
 
     for (PetscInt r = rank; r < n; ++r) {
       PetscReal norm = 0;
 
-      /* Twice, for orthogonality to rounding */
-      for (PetscInt q = 0; q < 2 * rank; ++q) SupportOrthogonalize(n, gram + (q % rank) * n, gram + r * n);
       for (PetscInt i = 0; i < n; ++i) norm += PetscSqr(gram[r * n + i]);
       if (norm > largest) {
-        for (PetscInt i = 0; r != rank && i < n; ++i) {
-          const PetscReal swap = pivot[i];
-
-          pivot[i]        = gram[r * n + i];
-          gram[r * n + i] = swap;
-        }
+        best    = r;
         largest = norm;
       }
     }
+    for (PetscInt i = 0; best != rank && i < n; ++i) {
+      const PetscReal swap = pivot[i];
+
+      pivot[i]           = gram[best * n + i];
+      gram[best * n + i] = swap;
+    }
     if (!rank) first = PetscSqrtReal(largest);
+    /* Once more, for orthogonality to rounding */
+    for (PetscInt q = 0; q < rank; ++q) SupportOrthogonalize(n, gram + q * n, pivot);
+    largest = 0;
+    for (PetscInt i = 0; i < n; ++i) largest += PetscSqr(pivot[i]);
     if (PetscSqrtReal(largest) <= 1e-9 * first) break;
     for (PetscInt i = 0; i < n; ++i) {
       pivot[i] /= PetscSqrtReal(largest);
       outside[i] -= PetscSqr(pivot[i]);
     }
+    for (PetscInt r = rank + 1; r < n; ++r) SupportOrthogonalize(n, pivot, gram + r * n);
   }
+}
+
+/* How much of each mode of each body moves freely. Where bodies are known to be held the others are judged alone */
+static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
+{
+  PetscBool *held;
+  PetscInt  *place, m = 0;
+  PetscReal *gram, *loose;
+
+  PetscFunctionBegin;
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, support->gram, (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK),
+      MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
+  PetscCall(PetscMalloc2(support->nbodies, &held, support->nbodies, &place));
+  PetscCall(SupportFindHeld(support, held));
+  for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = held[b] ? PETSC_DECIDE : m++;
+  PetscCall(PetscCalloc2(36 * m * m, &gram, 6 * m, &loose));
+  SupportGather(support, place, 6 * m, gram);
+  SupportProject(6 * m, gram, loose);
+  for (PetscInt k = 0; k < support->n; ++k) outside[k] = held[k / 6] ? 0 : loose[6 * place[k / 6] + k % 6];
+  PetscCall(PetscFree2(gram, loose));
+  PetscCall(PetscFree2(held, place));
   PetscFunctionReturn(0);
 }
 
@@ -361,12 +514,13 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  Support                support = {dm, scene->nbodies, 6 * scene->nbodies, NULL, NULL, NULL, NULL};
+  const PetscInt         nlinks  = scene->ndisplacements + scene->nsprings + scene->npairs + scene->nties;
+  Support                support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
   PetscReal             *outside;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, support.n * support.n,
-    &support.gram, support.n, &support.row, support.n, &outside));
+  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, nlinks, &support.links, nlinks,
+    &support.gram, support.n, &outside));
   PetscCall(SupportMeasureBodies(&support));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
     PetscCall(SupportAddDisplacement(&support, &scene->displacements[d]));
@@ -392,7 +546,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
-  PetscCall(PetscFree5(support.center, support.size, support.gram, support.row, outside));
+  PetscCall(PetscFree5(support.center, support.size, support.links, support.gram, outside));
   PetscFunctionReturn(0);
 }
 
