@@ -9,16 +9,23 @@
 #include "material.h"
 #include "formulation.h"
 
+/* The shapes: a new one is a file of src/mesh/shapes and a line here. What it is called in C, and by scenes */
+#define BODY_SHAPES(SHAPE) \
+  SHAPE(BOX, Box, "box") \
+  SHAPE(TUBE_ARC, TubeArc, "tube_arc") \
+  SHAPE(HALF_ELLIPSE, HalfEllipse, "half_ellipse") \
+  SHAPE(SPHERE_SHELL, SphereShell, "sphere_shell") \
+  SHAPE(SPHEROID_SHELL, SpheroidShell, "spheroid_shell") \
+  SHAPE(BALL, Ball, "ball")
+
+#define BODY_SHAPE(name, shape, text) SHAPE_##name,
 typedef enum {
-  SHAPE_BOX,
-  SHAPE_TUBE_ARC,
-  SHAPE_HALF_ELLIPSE,
-  SHAPE_SPHERE_SHELL,
-  SHAPE_SPHEROID_SHELL,
-  SHAPE_BALL,
-  SHAPE_GMSH
+  BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH
 } BodyShape;
+#undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
+
+#define BODY_OWN 16
 
 /* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to
    x) */
@@ -88,6 +95,7 @@ typedef struct {
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
   SceneGmsh        gmsh;
+  PetscReal        own[BODY_OWN]; /* parameters of a shape that have no names here */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
 } SceneBody;

@@ -143,6 +143,8 @@ PetscErrorCode SceneDestroy(Scene *scene)
       PetscCall(PetscFree(s->bodies[b].subfaces[f].of));
     }
     PetscCall(PetscFree(s->bodies[b].subfaces));
+    PetscCall(PetscFree(s->bodies[b].gmsh.file));
+    PetscCall(PetscFree(s->bodies[b].gmsh.volume));
   }
   for (const SceneList *list = SceneLists; list->name; ++list) {
     char *entries = list->entries ? *(char **)((char *)s + list->entries) : NULL;

@@ -92,5 +92,8 @@ PetscErrorCode SceneViewKeys(PetscViewer viewer)
     for (const SceneKey *row = list->rows; row->name; ++row) PetscCall(KeyView(row, viewer));
   }
   PetscCall(KeysViewConstants(viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "\n### Keys: shapes of a body\n\n| key | of | type | default |\n| --- | --- | --- | --- |\n"));
+  PetscCall(SceneViewShapeKeys(viewer));
   PetscFunctionReturn(0);
 }

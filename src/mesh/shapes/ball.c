@@ -53,4 +53,11 @@ static PetscErrorCode ShapeMap_Ball(const SceneBody *body, const PetscReal p[3],
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeBall = {OctantFaces, ShapeSize_Ball, ShapeCreate_Ball, ShapeMap_Ball};
+static const ShapeKey keys[] = {
+  OCTANT_PLACE_KEYS,
+  SHAPE_KEY("radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+const Shape ShapeBall = {OctantFaces, ShapeSize_Ball, ShapeCreate_Ball, ShapeMap_Ball, keys};

@@ -64,4 +64,13 @@ static PetscErrorCode ShapeCreate_Box(const SceneBody *body, ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeBox = {ShapeFaces_Box, ShapeSize_Box, ShapeCreate_Box, NULL};
+static const ShapeKey keys[] = {
+  SHAPE_KEY("lower", KEY_REALS, 3, lower, PETSC_TRUE),
+  SHAPE_KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
+  SHAPE_KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+const Shape ShapeBox = {ShapeFaces_Box, ShapeSize_Box, ShapeCreate_Box, NULL, keys};

@@ -288,5 +288,19 @@ static PetscErrorCode ShapeMap_HalfEllipse(const SceneBody *body, const PetscRea
   PetscFunctionReturn(0);
 }
 
+static const ShapeKey keys[] = {
+  SHAPE_KEY("axis", KEY_AXIS, 1, ellipse.axis, PETSC_TRUE),
+  SHAPE_KEY("depth", KEY_DIRECTION, 1, ellipse.depth, PETSC_TRUE),
+  SHAPE_KEY("half", KEY_DIRECTION, 1, ellipse.half, PETSC_FALSE),
+  SHAPE_KEY("center", KEY_REALS, 3, ellipse.center, PETSC_FALSE),
+  SHAPE_KEY("semi_axes", KEY_REALS, 2, ellipse.semi_axes, PETSC_TRUE),
+  SHAPE_KEY("extent", KEY_REALS, 2, ellipse.extent, PETSC_TRUE),
+  SHAPE_KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE),
+  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  SHAPE_KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
 const Shape ShapeHalfEllipse = {ShapeFaces_HalfEllipse, ShapeSize_HalfEllipse, ShapeCreate_HalfEllipse,
-  ShapeMap_HalfEllipse};
+  ShapeMap_HalfEllipse, keys};

@@ -1,20 +1,17 @@
 /* The table of shapes */
 #include "shapesimpl.h"
 
+#define SHAPE_NAME(name, shape, text) text,
+const char *const BodyShapes[] = {BODY_SHAPES(SHAPE_NAME) "gmsh", "BodyShape", "SHAPE_", NULL};
+
+#define SHAPE_ENTRY(name, shape, text) &Shape##shape,
+static const Shape *const shapes[] = {BODY_SHAPES(SHAPE_ENTRY) NULL};
+
 PetscErrorCode ShapeGet(MPI_Comm comm, const SceneBody *body, const Shape **shape)
 {
   PetscFunctionBegin;
-  switch (body->shape) {
-  case SHAPE_BOX: *shape = &ShapeBox; break;
-  case SHAPE_TUBE_ARC: *shape = &ShapeTubeArc; break;
-  case SHAPE_HALF_ELLIPSE: *shape = &ShapeHalfEllipse; break;
-  case SHAPE_SPHERE_SHELL: *shape = &ShapeSphereShell; break;
-  case SHAPE_SPHEROID_SHELL: *shape = &ShapeSpheroidShell; break;
-  case SHAPE_BALL: *shape = &ShapeBall; break;
-  case SHAPE_GMSH: *shape = NULL; break;
-  default:
-    SETERRQ(comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has the unknown shape number %d", body->name,
-      (int)body->shape);
-  }
+  PetscCheck(body->shape >= 0 && body->shape <= SHAPE_GMSH, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has the unknown shape number %d", body->name, (int)body->shape);
+  *shape = shapes[body->shape];
   PetscFunctionReturn(0);
 }

@@ -7,6 +7,7 @@
 #include <mesh.h>
 #include <petsccompat.h>
 #include <rankerror.h>
+#include <stddef.h>
 
 /*
    grid.c: level 0 meshes of single bodies, made on one rank: hexahedra, or tetrahedra where a file has them.
@@ -51,10 +52,32 @@ PETSC_INTERN PetscErrorCode ShapeCheckTotal(MPI_Comm, const SceneBody *, PetscRe
 PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading, PetscInt even,
   PetscInt n);
 
+/* The keys of shapes, as scenes have them: values of a SceneBody. An underscore may be nested, as outer: {radius: 1} */
+typedef enum {
+  KEY_REALS,
+  KEY_INTS,
+  KEY_AXIS,
+  KEY_DIRECTION,
+  KEY_TEXT
+} KeyType;
+
+typedef struct {
+  const char *name;
+  KeyType     type;
+  PetscInt    n; /* values */
+  size_t      offset;
+  PetscBool   required;
+} ShapeKey;
+
+#define SHAPE_KEY(name, type, n, field, required) \
+  { \
+    name, type, n, offsetof(SceneBody, field), required \
+  }
+
 /*
    box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes.
 
-   A new shape is one file with a Shape, one line in shape.c, and its keys in src/scene/sections/shapes.c.
+   A new shape is one file with a Shape, and one line in model.h.
 */
 typedef struct {
   /* Names of the faces, NULL-terminated */
@@ -65,9 +88,12 @@ typedef struct {
   PetscErrorCode (*create)(const SceneBody *, ShapeGrid *);
   /* From parameters to places in space; NULL if they are the same. x and the parameters may be one array */
   PetscErrorCode (*map)(const SceneBody *, const PetscReal parameters[3], PetscReal x[3]);
+  const ShapeKey *keys; /* the last one has no name */
 } Shape;
 
-PETSC_INTERN const Shape ShapeBox, ShapeTubeArc, ShapeHalfEllipse, ShapeSphereShell, ShapeSpheroidShell, ShapeBall;
+#define SHAPE_DECLARE(name, shape, text) PETSC_INTERN const Shape Shape##shape;
+BODY_SHAPES(SHAPE_DECLARE)
+#undef SHAPE_DECLARE
 
 /*
    octant.c: octants of shells and balls as O-grids.
@@ -77,6 +103,16 @@ PETSC_INTERN const Shape ShapeBox, ShapeTubeArc, ShapeHalfEllipse, ShapeSphereSh
    = m - 1 the place across the shell, 0 at its inner and 1 at its outer surface. Shells have no cells in [0, 1]^3, a
    ball has its core there.
 */
+/* What every octant has: where it is, and how it is divided */
+#define OCTANT_PLACE_KEYS \
+  SHAPE_KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), \
+    SHAPE_KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
+#define OCTANT_GRID_KEYS \
+  SHAPE_KEY("patches", KEY_INTS, 3, cells, PETSC_TRUE), SHAPE_KEY("layers", KEY_INTS, 1, layers, PETSC_TRUE), \
+    SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE), \
+    SHAPE_KEY("layer_grading", KEY_REALS, 1, octant.layer_grading, PETSC_FALSE), \
+    SHAPE_KEY("layer_even", KEY_INTS, 1, octant.layer_even, PETSC_FALSE)
+
 PETSC_INTERN const char *const *OctantFaces(const SceneBody *);
 PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells,
       PetscInt64 *nvertices);

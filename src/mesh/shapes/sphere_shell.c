@@ -90,4 +90,17 @@ static PetscErrorCode ShapeMap_SphereShell(const SceneBody *body, const PetscRea
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell};
+static const ShapeKey keys[] = {
+  OCTANT_PLACE_KEYS,
+  SHAPE_KEY("inner_radius", KEY_REALS, 1, octant.inner.radius, PETSC_TRUE),
+  SHAPE_KEY("inner_center", KEY_REALS, 3, octant.inner.center, PETSC_FALSE),
+  SHAPE_KEY("outer_radius", KEY_REALS, 1, octant.outer.radius, PETSC_TRUE),
+  SHAPE_KEY("outer_center", KEY_REALS, 3, octant.outer.center, PETSC_FALSE),
+  SHAPE_KEY("cap_radius", KEY_REALS, 1, octant.cap.radius, PETSC_FALSE),
+  SHAPE_KEY("cap_center", KEY_REALS, 3, octant.cap.center, PETSC_FALSE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell,
+  keys};

@@ -36,5 +36,13 @@ static PetscErrorCode ShapeMap_SpheroidShell(const SceneBody *body, const PetscR
   PetscFunctionReturn(0);
 }
 
+static const ShapeKey keys[] = {
+  OCTANT_PLACE_KEYS,
+  SHAPE_KEY("inner_semi_axes", KEY_REALS, 3, octant.inner_axes, PETSC_TRUE),
+  SHAPE_KEY("outer_semi_axes", KEY_REALS, 3, octant.outer_axes, PETSC_TRUE),
+  OCTANT_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
 const Shape ShapeSpheroidShell = {OctantFaces, ShapeSize_SpheroidShell, ShapeCreate_SpheroidShell,
-  ShapeMap_SpheroidShell};
+  ShapeMap_SpheroidShell, keys};

@@ -85,4 +85,16 @@ static PetscErrorCode ShapeMap_TubeArc(const SceneBody *body, const PetscReal p[
   PetscFunctionReturn(0);
 }
 
-const Shape ShapeTubeArc = {ShapeFaces_TubeArc, ShapeSize_TubeArc, ShapeCreate_TubeArc, ShapeMap_TubeArc};
+static const ShapeKey keys[] = {
+  SHAPE_KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE),
+  SHAPE_KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE),
+  SHAPE_KEY("radii", KEY_REALS, 2, tube.radii, PETSC_TRUE),
+  SHAPE_KEY("angles", KEY_REALS, 2, tube.angles, PETSC_TRUE),
+  SHAPE_KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
+  SHAPE_KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+const Shape ShapeTubeArc = {ShapeFaces_TubeArc, ShapeSize_TubeArc, ShapeCreate_TubeArc, ShapeMap_TubeArc, keys};

@@ -3,40 +3,6 @@
 #include <petscviewer.h>
 #include <string.h>
 
-const char *const BodyShapes[] = {"box", "tube_arc", "half_ellipse", "sphere_shell", "spheroid_shell", "ball", "gmsh",
-  "BodyShape", "SHAPE_", NULL};
-
-/* The corner of an octant; spheres are around it unless they have centers of their own, which come later */
-static PetscErrorCode CornerRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
-{
-  SceneOctant *octant = &((SceneBody *)entry)->octant;
-
-  PetscFunctionBegin;
-  (void)scene;
-  PetscCall(SceneParseReals(keys, key, text, 3, octant->corner));
-  PetscCall(PetscArraycpy(octant->inner.center, octant->corner, 3));
-  PetscCall(PetscArraycpy(octant->outer.center, octant->corner, 3));
-  PetscCall(PetscArraycpy(octant->cap.center, octant->corner, 3));
-  PetscFunctionReturn(0);
-}
-
-static PetscBool CornerIsShown(const void *entry)
-{
-  const PetscReal *x = ((const SceneBody *)entry)->octant.corner;
-
-  return (PetscBool)(x[0] != 0 || x[1] != 0 || x[2] != 0);
-}
-
-static PetscErrorCode CornerView(Scene scene, PetscViewer viewer, const void *entry)
-{
-  PetscFunctionBegin;
-  (void)scene;
-  PetscCall(SceneViewList(viewer, 3, ((const SceneBody *)entry)->octant.corner));
-  PetscFunctionReturn(0);
-}
-
-const SceneOwn SceneOwnCorner = {CornerRead, CornerIsShown, CornerView, 0};
-
 static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], const SceneBody *body)
 {
   static const char *const elastic[] = {"young", "poisson", "element", "order"};
@@ -50,26 +16,6 @@ static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], con
   PetscFunctionReturn(0);
 }
 
-/* The key mesh without a shape says gmsh */
-static PetscErrorCode BodyFinishShape(SceneKeys keys, Scene scene, const char owner[], SceneBody *body)
-{
-  PetscBool   shape, mesh, known = PETSC_FALSE;
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-
-  PetscFunctionBegin;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_shape", owner));
-  shape = (PetscBool)(text != NULL);
-  for (PetscInt i = 0; text && i <= SHAPE_GMSH && !known; ++i) PetscCall(PetscStrcasecmp(text, BodyShapes[i], &known));
-  if (text && !known) keys->decides = PETSC_TRUE;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "-%s_mesh", owner));
-  PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &text, &mesh));
-  if (!shape && mesh) body->shape = SHAPE_GMSH;
-  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, BodyShapes[body->shape], PETSC_FALSE, body));
-  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneBody  *body   = entry;
@@ -78,7 +24,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   const char *text;
 
   PetscFunctionBegin;
-  PetscCall(BodyFinishShape(keys, scene, owner, body));
+  PetscCall(SceneReadShape(keys, body));
   PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
@@ -114,8 +60,7 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const Scene
   PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(PetscViewerASCIIPushTab(viewer));
-  PetscCall(SceneViewRows(scene, viewer, list->rows, NULL, body, list->initial));
-  PetscCall(SceneViewRows(scene, viewer, list->rows, BodyShapes[body->shape], body, list->initial));
+  PetscCall(SceneViewShape(body, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
   PetscCall(SceneViewConstants(&body->material, viewer));
   if (body->material.type != MATERIAL_RIGID)

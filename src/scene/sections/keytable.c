@@ -7,14 +7,6 @@
 #include <stddef.h>
 #include <string.h>
 
-static const char *const axes[]       = {"x", "y", "z", "Axis", "AXIS_", NULL};
-static const char *const directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direction", "DIRECTION_", NULL};
-
-#define OCTANTS "sphere_shell spheroid_shell ball"
-#define PATCHED "half_ellipse " OCTANTS
-#define GRADED  "box tube_arc " PATCHED
-#define CURVED  "tube_arc " PATCHED " gmsh"
-
 #define REALS(name, of, n, struct, member, need, range, unit, otherwise, help) \
   { \
     name, of, SCENE_REALS, n, offsetof(struct, member), SCENE_##need, SCENE_##range, NULL, NULL, unit, otherwise, help \
@@ -77,63 +69,10 @@ static const SceneKey top_rows[] = {
     "the first load step, from 2, in which no displacement may change by more than the largest increment so far"),
   SECTION("solver", "none", "PETSc options, see [solver options](#solver-options)"), {NULL}};
 
-static const SceneKey body_rows[] = {NAMED("shape", NULL, CHOICE, SceneBody, shape, SHOWN, BodyShapes,
-                                       "`box`; `gmsh` where there is `mesh`", "the shape; its own keys follow below"),
-  REALS("lower", "box", 3, SceneBody, lower, REQUIRED, ANY, "L", "", "lower corner"),
-  REALS("upper", "box", 3, SceneBody, upper, REQUIRED, ANY, "L", "", "upper corner"),
-  NAMED("axis", "tube_arc", AXIS, SceneBody, tube.axis, REQUIRED, axes, "", "axis of the tube"),
-  REALS("center", "tube_arc", 3, SceneBody, tube.center, OPTIONAL, ANY, "L", "origin", "a point on the axis"),
-  REALS("radii", "tube_arc", 2, SceneBody, tube.radii, REQUIRED, ANY, "L", "", "inner and outer radius"),
-  REALS("angles", "tube_arc", 2, SceneBody, tube.angles, REQUIRED, ANY, "degrees", "",
-    "from and to, about the axis from the next one: axis z from x to y, axis x from y to z, axis y from z to x"),
-  REALS("extent", "tube_arc", 2, SceneBody, tube.extent, REQUIRED, ANY, "L", "", "from and to along the axis"),
-  NAMED("axis", "half_ellipse", AXIS, SceneBody, ellipse.axis, REQUIRED, axes, "", "axis of the prism"),
-  NAMED("depth", "half_ellipse", AXIS, SceneBody, ellipse.depth, REQUIRED, directions, "",
-    "direction from the flat side to the crown"),
-  NAMED("half", "half_ellipse", AXIS, SceneBody, ellipse.half, OPTIONAL, directions, "both halves",
-    "direction from the plane of symmetry to the half that is meant"),
-  REALS("center", "half_ellipse", 3, SceneBody, ellipse.center, OPTIONAL, ANY, "L", "origin",
-    "a point where the flat side meets the plane of symmetry"),
-  REALS("semi_axes", "half_ellipse", 2, SceneBody, ellipse.semi_axes, REQUIRED, ANY, "L", "",
-    "along `depth`, and across"),
-  REALS("extent", "half_ellipse", 2, SceneBody, ellipse.extent, REQUIRED, ANY, "L", "", "from and to along the axis"),
-  OWN("center", OCTANTS, SceneBody, octant.corner, OPTIONAL, SceneOwnCorner, "L", "origin",
-    "where the three planes meet"),
-  INTS("octant", OCTANTS, 3, SceneBody, octant.signs, OPTIONAL, "`[1, 1, 1]`", "the side of each plane, 1 or -1"),
-  REALS("inner_radius", "sphere_shell", 1, SceneBody, octant.inner.radius, REQUIRED, ANY, "L", "",
-    "radius of the inner surface, also as `inner: {radius, center}`"),
-  REALS("inner_center", "sphere_shell", 3, SceneBody, octant.inner.center, OPTIONAL, ANY, "L", "`center`",
-    "its center"),
-  REALS("outer_radius", "sphere_shell", 1, SceneBody, octant.outer.radius, REQUIRED, ANY, "L", "",
-    "radius of the outer surface, also as `outer: {radius, center}`"),
-  REALS("outer_center", "sphere_shell", 3, SceneBody, octant.outer.center, OPTIONAL, ANY, "L", "`center`",
-    "its center"),
-  REALS("cap_radius", "sphere_shell", 1, SceneBody, octant.cap.radius, OPTIONAL, ANY, "L", "none",
-    "radius of a third sphere, which cuts the outer surface, also as `cap: {radius, center}`"),
-  REALS("cap_center", "sphere_shell", 3, SceneBody, octant.cap.center, OPTIONAL, ANY, "L", "`center`", "its center"),
-  REALS("inner_semi_axes", "spheroid_shell", 3, SceneBody, octant.inner_axes, REQUIRED, ANY, "L", "",
-    "semi-axes of the inner surface, also as `inner: {semi_axes}`"),
-  REALS("outer_semi_axes", "spheroid_shell", 3, SceneBody, octant.outer_axes, REQUIRED, ANY, "L", "",
-    "semi-axes of the outer surface, also as `outer: {semi_axes}`"),
-  REALS("radius", "ball", 1, SceneBody, octant.outer.radius, REQUIRED, ANY, "L", "", "radius"),
-  INTS("cells", "box tube_arc", 3, SceneBody, cells, REQUIRED, "",
-    "cells along x, y, z; of an arc radially, around, along"),
-  INTS("patches", PATCHED, 3, SceneBody, cells, REQUIRED, "",
-    "cells along x, y, z, two of them on each of the three patches; of a half ellipse those of the core along `depth`, "
-    "of the core across one half, and of the ring around the core"),
-  INTS("layers", OCTANTS, 1, SceneBody, layers, REQUIRED, "", "cells across the shell or the ball"),
-  REALS("grading", GRADED, 3, SceneBody, grading, OPTIONAL, ANY, "", "`[1, 1, 1]`",
-    "size of the last cell over the first, along each direction of `cells` or `patches`"),
-  INTS("even", GRADED, 3, SceneBody, even, OPTIONAL, "`[1, 1, 1]`", "equal cells at the fine end of each grading"),
-  INTS("layers", "half_ellipse", 1, SceneBody, layers, REQUIRED, "", "cells along the axis"),
-  REALS("layer_grading", OCTANTS, 1, SceneBody, octant.layer_grading, OPTIONAL, ANY, "", "1",
-    "thickness of the outermost layer over the innermost"),
-  INTS("layer_even", OCTANTS, 1, SceneBody, octant.layer_even, OPTIONAL, "1",
-    "equal layers at the fine end of that grading"),
-  TEXT("mesh", "gmsh", SceneBody, gmsh.file, REQUIRED, "", "a Gmsh file, relative to the scene's folder"),
-  TEXT("volume", "gmsh", SceneBody, gmsh.volume, REQUIRED, "", "physical name of the volume"),
-  ANSWER("curved", CURVED, SceneBody, curved, "`true`",
-    "whether refinement follows curved surfaces; `false` keeps the facets of level 0"),
+static const SceneKey body_rows[] = {
+  SECTION("shape", "`box`; `gmsh` where there is `mesh`", "the shape; its own keys follow below"),
+  SECTION("curved", "`true`",
+    "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
     "strain), `mooney_rivlin`, `orthotropic` (small strain), `rigid`; or a material by name. Its constants follow "
@@ -284,10 +223,6 @@ static const SceneKey ramp_rows[] = {
   SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done"),
   SECTION("times", "", "ascending times of a table: load step k ends at time k"),
   SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
-static const SceneBody         body_initial         = {.curved = PETSC_TRUE,
-                  .even                                        = {1, 1, 1},
-                  .ellipse                                     = {.half = PETSC_DECIDE},
-                  .octant                                      = {.signs = {1, 1, 1}, .layer_even = 1}};
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
@@ -307,7 +242,7 @@ static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY
 /* As they are shown. Lists that others hold the entries of come after them */
 const SceneList SceneLists[] = {
   {.name = "", .rows = top_rows},
-  {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .initial = &body_initial, .required = PETSC_TRUE,
+  {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE,
     .finish = SceneFinishBody},
   {"faces", face_rows, sizeof(SceneSubface), .initial = &face_initial},
   {"displacements", displacement_rows, sizeof(SceneDisplacement), OF_SCENE(ndisplacements, displacements),

@@ -28,8 +28,12 @@ PETSC_INTERN PetscErrorCode SceneFinishMaterial(SceneKeys, Scene, const char own
 PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed,
   Material *);
 
+/* shapes.c: shape, level 0 and mesh file of a body */
+PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
+PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer);
+
 /* bodies.c */
-PETSC_INTERN const SceneOwn SceneOwnCorner;
 PETSC_INTERN PetscErrorCode SceneFinishBody(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneScaleRigid(Scene);
 PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer, const SceneList *);

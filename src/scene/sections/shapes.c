@@ -1,0 +1,171 @@
+/* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
+   {radius: 1} */
+#include "sectionsimpl.h"
+#include "src/mesh/shapes/shapesimpl.h"
+#include <petscviewer.h>
+#include <string.h>
+
+static const char *const Axes[]       = {"x", "y", "z", "Axis", "AXIS_", NULL};
+static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direction", "DIRECTION_", NULL};
+
+static const ShapeKey gmsh_keys[] = {
+  SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
+  SHAPE_KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+/* Of a body's shape */
+static PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
+{
+  const Shape *shape;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeGet(PETSC_COMM_SELF, body, &shape));
+  *keys = shape ? shape->keys : gmsh_keys;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
+{
+  char        name[SCENE_KEY_LENGTH];
+  const char *text;
+  void       *value = (char *)body + key->offset;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(name, sizeof(name), "bodies_%s_%s", body->name, key->name));
+  PetscCall(SceneKeysGet(keys, key->required, &text, "%s", name));
+  if (!text) PetscFunctionReturn(0);
+  switch (key->type) {
+  case KEY_REALS: PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value)); break;
+  case KEY_INTS: PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value)); break;
+  case KEY_AXIS: PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value)); break;
+  case KEY_DIRECTION: PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value)); break;
+  case KEY_TEXT: PetscCall(PetscStrallocpy(text, (char **)value)); break;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The key mesh without a shape says gmsh */
+static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
+{
+  char        key[SCENE_KEY_LENGTH];
+  const char *text, *mesh = NULL;
+  PetscInt    shape = PETSC_DECIDE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_shape", body->name));
+  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+  if (text) PetscCall(SceneParseEnum(keys, key, text, BodyShapes, &shape));
+  else {
+    PetscBool set;
+
+    PetscCall(PetscSNPrintf(key, sizeof(key), "-bodies_%s_mesh", body->name));
+    PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &mesh, &set));
+    if (set) shape = SHAPE_GMSH;
+  }
+  if (shape < 0) { /* or none that there is: which keys are known hangs on it */
+    keys->decides = (PetscBool)(text != NULL);
+    shape         = SHAPE_BOX;
+  }
+  body->shape = (BodyShape)shape;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
+{
+  char            key[SCENE_KEY_LENGTH];
+  const char     *text;
+  SceneOctant    *octant     = &body->octant;
+  SceneSphere    *spheres[]  = {&octant->inner, &octant->outer, &octant->cap};
+  const ShapeKey *shape_keys = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SceneReadShapeName(keys, body));
+  body->curved       = PETSC_TRUE;
+  body->ellipse.half = PETSC_DECIDE;
+  octant->layer_even = 1;
+  for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = body->even[d] = 1;
+  PetscCall(SceneGetShapeKeys(body, &shape_keys));
+  for (const ShapeKey *k = shape_keys; k->name; ++k) {
+    PetscCall(SceneReadShapeKey(keys, k, body));
+    /* Spheres are around the center of the body unless they have their own, which comes later in the table */
+    if (k->offset == offsetof(SceneBody, octant.corner)) {
+      for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
+    }
+  }
+  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
+  if (body->shape != SHAPE_BOX) {
+    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+    if (text) PetscCall(SceneParseAnswer(keys, key, text, &body->curved));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Optional keys that were not given are 0 all over, or the default below */
+static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *body)
+{
+  const void *value = (const char *)body + key->offset;
+
+  if (key->required) return PETSC_FALSE;
+  if (key->type == KEY_DIRECTION) return *(const PetscInt *)value < 0 ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt i = 0; i < key->n; ++i) {
+    if (key->type == KEY_REALS && ((const PetscReal *)value)[i] != 0) return PETSC_FALSE;
+    if (key->type == KEY_INTS && ((const PetscInt *)value)[i] != 1) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
+{
+  const ShapeKey *shape_keys = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetShapeKeys(body, &shape_keys));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "shape: %s\n", BodyShapes[body->shape]));
+  for (const ShapeKey *k = shape_keys; k->name; ++k) {
+    const void     *value = (const char *)body + k->offset;
+    const PetscInt *n     = (const PetscInt *)value;
+
+    if (SceneShapeKeyIsDefault(k, body)) continue;
+    if (k->type == KEY_REALS && k->n > 1) PetscCall(SceneViewReals(viewer, k->name, k->n, (const PetscReal *)value));
+    else {
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", k->name));
+      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
+      if (k->type == KEY_REALS) PetscCall(SceneViewReal(viewer, *(const PetscReal *)value));
+      else if (k->type == KEY_AXIS) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", Axes[*n]));
+      else if (k->type == KEY_DIRECTION) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", Directions[*n]));
+      else if (k->type == KEY_TEXT) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", *(char *const *)value));
+      else if (k->n == 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT, *n));
+      else
+        PetscCall(PetscViewerASCIIPrintf(viewer, "[%" PetscInt_FMT ", %" PetscInt_FMT ", %" PetscInt_FMT "]", n[0],
+          n[1], n[2]));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+    }
+  }
+  if (!body->curved && body->shape != SHAPE_BOX) PetscCall(PetscViewerASCIIPrintf(viewer, "curved: false\n"));
+  PetscFunctionReturn(0);
+}
+
+/* As rows of a table of Markdown */
+PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
+{
+  static const char *const types[] = {[KEY_REALS] = "numbers",
+    [KEY_INTS]                                    = "whole numbers",
+    [KEY_AXIS]                                    = "an axis",
+    [KEY_DIRECTION]                               = "a direction",
+    [KEY_TEXT]                                    = "a text"};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; BodyShapes[i + 2]; ++i) {
+    const SceneBody body = {.shape = (BodyShape)i};
+    const ShapeKey *keys = NULL;
+
+    PetscCall(SceneGetShapeKeys(&body, &keys));
+    for (const ShapeKey *k = keys; k->name; ++k)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %" PetscInt_FMT " %s | %s |\n", k->name, BodyShapes[i],
+        k->n, types[k->type], k->required ? "required" : ""));
+  }
+  PetscFunctionReturn(0);
+}
