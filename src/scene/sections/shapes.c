@@ -64,8 +64,8 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
     if (set) shape = SHAPE_GMSH;
   }
   if (shape < 0) { /* or none that there is: which keys are known hangs on it */
-    keys->decides = (PetscBool)(text != NULL);
-    shape         = SHAPE_BOX;
+    if (text) keys->decides = PETSC_TRUE;
+    shape = SHAPE_BOX;
   }
   body->shape = (BodyShape)shape;
   PetscFunctionReturn(0);
