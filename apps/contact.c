@@ -23,6 +23,7 @@ static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml
   -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
   -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
   -quiet               no line a Newton step and no table\n\
+  -scene_keys          alone: every key of a scene file, its type, unit, meaning and default\n\
   -version, -help      alone: the release, or this text and every option of PETSc; --help: this text\n\
   -traceback           PETSc's own error traceback instead of one sentence\n\
 Exit code:\n\
@@ -160,11 +161,11 @@ static void AppLeave(const AppError *error)
   _Exit(error->end);
 }
 
-/* contact --help, contact -version: print a text and do not run */
+/* contact --help, contact -version, contact -scene_keys: print a text and do not run */
 static PetscBool AppAsksForText(int argc, char **argv)
 {
-  return (PetscBool)(argc == 2 &&
-                     (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") || !strcmp(argv[1], "-version")));
+  return (PetscBool)(argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") ||
+                                    !strcmp(argv[1], "-version") || !strcmp(argv[1], "-scene_keys")));
 }
 
 static PetscErrorCode AppGetVersions(char text[], size_t length)
@@ -184,6 +185,10 @@ static PetscErrorCode AppSayText(const char word[])
   char versions[512];
 
   PetscFunctionBeginUser;
+  if (!strcmp(word, "-scene_keys")) {
+    PetscCall(SceneViewKeys(PETSC_VIEWER_STDOUT_WORLD));
+    PetscFunctionReturn(0);
+  }
   PetscCall(AppGetVersions(versions, sizeof(versions)));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s", !strcmp(word, "--help") ? help : versions));
   PetscFunctionReturn(0);

@@ -8,7 +8,7 @@
   #error "contact needs a PETSc with real scalars: displacements, gaps and pressures are real numbers"
 #endif
 
-/* The elements: a new one is a file of src/elasticity/elements and a line here. What it is called in C, and by scenes */
+/* The elements: a new one is a file of src/elasticity/elements and a line here. Its name in C, and in scenes */
 #define ELEMENT_TYPES(ELEMENT) \
   ELEMENT(FULL, Full, "full") /* full integration; locks as Poisson's ratio nears 1/2, and in bending */ \
   ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation: the volume change is constant in an element (B-bar, F-bar) */ \

@@ -81,7 +81,7 @@ typedef struct {
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
   PetscBool               finite; /* strains are */
   const MaterialConstant *constants;
-  /* Its bulk modulus, 2 mu/3 + lambda, and what else the functions above read; an error where there is no such material */
+  /* Its bulk modulus, 2 mu/3 + lambda, and what else the functions above read; an error if no such material exists */
   PetscErrorCode (*moduli)(const Material *, MaterialModuli *);
   /* Young's modulus, about, from other constants; NULL: it is one of them */
   void (*scale)(Material *);

@@ -146,6 +146,7 @@ typedef struct {
 /* Dead load on a face: a uniform traction, or one with the given resultant, linear if there is a moment */
 typedef struct {
   char     *name;
+  PetscInt  body;      /* rigid body that a resultant acts on; PETSC_DECIDE: it acts on a face */
   char     *face;      /* with a resultant also a whole rigid body, "<body>" SCENE_WHOLE_BODY */
   PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
   PetscReal value[3];
@@ -231,7 +232,7 @@ typedef struct {
   PetscBool set; /* the scene set the option; the command line or an options file had not */
 } SceneOption;
 
-typedef struct {
+typedef struct _n_Scene {
   char              *name;
   char              *units; /* a note for tables; NULL: none */
   PetscInt           nbodies;

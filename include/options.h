@@ -5,7 +5,9 @@
 
 #include <petscsys.h>
 
-/* Not collective. The known name with the fewest different letters; "": none is near */
+/* Not collective. The number of letters to change between two names */
+PETSC_EXTERN PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance);
+/* Not collective. The known name with the fewest different letters; "": there is none */
 PETSC_EXTERN PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[],
   const char **nearest);
 /* Collective. An error if an option of ours that nothing has read yet has a value of the wrong type */

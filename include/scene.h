@@ -8,6 +8,8 @@
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
+/* Prints the keys of the format as tables */
+PETSC_EXTERN PetscErrorCode SceneViewKeys(PetscViewer);
 /* The text of a scene as it is viewed. Compares two such texts; load program, mesh and solver may differ */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);
 PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char difference[], size_t length);

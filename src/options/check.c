@@ -37,7 +37,7 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
 static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const char value[])
 {
   static const char *const needs[OPTION_KINDS] = {
-    [OPTION_SWITCH] = "true or false",
+    [OPTION_SWITCH] = "none, or true or false; a scene file comes first: contact SCENE.yaml [options]",
     [OPTION_COUNT]  = "a whole number",
     [OPTION_NUMBER] = "a number",
     [OPTION_WORD]   = "one",

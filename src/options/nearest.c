@@ -1,8 +1,23 @@
 /* What was meant by a misspelt name. */
 #include "optionsimpl.h"
 
-/* Levenshtein distance */
-static PetscErrorCode EditDistance(const char a[], const char b[], size_t *distance)
+/*@C
+   OptionsDistance - How many letters are to be inserted, left out or exchanged to make one name of another
+
+   Not Collective
+
+   Input Parameters:
++  a - a name
+-  b - another
+
+   Output Parameter:
+.  distance - that of Levenshtein
+
+   Level: developer
+
+.seealso: `OptionsNearest()`
+@*/
+PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
 {
   size_t na, nb, *row;
 
@@ -49,7 +64,7 @@ PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char 
   PetscFunctionBegin;
   *nearest = "";
   for (PetscInt i = 0; i < n; ++i) {
-    PetscCall(EditDistance(name, known[i], &distance));
+    PetscCall(OptionsDistance(name, known[i], &distance));
     if (distance < best) {
       best     = distance;
       *nearest = known[i];

@@ -17,34 +17,6 @@ static PetscErrorCode SceneDefaultName(const char file[], char **name)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadProblem(SceneKeys keys, Scene scene)
-{
-  const char *text;
-  PetscInt    model = MODEL_ENERGY;
-  const struct {
-    const char *name;
-    PetscInt   *value;
-  } counts[] = {
-    {"refine", &scene->refine},
-    {"contact_updates", &scene->contact_updates},
-    {"displacement_bounds", &scene->displacement_bounds},
-  };
-
-  PetscFunctionBegin;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "problem"));
-  if (text) PetscCall(PetscStrallocpy(text, &scene->name));
-  else PetscCall(SceneDefaultName(keys->file, &scene->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "model"));
-  if (text) PetscCall(SceneParseEnum(keys, "model", text, StepModels, &model));
-  scene->model           = (StepModel)model;
-  scene->contact_updates = SCENE_CONTACT_UPDATES;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(counts); ++i) {
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", counts[i].name));
-    if (text) PetscCall(SceneParseInt(keys, counts[i].name, text, counts[i].value));
-  }
-  PetscFunctionReturn(0);
-}
-
 /* The command line wins over the file */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
@@ -70,6 +42,21 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
     "%s: %" PetscInt_FMT " load steps, which must be at most %d", file, nsteps, SCENE_MAX_STEPS);
   if (set && nsteps != scene->nsteps) PetscCall(SceneResample(scene, nsteps));
   if (bounded) scene->displacement_bounds = bounds;
+  PetscFunctionReturn(0);
+}
+
+/* Lists in the order of the table; what follows from them where it is needed next */
+static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
+{
+  PetscFunctionBegin;
+  for (const SceneList *list = SceneLists; list->name; ++list) {
+    if (!strcmp(list->name, "faces")) PetscCall(SceneReadFaces(keys, scene, list));
+    else if (!strcmp(list->name, "symmetry")) PetscCall(SceneReadSymmetry(keys, scene));
+    else if (list->entries)
+      PetscCall(
+        SceneReadList(keys, scene, list, (PetscInt *)((char *)scene + list->count), (char *)scene + list->entries));
+    if (!strcmp(list->name, "bodies")) PetscCall(SceneScaleRigid(scene));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -115,22 +102,13 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscFunctionBegin;
   PetscCall(SceneKeysCreate(comm, file, &keys));
   PetscCall(PetscNew(&s));
+  keys->top          = SceneLists[0].rows;
+  s->contact_updates = SCENE_CONTACT_UPDATES;
   PetscCall(SceneReadRamps(keys, s));
-  PetscCall(SceneReadProblem(keys, s));
-  PetscCall(SceneReadMaterials(keys, s));
-  PetscCall(SceneReadBodies(keys, s));
-  PetscCall(SceneReadFaces(keys, s));
-  PetscCall(SceneReadDisplacements(keys, s));
-  PetscCall(SceneReadSymmetry(keys, s));
-  PetscCall(SceneReadPressures(keys, s));
-  PetscCall(SceneReadTractions(keys, s));
-  PetscCall(SceneReadSprings(keys, s));
-  PetscCall(SceneReadBodyForces(keys, s));
-  PetscCall(SceneReadTemperatures(keys, s));
-  PetscCall(SceneReadContact(keys, s));
-  PetscCall(SceneReadTies(keys, s));
-  PetscCall(SceneReadRefinements(keys, s));
-  PetscCall(SceneReadProbes(keys, s));
+  PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
+  if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
+  PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
+  PetscCall(SceneReadLists(keys, s));
   PetscCall(SceneReadSolver(keys, s));
   PetscCall(SceneKeysCheck(keys));
   PetscCall(SceneKeysDestroy(&keys));
@@ -160,34 +138,24 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < s->nbodies; ++b) {
-    PetscCall(PetscFree(s->bodies[b].name));
-    PetscCall(SceneDestroyShape(&s->bodies[b]));
+    for (PetscInt f = 0; f < s->bodies[b].nsubfaces; ++f) {
+      PetscCall(PetscFree(s->bodies[b].subfaces[f].name));
+      PetscCall(PetscFree(s->bodies[b].subfaces[f].of));
+    }
+    PetscCall(PetscFree(s->bodies[b].subfaces));
+    PetscCall(PetscFree(s->bodies[b].gmsh.file));
+    PetscCall(PetscFree(s->bodies[b].gmsh.volume));
   }
-  for (PetscInt d = 0; d < s->ndisplacements; ++d) {
-    PetscCall(PetscFree(s->displacements[d].name));
-    PetscCall(PetscFree(s->displacements[d].face));
+  for (const SceneList *list = SceneLists; list->name; ++list) {
+    char *entries = list->entries ? *(char **)((char *)s + list->entries) : NULL;
+
+    if (!entries || list->shared) continue;
+    for (PetscInt i = 0; i < *(PetscInt *)((char *)s + list->count); ++i) {
+      PetscCall(PetscFree(*(char **)(entries + (size_t)i * list->size)));
+      PetscCall(SceneFreeRows(list->rows, entries + (size_t)i * list->size));
+    }
+    PetscCall(PetscFree(entries));
   }
-  for (PetscInt p = 0; p < s->npressures; ++p) {
-    PetscCall(PetscFree(s->pressures[p].name));
-    PetscCall(PetscFree(s->pressures[p].face));
-  }
-  for (PetscInt f = 0; f < s->nforces; ++f) PetscCall(PetscFree(s->forces[f].name));
-  for (PetscInt p = 0; p < s->npairs; ++p) {
-    PetscCall(PetscFree(s->pairs[p].name));
-    PetscCall(PetscFree(s->pairs[p].mortar));
-    PetscCall(PetscFree(s->pairs[p].nonmortar));
-  }
-  PetscCall(PetscFree(s->bodies));
-  PetscCall(PetscFree(s->displacements));
-  PetscCall(PetscFree(s->pressures));
-  PetscCall(PetscFree(s->forces));
-  PetscCall(PetscFree(s->pairs));
-  PetscCall(SceneDestroyTractions(s));
-  PetscCall(SceneDestroySprings(s));
-  PetscCall(SceneDestroyTemperatures(s));
-  PetscCall(SceneDestroyTies(s));
-  PetscCall(SceneDestroyRefinements(s));
-  PetscCall(SceneDestroyProbes(s));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {
     PetscCall(PetscFree(s->ramps[r].name));

@@ -108,10 +108,6 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
         "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
         "be dead, or the pair without friction",
         file, here->name, scene->pressures[q].name);
-    SceneRequire(here->distance >= 0,
-      "%s: contact pair \"%s\" has distance = %g, which must be above 0, or 0 for one chosen from the size of the "
-      "faces",
-      file, here->name, (double)here->distance);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name,
       here->mortar);

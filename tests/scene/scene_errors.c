@@ -2,6 +2,7 @@ static char help[] = "Every error of a scene: one sentence, the same on every ra
 
 #include <scene.h>
 #include <mesh.h>
+#include <scene.h>
 #include <petscviewer.h>
 #include "../lib/attempt.h"
 
@@ -62,6 +63,18 @@ static const Mistake mistakes[] = {
   {"flat box", "upper: [4, 4, 1]", "upper: [4, 4, 0]"},
   {"unknown shape", "slab: {", "slab: {shape: sphere, "},
   {"expansion of a law that has none", "young: 1,", "young: 1, material: neohookean, expansion: 1e-5,"},
+  {"shape of another program", "slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2]",
+    "slab: {shape: cylinder, radius: 1, height: 2"},
+  {"key of another program: E", "young: 1,", "E: 1,"},
+  {"key of another program: nu", "poisson: 0.3", "nu: 0.3"},
+  {"key of another program: slave", "nonmortar: block.zmin", "slave: block.zmin"},
+  {"key of another program: master", "mortar: slab.zmax", "master: slab.zmax"},
+  {"key of another program: parts", "bodies:", "parts:"},
+  {"pair without a name", "- pair: {mortar: slab.zmax, nonmortar: block.zmin}",
+    "- {mortar: slab.zmax, nonmortar: block.zmin}"},
+  {"pair without a name, in lines", "- pair: {mortar: slab.zmax, nonmortar: block.zmin}",
+    "- mortar: slab.zmax\n    nonmortar: block.zmin"},
+  {"face of another body", "slab.zmin", "slab.outer"},
   {"unknown material", "slab: {", "slab: {material: rubber, "},
   {"library that is not there", "refine: 0", "library: nowhere.yaml"},
   {"material without constants", "refine: 0", "materials: [soft: {young: 1}]"},

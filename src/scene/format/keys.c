@@ -61,7 +61,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   k->file = file;
   PetscCall(PetscOptionsCreate(&k->options));
   PetscCall(RankErrorBegin(&error));
-  ierr = SceneCheckYAML((size_t)length, text);
+  ierr = SceneCheckYAML((size_t)length, text, &k->lines);
   if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
@@ -128,16 +128,157 @@ static PetscBool SceneKeyIsNumber(const char key[])
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
 }
 
+/* The line of a key; 0: it is not known */
+static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
+{
+  PetscBool same;
+
+  for (PetscInt i = 0; i < keys->lines.n; ++i) {
+    if (!PetscStrcasecmp(keys->lines.keys[i], key, &same) && same) return keys->lines.lines[i];
+  }
+  return 0;
+}
+
+/* What other programs, or other people, call a key */
+static const char *const synonyms[][2] = {
+  {"e", "young"},
+  {"modulus", "young"},
+  {"youngs_modulus", "young"},
+  {"young_modulus", "young"},
+  {"nu", "poisson"},
+  {"poissons_ratio", "poisson"},
+  {"poisson_ratio", "poisson"},
+  {"alpha", "expansion"},
+  {"slave", "nonmortar"},
+  {"secondary", "nonmortar"},
+  {"contact", "nonmortar"},
+  {"master", "mortar"},
+  {"primary", "mortar"},
+  {"target", "mortar"},
+  {"mu", "friction"},
+  {"coefficient", "friction"},
+  {"friction_coefficient", "friction"},
+  {"tied", "ties"},
+  {"tie", "ties"},
+  {"law", "material"},
+  {"size", "upper"},
+  {"min", "lower"},
+  {"max", "upper"},
+  {"elements", "cells"},
+  {"divisions", "cells"},
+  {"file", "mesh"},
+  {"surface", "face"},
+  {"set", "face"},
+  {"amplitude", "ramp"},
+  {"parts", "bodies"},
+  {"interactions", "contact"},
+  {"contacts", "contact"},
+  {"boundary_conditions", "displacements"},
+  {"boundary", "displacements"},
+  {"dirichlet", "displacements"},
+  {"gravity", "body_forces"},
+  {"neumann", "tractions"},
+  {"increments", "steps"},
+};
+
+/* The names of the keys that may stand where an unknown one does: those that share what it is below, so many letters;
+   at the top level those of the table */
+static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], size_t *below, PetscInt *n,
+  const char ***names)
+{
+  PetscFunctionBegin;
+  *below = 0;
+  for (PetscInt i = 0; i < keys->nasked; ++i) {
+    for (size_t c = 0; unknown[c] && keys->asked[i][c] == unknown[c]; ++c) {
+      if (unknown[c] == '_') *below = PetscMax(*below, c + 1);
+    }
+  }
+  *n = 0;
+  PetscCall(PetscMalloc1(keys->nasked + 64, names));
+  for (PetscInt i = 0; *below && i < keys->nasked; ++i) {
+    PetscBool here, twice = PETSC_FALSE;
+
+    PetscCall(PetscStrncmp(keys->asked[i], unknown, *below, &here));
+    for (PetscInt k = 0; here && k < *n && !twice; ++k)
+      PetscCall(PetscStrcmp((*names)[k], keys->asked[i] + *below, &twice));
+    if (here && !twice) (*names)[(*n)++] = keys->asked[i] + *below;
+  }
+  for (PetscInt i = 0; !keys->top && !*below && i < keys->nasked; ++i) {
+    if (!strchr(keys->asked[i], '_')) (*names)[(*n)++] = keys->asked[i];
+  }
+  for (const SceneKey *row = keys->top; row && !*below && row->name && *n < 64; ++row) (*names)[(*n)++] = row->name;
+  PetscFunctionReturn(0);
+}
+
+/* What an unknown key may stand for: a synonym, the nearest name, or a list of the valid ones */
+static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], char meant[], size_t length)
+{
+  const char **names, *nearest, *rest;
+  size_t       below, distance, letters;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(SceneKeysGetValid(keys, unknown, &below, &n, &names));
+  rest = unknown + below;
+  for (size_t s = 0; s < PETSC_STATIC_ARRAY_LENGTH(synonyms); ++s) {
+    PetscBool same, valid = PETSC_FALSE;
+
+    PetscCall(PetscStrcasecmp(rest, synonyms[s][0], &same));
+    for (PetscInt k = 0; same && k < n && !valid; ++k) PetscCall(PetscStrcmp(names[k], synonyms[s][1], &valid));
+    if (!same || !valid) continue;
+    PetscCall(PetscSNPrintf(meant, length, "it is called \"%s\" here", synonyms[s][1]));
+    PetscCall(PetscFree(names));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(OptionsNearest(n, names, rest, &nearest));
+  PetscCall(OptionsDistance(rest, nearest, &distance));
+  PetscCall(PetscStrlen(rest, &letters));
+  if (2 * distance < PetscMax(letters, 3))
+    PetscCall(PetscSNPrintf(meant, length, "the nearest valid key is \"%.*s%s\"", (int)below, unknown, nearest));
+  else {
+    PetscCall(PetscStrncpy(meant, "there are", length));
+    for (PetscInt k = 0; k < n; ++k) {
+      PetscCall(PetscStrlcat(meant, k ? ", " : " ", length));
+      PetscCall(PetscStrlcat(meant, names[k], length));
+    }
+  }
+  PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+/* Raises an unknown key with its line */
+static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[])
+{
+  const size_t line      = SceneKeysGetLine(keys, unknown);
+  char         where[32] = "", meant[1024];
+  PetscBool    cyclic;
+
+  PetscFunctionBegin;
+  if (line) PetscCall(PetscSNPrintf(where, sizeof(where), "line %zu: ", line));
+  PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
+  PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
+    "%s: %scyclic symmetry is not supported: model the whole ring, or a sector between symmetry planes (key symmetry)",
+    keys->file, where);
+  PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
+    "%s: %sin the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, where,
+    unknown);
+  PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
+    "%s: %sthe key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
+    keys->file, where, unknown);
+  PetscCall(SceneKeysExplain(keys, unknown, meant, sizeof(meant)));
+  SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %sunknown key \"%s\"; %s", keys->file, where, unknown, meant);
+}
+
 /* Raises the first error of the file: an unknown key, else the first bad value */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
   PetscInt    n;
   char      **names, **values;
-  const char *nearest, *unknown = NULL;
+  const char *unknown  = NULL;
   size_t      shortest = 0, length;
-  PetscBool   cyclic;
 
   PetscFunctionBegin;
+  PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
   /* The shortest unknown key is the outermost: below a misspelt list every key is unknown */
   for (PetscInt i = 0; i < n; ++i) {
@@ -147,22 +288,23 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
       shortest = length;
     }
   }
-  if (unknown) {
-    PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
-    PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry is not supported: model the whole ring, or a sector between symmetry planes (key symmetry)",
-      keys->file);
-    PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: in the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, unknown);
-    PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: the key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
-      keys->file, unknown);
-    PetscCall(OptionsNearest(keys->nasked, (const char *const *)keys->asked, unknown, &nearest));
-    SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: unknown key \"%s\"; the nearest valid key is \"%s\"", keys->file,
-      unknown, nearest);
-  }
+  if (unknown) PetscCall(SceneKeysRaiseUnknown(keys, unknown));
   PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
   PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
+  PetscFunctionReturn(0);
+}
+
+/* A file's name is relative to the folder of the scene */
+PetscErrorCode SceneResolveFile(const char scene[], char **file)
+{
+  const char *slash = strrchr(scene, '/');
+  char        path[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBegin;
+  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
+  PetscCall(PetscFree(*file));
+  PetscCall(PetscStrallocpy(path, file));
   PetscFunctionReturn(0);
 }
 
@@ -171,6 +313,9 @@ PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < (*keys)->nasked; ++i) PetscCall(PetscFree((*keys)->asked[i]));
   PetscCall(PetscFree((*keys)->asked));
+  for (PetscInt i = 0; i < (*keys)->lines.n; ++i) PetscCall(PetscFree((*keys)->lines.keys[i]));
+  PetscCall(PetscFree((*keys)->lines.keys));
+  PetscCall(PetscFree((*keys)->lines.lines));
   for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
   PetscCall(PetscFree((*keys)->materials));
   PetscCall(PetscOptionsDestroy(&(*keys)->options));

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <ctype.h>
+#include <string.h>
 
 static PetscBool SceneParseAtEnd(const char *s)
 {
@@ -116,6 +117,37 @@ PetscErrorCode SceneParseInts(SceneKeys keys, const char key[], const char text[
   PetscCall(SceneParseList(keys, key, text, &n, &words));
   for (PetscInt i = 0; i < n; ++i) PetscCall(SceneParseInt(keys, key, words[i], &values[i]));
   if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+/* PETSC_DECIDE where there is none of that name */
+PetscErrorCode SceneParseBody(SceneKeys keys, Scene scene, const char key[], const char text[], PetscInt *body)
+{
+  *body = PETSC_DECIDE;
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (!strcmp(text, scene->bodies[b].name)) *body = b;
+  }
+  if (*body < 0) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no body of the scene", key, text));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseRamp(SceneKeys keys, Scene scene, const char key[], const char text[], PetscInt *ramp)
+{
+  char      choices[SCENE_KEY_LENGTH] = "";
+  PetscBool same;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    PetscCall(PetscStrcasecmp(text, scene->ramps[r].name, &same));
+    if (same) {
+      *ramp = r;
+      PetscFunctionReturn(0);
+    }
+    if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
+    PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
+  }
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
   PetscFunctionReturn(0);
 }
 

@@ -75,27 +75,14 @@ static PetscErrorCode RepeatedBeginNode(RepeatedKeys *keys, const yaml_event_t *
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping)
+static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping, size_t line)
 {
   PetscFunctionBegin;
   if (keys->depth == keys->maxdepth) {
     keys->maxdepth = 2 * keys->maxdepth + 16;
     PetscCall(PetscRealloc(keys->maxdepth * sizeof(*keys->levels), &keys->levels));
   }
-  keys->levels[keys->depth++] = (RepeatedLevel){.mapping = mapping, .length = keys->length};
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
-{
-  const PetscBool mapping = (PetscBool)(event->type == YAML_MAPPING_START_EVENT),
-                  list    = (PetscBool)(event->type == YAML_SEQUENCE_START_EVENT);
-
-  PetscFunctionBegin;
-  if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
-    PetscCall(RepeatedBeginNode(keys, event));
-  if (mapping || list) PetscCall(RepeatedPush(keys, mapping));
-  if (event->type == YAML_MAPPING_END_EVENT || event->type == YAML_SEQUENCE_END_EVENT) --keys->depth;
+  keys->levels[keys->depth++] = (RepeatedLevel){.mapping = mapping, .length = keys->length, .line = line};
   PetscFunctionReturn(0);
 }
 
@@ -110,6 +97,36 @@ static void RepeatedStrip(char path[])
     } else *to++ = *from;
   }
   *to = 0;
+}
+
+/* An entry of a list is one name and what belongs to it */
+static PetscErrorCode RepeatedCheckEntry(const RepeatedKeys *keys)
+{
+  const RepeatedLevel *level = &keys->levels[keys->depth - 1];
+  char                 list[256];
+
+  PetscFunctionBegin;
+  if (keys->depth < 2 || !level->mapping || level[-1].mapping || level->n <= 2) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(list, keys->path, PetscMin(level[-1].length + 1, sizeof(list))));
+  RepeatedStrip(list);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "line %zu: this entry of %s has %" PetscInt_FMT
+    " keys where it has one, its name, with the others below it: - name: {key: value, ...}",
+    level->line, list, level->n / 2);
+}
+
+PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
+{
+  const PetscBool mapping = (PetscBool)(event->type == YAML_MAPPING_START_EVENT),
+                  list    = (PetscBool)(event->type == YAML_SEQUENCE_START_EVENT);
+
+  PetscFunctionBegin;
+  if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
+    PetscCall(RepeatedBeginNode(keys, event));
+  if (mapping || list) PetscCall(RepeatedPush(keys, mapping, event->start_mark.line + 1));
+  if (event->type == YAML_MAPPING_END_EVENT) PetscCall(RepeatedCheckEntry(keys));
+  if (event->type == YAML_MAPPING_END_EVENT || event->type == YAML_SEQUENCE_END_EVENT) --keys->depth;
+  PetscFunctionReturn(0);
 }
 
 /* After the last event */
@@ -132,6 +149,16 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
   }
   PetscCall(PetscFree(order));
   PetscFunctionReturn(0);
+}
+
+/* After the last event: the keys, as they are written in messages, are the caller's from now on */
+void RepeatedKeysGetLines(RepeatedKeys *keys, SceneKeyLines *lines)
+{
+  for (PetscInt i = 0; i < keys->n; ++i) RepeatedStrip(keys->paths[i]);
+  *lines      = (SceneKeyLines){keys->n, keys->paths, keys->lines};
+  keys->n     = 0;
+  keys->paths = NULL;
+  keys->lines = NULL;
 }
 
 PetscErrorCode RepeatedKeysDestroy(RepeatedKeys *keys)

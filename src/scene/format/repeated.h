@@ -10,7 +10,8 @@
 typedef struct {
   PetscBool mapping;
   size_t    length; /* of the path of its key */
-  PetscInt  n;      /* nodes in it so far; of a mapping keys and values */
+  size_t    line;
+  PetscInt  n; /* nodes in it so far; of a mapping keys and values */
 } RepeatedLevel;
 
 /* Begins as zeros */
@@ -25,6 +26,7 @@ typedef struct {
 /* repeated.c. Not collective: every event in turn, then an error if a key stands twice */
 PETSC_INTERN PetscErrorCode RepeatedKeysRead(RepeatedKeys *, const yaml_event_t *);
 PETSC_INTERN PetscErrorCode RepeatedKeysCheck(RepeatedKeys *);
+PETSC_INTERN void           RepeatedKeysGetLines(RepeatedKeys *, SceneKeyLines *);
 PETSC_INTERN PetscErrorCode RepeatedKeysDestroy(RepeatedKeys *);
 
 #endif

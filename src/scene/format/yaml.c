@@ -66,8 +66,8 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
   PetscFunctionReturn(0);
 }
 
-/* Errors: PETSC_ERR_USER_INPUT for keys that are names of nothing, or stand twice */
-PetscErrorCode SceneCheckYAML(size_t length, const char text[])
+/* lines: of every key. Errors: PETSC_ERR_USER_INPUT for keys that are names of nothing, or stand twice */
+PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *lines)
 {
   yaml_parser_t  parser;
   RepeatedKeys   keys = {0};
@@ -80,6 +80,7 @@ PetscErrorCode SceneCheckYAML(size_t length, const char text[])
   yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
   ierr = YAMLReadEvents(&parser, text, &keys);
   yaml_parser_delete(&parser);
+  RepeatedKeysGetLines(&keys, lines);
   PetscCall(RepeatedKeysDestroy(&keys));
   PetscCall(ierr);
   PetscFunctionReturn(0);

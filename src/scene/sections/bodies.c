@@ -1,61 +1,48 @@
-/* bodies: a list of named bodies, each with its shape, mesh and material */
+/* bodies: shape, material and element of each */
 #include "sectionsimpl.h"
+#include <petscviewer.h>
+#include <string.h>
 
-static PetscErrorCode SceneReadElement(SceneKeys keys, SceneBody *body)
-{
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  PetscInt    element = ELEMENT_FULL;
-
-  PetscFunctionBegin;
-  body->order = body->material.type == MATERIAL_RIGID ? 1 : 0;
-  if (body->material.type == MATERIAL_RIGID) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_element", body->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (text) PetscCall(SceneParseEnum(keys, key, text, ElementTypes, &element));
-  body->element = (ElementType)element;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_order", body->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (!text) PetscFunctionReturn(0);
-  PetscCall(SceneParseInt(keys, key, text, &body->order));
-  if (!body->order) PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const SceneBody *body)
+static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], const SceneBody *body)
 {
   static const char *const elastic[] = {"young", "poisson", "element", "order"};
-  const char              *text;
+  PetscBool                has;
 
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(elastic); ++i) {
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "bodies_%s_%s", body->name, elastic[i]));
-    if (text) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
+    PetscCall(SceneHasKey(keys, owner, elastic[i], &has));
+    if (has) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadMaterial(SceneKeys keys, SceneBody *body)
+PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
+  SceneBody  *body   = entry;
+  PetscBool   listed = PETSC_FALSE;
   char        key[SCENE_KEY_LENGTH];
   const char *text;
-  PetscBool   listed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_material", body->name));
+  PetscCall(SceneReadShape(keys, body));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
   if (body->material.type == MATERIAL_RIGID) {
-    PetscCall(SceneRefuseOfRigid(keys, body));
+    body->order = 1;
+    PetscCall(SceneRefuseOfRigid(keys, owner, body));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s", body->name));
-  PetscCall(SceneReadConstants(keys, key, listed, &body->material));
+  PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
+  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
+  PetscCall(SceneHasKey(keys, owner, "order", &listed));
+  if (listed && !body->order)
+    PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
   PetscFunctionReturn(0);
 }
 
 /* Gives a rigid body a stiffness, so that its rows of the matrix are as large as those of the others */
-static PetscErrorCode SceneScaleRigid(Scene scene)
+PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;
 
@@ -67,41 +54,28 @@ static PetscErrorCode SceneScaleRigid(Scene scene)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadBodies(SceneKeys keys, Scene scene)
+static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const SceneList *list, const SceneBody *body)
 {
-  char **names;
-
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "bodies", PETSC_TRUE, &scene->nbodies, &names));
-  PetscCall(PetscCalloc1(scene->nbodies, &scene->bodies));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    SceneBody *body = &scene->bodies[b];
-
-    body->name = names[b];
-    PetscCall(SceneReadShape(keys, body));
-    PetscCall(SceneReadMaterial(keys, body));
-    PetscCall(SceneReadElement(keys, body));
-  }
-  PetscCall(SceneScaleRigid(scene));
-  PetscCall(PetscFree(names));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s:\n", body->name));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(SceneViewShape(body, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "material: %s\n", MaterialTypes[body->material.type]));
+  PetscCall(SceneViewConstants(&body->material, viewer));
+  if (body->material.type != MATERIAL_RIGID)
+    PetscCall(SceneViewRows(scene, viewer, list->rows, "elastic", body, list->initial));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
 
-/* The body that <list>_<name> names by its key body; PETSC_DECIDE, any or every one, where it names none */
-PetscErrorCode SceneReadBodyName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *body)
+PetscErrorCode SceneViewBodies(Scene scene, PetscViewer viewer, const SceneList *list)
 {
-  const char *text;
-  PetscBool   same;
-
   PetscFunctionBegin;
-  *body = PETSC_DECIDE;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_body", list, name));
-  if (!text) PetscFunctionReturn(0);
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    PetscCall(PetscStrcmp(text, scene->bodies[b].name, &same));
-    if (same) *body = b;
-  }
-  if (*body < 0)
-    PetscCall(SceneKeysComplain(keys, "%s_%s_body is \"%s\", which is no body of the scene", list, name, text));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "bodies:\n"));
+  PetscCall(PetscViewerASCIIPushTab(viewer));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(SceneViewBody(scene, viewer, list, &scene->bodies[b]));
+  PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

@@ -1,46 +1,244 @@
-/* displacements: a list of named prescribed displacements */
+/* displacements: of faces, of vertices at points and along edges, and of rigid bodies, which alone turn freely */
 #include "sectionsimpl.h"
+#include <petscviewer.h>
+#include <string.h>
 
-/* value: three entries, each a displacement or the word free */
-static PetscErrorCode SceneReadComponents(SceneKeys keys, SceneDisplacement *displacement)
+/* Three of a kind, each a number or the word free */
+static PetscErrorCode ReadThree(SceneKeys keys, const char key[], const char text[], PetscReal value[3],
+  PetscBool free[3])
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  char      **words;
-  PetscInt    n = 3;
+  char   **words;
+  PetscInt n = 3;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "displacements_%s_value", displacement->name));
-  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-  if (!text) PetscFunctionReturn(0);
   PetscCall(SceneParseList(keys, key, text, &n, &words));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscBool free;
-
-    PetscCall(PetscStrcasecmp(words[i], "free", &free));
-    displacement->fixed[i] = free ? PETSC_FALSE : PETSC_TRUE;
-    if (!free) PetscCall(SceneParseReal(keys, key, words[i], &displacement->value[i]));
+    PetscCall(PetscStrcasecmp(words[i], "free", &free[i]));
+    if (!free[i]) PetscCall(SceneParseReal(keys, key, words[i], &value[i]));
   }
   if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadDisplacements(SceneKeys keys, Scene scene)
+static PetscErrorCode ViewThree(PetscViewer viewer, const PetscReal value[3], const PetscBool free[3])
 {
-  char **names;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3; ++i) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, i ? ", " : "["));
+    if (free[i]) PetscCall(PetscViewerASCIIPrintf(viewer, "free"));
+    else PetscCall(SceneViewReal(viewer, value[i]));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "]"));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ComponentsRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
+{
+  SceneDisplacement *d       = entry;
+  PetscBool          free[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
 
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "displacements", PETSC_FALSE, &scene->ndisplacements, &names));
-  PetscCall(PetscCalloc1(scene->ndisplacements, &scene->displacements));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    SceneDisplacement *displacement = &scene->displacements[d];
+  (void)scene;
+  PetscCall(ReadThree(keys, key, text, d->value, free));
+  for (PetscInt i = 0; i < 3; ++i) d->fixed[i] = (PetscBool)!free[i];
+  PetscFunctionReturn(0);
+}
 
-    displacement->name = names[d];
-    PetscCall(SceneReadTarget(keys, scene, displacement));
-    PetscCall(SceneReadComponents(keys, displacement));
-    PetscCall(SceneReadRotation(keys, displacement));
-    PetscCall(SceneReadRampName(keys, scene, "displacements", displacement->name, &displacement->ramp));
+static PetscBool ComponentsAreShown(const void *entry)
+{
+  return (PetscBool)(entry != NULL);
+}
+
+static PetscErrorCode ComponentsView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  const SceneDisplacement *d = entry;
+  PetscBool                free[3];
+
+  PetscFunctionBegin;
+  (void)scene;
+  for (PetscInt i = 0; i < 3; ++i) free[i] = SceneIsWholeBody(d->face) ? d->released[i] : (PetscBool)!d->fixed[i];
+  PetscCall(ViewThree(viewer, d->value, free));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnComponents = {ComponentsRead, ComponentsAreShown, ComponentsView, 0};
+
+static PetscErrorCode RotationRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
+{
+  SceneDisplacement *d = entry;
+
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(ReadThree(keys, key, text, d->rotation, d->released + 3));
+  PetscFunctionReturn(0);
+}
+
+PetscBool SceneRotates(const SceneDisplacement *d)
+{
+  return (PetscBool)(d->rotation[0] != 0 || d->rotation[1] != 0 || d->rotation[2] != 0);
+}
+
+/* Whether any rotation of a rigid body is free */
+PetscBool SceneTurnsFreely(const SceneDisplacement *d)
+{
+  return (PetscBool)(d->released[3] || d->released[4] || d->released[5]);
+}
+
+static PetscBool RotationIsShown(const void *entry)
+{
+  return (PetscBool)(SceneRotates(entry) || SceneTurnsFreely(entry));
+}
+
+static PetscErrorCode RotationView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  const SceneDisplacement *d = entry;
+
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(ViewThree(viewer, d->rotation, d->released + 3));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnRotation = {RotationRead, RotationIsShown, RotationView, 0};
+
+PetscBool SceneDisplacementIsPlane(const void *entry)
+{
+  return ((const SceneDisplacement *)entry)->inclined;
+}
+
+PetscBool SceneDisplacementIsListed(const void *entry)
+{
+  return (PetscBool)!SceneDisplacementIsPlane(entry);
+}
+
+PetscBool SceneDisplacementHides(const void *entry, const char key[])
+{
+  const SceneDisplacement *d = entry;
+
+  if (!strcmp(key, "face")) return (PetscBool)(d->at != DISPLACEMENT_FACE || SceneIsWholeBody(d->face));
+  if (!strcmp(key, "point")) return (PetscBool)(d->at != DISPLACEMENT_POINT);
+  if (!strcmp(key, "from") || !strcmp(key, "to")) return (PetscBool)(d->at != DISPLACEMENT_EDGE);
+  return (PetscBool)(!strcmp(key, "center") && !RotationIsShown(d));
+}
+
+PetscBool SceneIsWholeBody(const char face[])
+{
+  const size_t length = strlen(face), end = strlen(SCENE_WHOLE_BODY);
+
+  return (PetscBool)(length > end && !strcmp(face + length - end, SCENE_WHOLE_BODY));
+}
+
+/* In place of a face all of the rigid body that is named, if one is; why: what is done on an elastic one */
+PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[], const char why[], PetscInt body,
+  char **face)
+{
+  char whole[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  if (body < 0) {
+    if (!*face) PetscCall(PetscStrallocpy("", face));
+    PetscFunctionReturn(0);
   }
-  PetscCall(PetscFree(names));
+  if (scene->bodies[body].material.type != MATERIAL_RIGID)
+    PetscCall(
+      SceneKeysComplain(keys, "%s_body is \"%s\", which is not rigid: %s", owner, scene->bodies[body].name, why));
+  PetscCall(PetscFree(*face));
+  PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, scene->bodies[body].name));
+  PetscCall(PetscStrallocpy(whole, face));
+  PetscFunctionReturn(0);
+}
+
+/* point, or from and to, of an elastic body: a name of its own stands for a face */
+static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const char owner[], PetscBool point,
+  SceneDisplacement *d)
+{
+  PetscBool from, to, face;
+  char      name[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(SceneHasKey(keys, owner, "from", &from));
+  PetscCall(SceneHasKey(keys, owner, "to", &to));
+  PetscCall(SceneHasKey(keys, owner, "face", &face));
+  if (point ? from || to : !from || !to)
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], "
+      "to: [x, y, z]}",
+      d->name));
+  if (d->body < 0)
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is at a point or along an edge of no body; the key body says of which", d->name));
+  else if (scene->bodies[d->body].material.type == MATERIAL_RIGID)
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole", d->name,
+      scene->bodies[d->body].name));
+  if (face)
+    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a place; it is one of the two", d->name));
+  d->at = point ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
+  if (point) PetscCall(PetscArraycpy(d->to, d->from, 3));
+  PetscCall(PetscFree(d->face));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "%s.@%s", d->body < 0 ? "" : scene->bodies[d->body].name, d->name));
+  PetscCall(PetscStrallocpy(name, &d->face));
+  PetscFunctionReturn(0);
+}
+
+/* Which motions of a rigid body are free. A component is prescribed of all of its nodes where neither it nor a
+   rotation that changes it is free */
+static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
+{
+  PetscFunctionBegin;
+  if (SceneTurnsFreely(d) && SceneRotates(d))
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; where one rotation is "
+      "free the others are 0",
+      d->name));
+  for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
+  for (PetscInt i = 0; i < 3; ++i)
+    d->fixed[i] = (PetscBool) !(d->released[i] || d->released[3 + (i + 1) % 3] || d->released[3 + (i + 2) % 3]);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, SceneDisplacement *d)
+{
+  const PetscBool whole = SceneIsWholeBody(d->face), turns = RotationIsShown(d);
+
+  PetscFunctionBegin;
+  d->moves = (PetscBool)(whole || turns);
+  if (turns && !center)
+    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
+  if (center && !turns)
+    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
+  if (!whole && SceneTurnsFreely(d))
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" has a rotation that is free, which a rigid body can have, as {body: <body>, ...}, and a "
+      "face can not",
+      d->name));
+  else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2]))
+    PetscCall(SceneKeysComplain(keys,
+      "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
+  if (whole) PetscCall(DisplacementRelease(keys, d));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char owner[], void *entry)
+{
+  SceneDisplacement *d = entry;
+  PetscBool          point, from, to, body, center;
+  const char        *face;
+
+  PetscFunctionBegin;
+  PetscCall(SceneHasKey(keys, owner, "point", &point));
+  PetscCall(SceneHasKey(keys, owner, "from", &from));
+  PetscCall(SceneHasKey(keys, owner, "to", &to));
+  PetscCall(SceneHasKey(keys, owner, "body", &body));
+  PetscCall(SceneHasKey(keys, owner, "center", &center));
+  if (point || from || to) PetscCall(DisplacementSetPlace(keys, scene, owner, point, d));
+  else {
+    PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
+    if (body && face)
+      PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
+    PetscCall(SceneSetWholeBody(keys, scene, owner, "of an elastic body faces, points and edges are displaced", d->body,
+      &d->face));
+  }
+  PetscCall(DisplacementSetMotion(keys, center, d));
   PetscFunctionReturn(0);
 }

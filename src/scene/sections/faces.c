@@ -58,80 +58,36 @@ static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const cha
   PetscFunctionReturn(0);
 }
 
-/* Three bounds */
-static PetscErrorCode SceneReadBounds(SceneKeys keys, const char name[], const char which[], PetscReal infinite,
-  PetscReal bounds[3])
+/* Three bounds, of a corner at so many bytes of an entry */
+static PetscErrorCode BoundsRead(SceneKeys keys, const char key[], const char text[], PetscReal bounds[3])
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  char      **words;
-  PetscInt    n = 3;
+  char   **words;
+  PetscInt n = 3;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < 3; ++d) bounds[d] = infinite;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "faces_%s_%s", name, which));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (!text) PetscFunctionReturn(0);
   PetscCall(SceneParseList(keys, key, text, &n, &words));
   for (PetscInt d = 0; d < n; ++d) PetscCall(SceneReadBound(keys, key, words[d], &bounds[d]));
   if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneAddSubface(SceneBody *body, SceneSubface *subface)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscRealloc((body->nsubfaces + 1) * sizeof(*subface), &body->subfaces));
-  body->subfaces[body->nsubfaces++] = *subface;
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene)
-{
-  PetscInt n;
-  char   **names;
-
-  PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "faces", PETSC_FALSE, &n, &names));
-  for (PetscInt f = 0; f < n; ++f) {
-    const char  *text, *face = "";
-    PetscInt     body;
-    SceneSubface subface = {NULL, NULL, {0, 0, 0}, {0, 0, 0}};
-
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "faces_%s_of", names[f]));
-    PetscCall(SceneReadBounds(keys, names[f], "lower", PETSC_NINFINITY, subface.lower));
-    PetscCall(SceneReadBounds(keys, names[f], "upper", PETSC_INFINITY, subface.upper));
-    body = text ? SceneFindBody(scene, text, &face) : PETSC_DECIDE;
-    if (body < 0) {
-      if (text)
-        PetscCall(SceneKeysComplain(keys,
-          "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>", names[f], text));
-    } else {
-      PetscCall(PetscStrallocpy(names[f], &subface.name));
-      PetscCall(PetscStrallocpy(face, &subface.of));
-      PetscCall(SceneAddSubface(&scene->bodies[body], &subface));
-    }
-    PetscCall(PetscFree(names[f]));
-  }
-  PetscCall(PetscFree(names));
-  PetscFunctionReturn(0);
-}
-
-/* As SceneReadBounds() sets it: PETSC_INFINITY is a finite number in some releases */
+/* As BoundsRead() sets it: PETSC_INFINITY is a finite number in some releases */
 static PetscBool SceneBoundIsInfinite(PetscReal bound)
 {
   return PetscAbsReal(bound) >= PETSC_INFINITY ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* A bound that is infinite all over is not shown */
-static PetscErrorCode SceneViewBounds(PetscViewer viewer, const char which[], const PetscReal bounds[3])
+static PetscBool BoundsAreShown(const PetscReal b[3])
+{
+  return (PetscBool) !(SceneBoundIsInfinite(b[0]) && SceneBoundIsInfinite(b[1]) && SceneBoundIsInfinite(b[2]));
+}
+
+static PetscErrorCode BoundsView(PetscViewer viewer, const PetscReal bounds[3])
 {
   PetscFunctionBegin;
-  if (SceneBoundIsInfinite(bounds[0]) && SceneBoundIsInfinite(bounds[1]) && SceneBoundIsInfinite(bounds[2]))
-    PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, ", %s: [", which));
   for (PetscInt d = 0; d < 3; ++d) {
-    if (d) PetscCall(PetscViewerASCIIPrintf(viewer, ", "));
+    PetscCall(PetscViewerASCIIPrintf(viewer, d ? ", " : "["));
     if (SceneBoundIsInfinite(bounds[d])) PetscCall(PetscViewerASCIIPrintf(viewer, bounds[d] < 0 ? "-inf" : "inf"));
     else PetscCall(SceneViewReal(viewer, bounds[d]));
   }
@@ -139,28 +95,105 @@ static PetscErrorCode SceneViewBounds(PetscViewer viewer, const char which[], co
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer)
+static PetscErrorCode LowerRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
-  PetscInt n = 0;
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(BoundsRead(keys, key, text, ((SceneSubface *)entry)->lower));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode UpperRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(BoundsRead(keys, key, text, ((SceneSubface *)entry)->upper));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool LowerIsShown(const void *entry)
+{
+  return BoundsAreShown(((const SceneSubface *)entry)->lower);
+}
+
+static PetscBool UpperIsShown(const void *entry)
+{
+  return BoundsAreShown(((const SceneSubface *)entry)->upper);
+}
+
+static PetscErrorCode LowerView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(BoundsView(viewer, ((const SceneSubface *)entry)->lower));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode UpperView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(BoundsView(viewer, ((const SceneSubface *)entry)->upper));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnLower = {LowerRead, LowerIsShown, LowerView, 0};
+const SceneOwn SceneOwnUpper = {UpperRead, UpperIsShown, UpperView, 0};
+
+/* Each becomes one of its body's */
+PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list)
+{
+  PetscInt      n     = 0;
+  SceneSubface *faces = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(SceneReadList(keys, scene, list, &n, &faces));
+  for (PetscInt f = 0; f < n; ++f) {
+    const char    *face;
+    const PetscInt b = SceneFindBody(scene, faces[f].of, &face);
+
+    if (b < 0) {
+      if (faces[f].of[0])
+        PetscCall(
+          SceneKeysComplain(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>",
+            faces[f].name, faces[f].of));
+      PetscCall(PetscFree(faces[f].name));
+    } else {
+      SceneBody    *body = &scene->bodies[b];
+      SceneSubface *own;
+
+      PetscCall(PetscRealloc((body->nsubfaces + 1) * sizeof(*own), &body->subfaces));
+      own  = &body->subfaces[body->nsubfaces++];
+      *own = faces[f];
+      PetscCall(PetscStrallocpy(face, &own->of));
+    }
+    PetscCall(PetscFree(faces[f].of));
+  }
+  PetscCall(PetscFree(faces));
+  PetscFunctionReturn(0);
+}
+
+/* With the names of their bodies */
+PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *list)
+{
+  SceneSubface *faces;
+  PetscInt      n = 0, k = 0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) n += scene->bodies[b].nsubfaces;
-  if (!n) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "faces:\n"));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
+  PetscCall(PetscMalloc1(n, &faces));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    for (PetscInt s = 0; s < scene->bodies[b].nsubfaces; ++s) {
-      const SceneSubface *subface = &scene->bodies[b].subfaces[s];
+    for (PetscInt s = 0; s < scene->bodies[b].nsubfaces; ++s, ++k) {
+      char of[SCENE_KEY_LENGTH];
 
-      PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {of: %s.%s", subface->name, scene->bodies[b].name, subface->of));
-      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-      PetscCall(SceneViewBounds(viewer, "lower", subface->lower));
-      PetscCall(SceneViewBounds(viewer, "upper", subface->upper));
-      PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
-      PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
+      faces[k] = scene->bodies[b].subfaces[s];
+      PetscCall(PetscSNPrintf(of, sizeof(of), "%s.%s", scene->bodies[b].name, faces[k].of));
+      PetscCall(PetscStrallocpy(of, &faces[k].of));
     }
   }
-  PetscCall(PetscViewerASCIIPopTab(viewer));
+  PetscCall(SceneViewEntries(scene, viewer, list, n, faces));
+  for (k = 0; k < n; ++k) PetscCall(PetscFree(faces[k].of));
+  PetscCall(PetscFree(faces));
   PetscFunctionReturn(0);
 }
 

@@ -1,52 +1,95 @@
-/* pressures and body_forces: lists of named loads */
+/* forces, which act on faces and on rigid bodies, and temperatures: what is said of them beside single values */
 #include "sectionsimpl.h"
+#include <petscviewer.h>
+#include <string.h>
 
-PetscErrorCode SceneReadPressures(SceneKeys keys, Scene scene)
+PetscBool SceneTractionIsForce(const void *entry)
 {
-  char        key[SCENE_KEY_LENGTH];
-  char      **names;
-  const char *text;
+  return ((const SceneTraction *)entry)->resultant;
+}
+
+PetscBool SceneTractionIsNone(const void *entry)
+{
+  return (PetscBool)!SceneTractionIsForce(entry);
+}
+
+PetscBool SceneForceHides(const void *entry, const char key[])
+{
+  const SceneTraction *force = entry;
+
+  if (!strcmp(key, "face")) return SceneIsWholeBody(force->face);
+  return (PetscBool)(!strcmp(key, "point") && !force->placed);
+}
+
+/* A force is on a face or on a rigid body, and has a value, a moment or both */
+PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[], void *entry)
+{
+  SceneTraction *force = entry;
+  PetscBool      turns, body;
+  const char    *text;
 
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "pressures", PETSC_FALSE, &scene->npressures, &names));
-  PetscCall(PetscCalloc1(scene->npressures, &scene->pressures));
-  for (PetscInt p = 0; p < scene->npressures; ++p) {
-    ScenePressure *pressure = &scene->pressures[p];
-
-    pressure->name = names[p];
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "pressures_%s_face", pressure->name));
-    PetscCall(PetscStrallocpy(text ? text : "", &pressure->face));
-    PetscCall(PetscSNPrintf(key, sizeof(key), "pressures_%s_value", pressure->name));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-    if (text) PetscCall(SceneParseReal(keys, key, text, &pressure->value));
-    PetscCall(PetscSNPrintf(key, sizeof(key), "pressures_%s_follows", pressure->name));
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-    if (text) PetscCall(SceneParseAnswer(keys, key, text, &pressure->follows));
-    PetscCall(SceneReadRampName(keys, scene, "pressures", pressure->name, &pressure->ramp));
-  }
-  PetscCall(PetscFree(names));
+  PetscCall(SceneHasKey(keys, owner, "point", &force->placed));
+  PetscCall(SceneHasKey(keys, owner, "moment", &turns));
+  PetscCall(SceneHasKey(keys, owner, "body", &body));
+  PetscCall(SceneKeysGet(keys, (PetscBool)!turns, &text, "%s_value", owner));
+  PetscCall(SceneKeysGet(keys, (PetscBool)!body, &text, "%s_face", owner));
+  if (body && text)
+    PetscCall(SceneKeysComplain(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
+  PetscCall(SceneSetWholeBody(keys, scene, owner, "on an elastic body forces act on faces", force->body, &force->face));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadBodyForces(SceneKeys keys, Scene scene)
+static PetscErrorCode TemperatureRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
-  char        key[SCENE_KEY_LENGTH];
-  char      **names;
-  const char *text;
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(PetscStrallocpy(text, &((SceneTemperature *)entry)->value));
+  PetscCall(SceneCheckExpression(keys, key, text));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool TemperatureIsShown(const void *entry)
+{
+  return (PetscBool)(entry != NULL);
+}
+
+static PetscErrorCode TemperatureView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\"%s\"", ((const SceneTemperature *)entry)->value));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnTemperature = {TemperatureRead, TemperatureIsShown, TemperatureView, 1};
+
+static PetscErrorCode SceneBodyExpands(const SceneBody *body, PetscBool *expands)
+{
+  PetscReal A[9];
 
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "body_forces", PETSC_FALSE, &scene->nforces, &names));
-  PetscCall(PetscCalloc1(scene->nforces, &scene->forces));
-  for (PetscInt f = 0; f < scene->nforces; ++f) {
-    SceneBodyForce *force = &scene->forces[f];
+  *expands = PETSC_FALSE;
+  PetscCall(MaterialGetExpansion(&body->material, A));
+  for (int i = 0; i < 9; ++i) *expands = (PetscBool)(*expands || A[i] != 0);
+  PetscFunctionReturn(0);
+}
 
-    force->name = names[f];
-    PetscCall(SceneReadBodyName(keys, scene, "body_forces", force->name, &force->body));
-    PetscCall(PetscSNPrintf(key, sizeof(key), "body_forces_%s_value", force->name));
-    PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s", key));
-    if (text) PetscCall(SceneParseReals(keys, key, text, 3, force->value));
-    PetscCall(SceneReadRampName(keys, scene, "body_forces", force->name, &force->ramp));
+/* What is heated has an expansion */
+PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt t = 0; t < scene->ntemperatures; ++t) {
+    const SceneTemperature *here = &scene->temperatures[t];
+    PetscBool               any  = PETSC_FALSE;
+
+    for (PetscInt b = 0; b < scene->nbodies && !any; ++b) {
+      if (here->body == PETSC_DECIDE || here->body == b) PetscCall(SceneBodyExpands(&scene->bodies[b], &any));
+    }
+    PetscCheck(any, comm, PETSC_ERR_USER_INPUT,
+      "%s: temperature \"%s\" heats %s, whose material has no expansion; give a material of small strain one, as "
+      "expansion: 12e-6",
+      file, here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name);
   }
-  PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }

@@ -3,58 +3,49 @@
 #include "sectionsimpl.h"
 #include <options.h>
 
-static PetscErrorCode MaterialsReadEntry(SceneKeys keys, SceneMaterial *entry)
+/* No entry has the name of a law, or of another */
+PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
-  PetscInt    type = MATERIAL_LINEAR;
+  SceneMaterial *material = entry;
+  PetscBool      same;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s_law", entry->name));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
-  if (text) PetscCall(SceneParseEnum(keys, key, text, MaterialTypes, &type));
-  entry->material.type = (MaterialType)type;
-  if (type == MATERIAL_RIGID) {
-    PetscCall(SceneKeysComplain(keys, "%s is rigid, which needs no entry: a body has material: rigid", key));
-    entry->material.type = MATERIAL_LINEAR; /* report this error, not its constants */
+  (void)scene;
+  if (material->material.type == MATERIAL_RIGID) {
+    PetscCall(SceneKeysComplain(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
+    material->material.type = MATERIAL_LINEAR; /* its constants are not the fault */
   }
-  PetscCall(PetscSNPrintf(key, sizeof(key), "materials_%s", entry->name));
-  PetscCall(SceneReadConstants(keys, key, PETSC_FALSE, &entry->material));
+  PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
+  for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
+    PetscCall(PetscStrcasecmp(material->name, MaterialTypes[t], &same));
+    if (same) PetscCall(SceneKeysComplain(keys, "the material name \"%s\" is taken by a law", material->name));
+  }
   PetscFunctionReturn(0);
 }
 
-/* Appends those of a file to the scene's; none has the name of a law, or of another */
-static PetscErrorCode MaterialsReadList(SceneKeys keys, PetscBool required, SceneKeys scene)
+/* Appends those of a file, a library or the scene itself, to the scene's */
+static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, PetscBool library, SceneKeys scene)
 {
-  PetscInt n;
-  char   **names;
+  SceneList      list  = *rows;
+  const PetscInt first = scene->nmaterials;
+  PetscBool      same;
 
   PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "materials", required, &n, &names));
-  PetscCall(PetscRealloc((size_t)(scene->nmaterials + n) * sizeof(*scene->materials), &scene->materials));
-  for (PetscInt i = 0; i < n; ++i) {
-    SceneMaterial *entry = &scene->materials[scene->nmaterials];
-    PetscBool      same;
-
-    *entry = (SceneMaterial){.name = names[i]};
-    PetscCall(MaterialsReadEntry(keys, entry));
-    for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
-      PetscCall(PetscStrcasecmp(names[i], MaterialTypes[t], &same));
-      if (same) PetscCall(SceneKeysComplain(keys, "the material name \"%s\" is taken by a law", names[i]));
-    }
-    for (PetscInt m = 0; m < scene->nmaterials; ++m) {
-      PetscCall(PetscStrcasecmp(names[i], scene->materials[m].name, &same));
+  list.required = library;
+  PetscCall(SceneReadList(keys, NULL, &list, &scene->nmaterials, &scene->materials));
+  for (PetscInt i = first; i < scene->nmaterials; ++i) {
+    for (PetscInt m = 0; m < first; ++m) {
+      PetscCall(PetscStrcasecmp(scene->materials[i].name, scene->materials[m].name, &same));
       if (same)
-        PetscCall(SceneKeysComplain(keys, "the material \"%s\" stands in the scene and in its library", names[i]));
+        PetscCall(SceneKeysComplain(keys, "the material \"%s\" stands in the scene and in its library",
+          scene->materials[i].name));
     }
-    ++scene->nmaterials;
   }
-  PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
 
 /* Its units are those of the scene, unless that says its own: they must be the same words then */
-static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Scene scene)
+static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows, const char name[], Scene scene)
 {
   SceneKeys   library;
   char       *file;
@@ -67,9 +58,10 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
   PetscCall(PetscTestFile(file, 'r', &exists));
   PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: there is no library \"%s\" that can be read", keys->file,
     file);
+  PetscCall(PetscSNPrintf(keys->library, sizeof(keys->library), "the scene or its library %s", file));
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));
-  PetscCall(MaterialsReadList(library, PETSC_TRUE, keys));
+  PetscCall(MaterialsReadList(library, rows, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
   if (!same)
     PetscCall(
@@ -82,31 +74,42 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const char name[], Sc
 }
 
 /* Before the bodies */
-PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene)
+PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *rows)
 {
   const char *text;
 
   PetscFunctionBegin;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "units"));
-  if (text) PetscCall(PetscStrallocpy(text, &scene->units));
-  PetscCall(MaterialsReadList(keys, PETSC_FALSE, keys));
+  PetscCall(MaterialsReadList(keys, rows, PETSC_FALSE, keys));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "library"));
-  if (text) PetscCall(MaterialsReadLibrary(keys, text, scene));
+  if (text) PetscCall(MaterialsReadLibrary(keys, rows, text, scene));
   PetscFunctionReturn(0);
 }
 
-/* A name that is neither a law nor a material: an error with the nearest name */
+/* A name that is neither a law nor a material: an error with the nearest name of both, and where materials come from */
 static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;
+  char         meant[512];
+  size_t       distance, letters;
+  PetscInt     n = 0;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(keys->nmaterials, &names));
-  for (PetscInt m = 0; m < keys->nmaterials; ++m) names[m] = keys->materials[m].name;
-  PetscCall(OptionsNearest(keys->nmaterials, names, name, &nearest));
-  PetscCall(SceneKeysComplain(keys,
-    "%s is \"%s\", neither a law nor a material of the scene or its library; the nearest one is \"%s\"", key, name,
-    nearest));
+  while (MaterialTypes[n + 2]) ++n;
+  PetscCall(PetscMalloc1(n + keys->nmaterials, &names));
+  for (PetscInt t = 0; t < n; ++t) names[t] = MaterialTypes[t];
+  for (PetscInt m = 0; m < keys->nmaterials; ++m) names[n++] = keys->materials[m].name;
+  PetscCall(OptionsNearest(n, names, name, &nearest));
+  PetscCall(OptionsDistance(name, nearest, &distance));
+  PetscCall(PetscStrlen(name, &letters));
+  if (2 * distance < letters) PetscCall(PetscSNPrintf(meant, sizeof(meant), "the nearest one is \"%s\"", nearest));
+  else PetscCall(PetscStrncpy(meant, "there are", sizeof(meant)));
+  for (PetscInt k = 0; k < n && 2 * distance >= letters; ++k) {
+    PetscCall(PetscStrlcat(meant, k ? ", " : " ", sizeof(meant)));
+    PetscCall(PetscStrlcat(meant, names[k], sizeof(meant)));
+  }
+  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
+    keys->library[0] ? keys->library : "the scene, which names no library", meant));
+  keys->decides = PETSC_TRUE;
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
@@ -126,11 +129,10 @@ PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char na
   }
   if (*listed) PetscFunctionReturn(0);
   for (PetscInt t = 0; MaterialTypes[t + 2] && !law; ++t) PetscCall(PetscStrcasecmp(name, MaterialTypes[t], &law));
-  if (!law && keys->nmaterials) {
-    PetscCall(MaterialsComplain(keys, key, name));
-    PetscFunctionReturn(0);
+  if (!law) PetscCall(MaterialsComplain(keys, key, name));
+  else {
+    PetscCall(SceneParseEnum(keys, key, name, MaterialTypes, &type));
+    material->type = (MaterialType)type;
   }
-  PetscCall(SceneParseEnum(keys, key, name, MaterialTypes, &type));
-  material->type = (MaterialType)type;
   PetscFunctionReturn(0);
 }

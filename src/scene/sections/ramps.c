@@ -88,30 +88,6 @@ PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* The ramp that <list>_<name> follows: its key ramp, or else the load */
-PetscErrorCode SceneReadRampName(SceneKeys keys, Scene scene, const char list[], const char name[], PetscInt *ramp)
-{
-  const char *text;
-  char        choices[SCENE_KEY_LENGTH] = "";
-  PetscBool   same;
-
-  PetscFunctionBegin;
-  *ramp = 0;
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_%s_ramp", list, name));
-  if (!text) PetscFunctionReturn(0);
-  for (PetscInt r = 0; r < scene->nramps; ++r) {
-    PetscCall(PetscStrcasecmp(text, scene->ramps[r].name, &same));
-    if (same) {
-      *ramp = r;
-      PetscFunctionReturn(0);
-    }
-    if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
-    PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
-  }
-  PetscCall(SceneKeysComplain(keys, "%s_%s_ramp is \"%s\"; it can be: %s", list, name, text, choices));
-  PetscFunctionReturn(0);
-}
-
 /* The same programs in so many steps of equal time. Displacement bounds begin no earlier than they did */
 PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
 {

@@ -1,133 +1,80 @@
-/* refinements: a list of places where cells are refined more often than elsewhere */
+/* refinements: places where cells are refined more often than elsewhere, near faces or in a box */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
 #define REFINEMENT_MAX_LEVELS 20
 
-/* A value of an entry that may be missing */
-static PetscErrorCode RefinementGet(SceneKeys keys, const SceneRefinement *refinement, const char what[],
-  char key[SCENE_KEY_LENGTH], const char **text)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, SCENE_KEY_LENGTH, "refinements_%s_%s", refinement->name, what));
-  PetscCall(SceneKeysGet(keys, PETSC_FALSE, text, "%s", key));
-  PetscFunctionReturn(0);
-}
-
 /* A contact pair, both of whose faces are meant, or a face */
-static PetscErrorCode RefinementSetFaces(SceneKeys keys, Scene scene, const char key[], const char near[],
-  SceneRefinement *refinement)
+static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
-  const char *face;
+  SceneRefinement *refinement = entry;
+  const char      *face;
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    if (strcmp(scene->pairs[p].name, near)) continue;
+    if (strcmp(scene->pairs[p].name, text)) continue;
     PetscCall(PetscStrallocpy(scene->pairs[p].mortar, &refinement->face[0]));
     PetscCall(PetscStrallocpy(scene->pairs[p].nonmortar, &refinement->face[1]));
     PetscFunctionReturn(0);
   }
-  refinement->body = SceneFindBody(scene, near, &face);
-  if (refinement->body < 0)
+  PetscCall(PetscStrallocpy(text, &refinement->face[0]));
+  if (SceneFindBody(scene, text, &face) < 0)
     PetscCall(
-      SceneKeysComplain(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, near));
-  else PetscCall(PetscStrallocpy(near, &refinement->face[0]));
+      SceneKeysComplain(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, text));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RefinementReadBox(SceneKeys keys, Scene scene, SceneRefinement *refinement)
+static PetscBool NearIsShown(const void *entry)
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
+  return (PetscBool)(((const SceneRefinement *)entry)->face[0] != NULL);
+}
+
+/* A face, or the contact pair that has both */
+static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  char *const *face = ((const SceneRefinement *)entry)->face;
+  const char  *near = face[0];
 
   PetscFunctionBegin;
-  for (PetscInt end = 0; end < 2; ++end) {
-    PetscCall(RefinementGet(keys, refinement, end ? "upper" : "lower", key, &text));
-    if (text) PetscCall(SceneParseReals(keys, key, text, 3, end ? refinement->upper : refinement->lower));
-    else
-      PetscCall(SceneKeysComplain(keys,
-        "refinements_%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and "
-        "upper: [x, y, z]",
-        refinement->name));
+  for (PetscInt p = 0; face[1] && p < scene->npairs; ++p) {
+    if (!strcmp(scene->pairs[p].mortar, face[0]) && !strcmp(scene->pairs[p].nonmortar, face[1]))
+      near = scene->pairs[p].name;
   }
-  for (PetscInt d = 0; d < 3; ++d) {
-    if (!(refinement->lower[d] <= refinement->upper[d]))
-      PetscCall(SceneKeysComplain(keys, "refinements_%s has lower above upper along %c: %g and %g", refinement->name,
-        "xyz"[d], (double)refinement -> lower[d], (double)refinement -> upper[d]));
-  }
-  PetscCall(SceneReadBodyName(keys, scene, "refinements", refinement->name, &refinement->body));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s", near));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RefinementRead(SceneKeys keys, Scene scene, SceneRefinement *refinement)
+const SceneOwn SceneOwnNear = {NearRead, NearIsShown, NearView, 2};
+
+/* Of one that is near a face the box */
+PetscBool SceneRefinementHides(const void *entry, const char key[])
 {
-  char        key[SCENE_KEY_LENGTH];
-  const char *text;
+  return (PetscBool)(NearIsShown(entry) && (!strcmp(key, "lower") || !strcmp(key, "upper") || !strcmp(key, "body")));
+}
+
+PetscErrorCode SceneFinishRefinement(SceneKeys keys, Scene scene, const char owner[], void *entry)
+{
+  SceneRefinement *r = entry;
+  PetscBool        lower, upper;
+  const char      *face;
 
   PetscFunctionBegin;
-  refinement->body   = PETSC_DECIDE;
-  refinement->levels = 1;
-  PetscCall(RefinementGet(keys, refinement, "near", key, &text));
-  if (text) PetscCall(RefinementSetFaces(keys, scene, key, text, refinement));
-  else PetscCall(RefinementReadBox(keys, scene, refinement));
-  PetscCall(RefinementGet(keys, refinement, "levels", key, &text));
-  if (text) PetscCall(SceneParseInt(keys, key, text, &refinement->levels));
-  if (refinement->levels < 1 || refinement->levels > REFINEMENT_MAX_LEVELS)
-    PetscCall(SceneKeysComplain(keys, "%s is %" PetscInt_FMT "; it is a number from 1 to %d", key, refinement->levels,
+  PetscCall(SceneHasKey(keys, owner, "lower", &lower));
+  PetscCall(SceneHasKey(keys, owner, "upper", &upper));
+  if (!r->face[0] && !(lower && upper))
+    PetscCall(SceneKeysComplain(keys,
+      "%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]",
+      owner));
+  for (PetscInt d = 0; d < 3 && !r->face[0]; ++d) {
+    if (!(r->lower[d] <= r->upper[d]))
+      PetscCall(SceneKeysComplain(keys, "%s has lower above upper along %c: %g and %g", owner, "xyz"[d],
+        (double)r -> lower[d], (double)r -> upper[d]));
+  }
+  if (r->face[0] && !r->face[1]) r->body = SceneFindBody(scene, r->face[0], &face);
+  if (r->levels < 1 || r->levels > REFINEMENT_MAX_LEVELS)
+    PetscCall(SceneKeysComplain(keys, "%s_levels is %" PetscInt_FMT "; it is a number from 1 to %d", owner, r->levels,
       REFINEMENT_MAX_LEVELS));
-  PetscCall(RefinementGet(keys, refinement, "distance", key, &text));
-  if (text) PetscCall(SceneParseReal(keys, key, text, &refinement->distance));
-  if (refinement->distance < 0) PetscCall(SceneKeysComplain(keys, "%s is %s, which must not be negative", key, text));
-  PetscFunctionReturn(0);
-}
-
-/* After the contact pairs */
-PetscErrorCode SceneReadRefinements(SceneKeys keys, Scene scene)
-{
-  char **names;
-
-  PetscFunctionBegin;
-  PetscCall(SceneGetNames(keys, "refinements", PETSC_FALSE, &scene->nrefinements, &names));
-  PetscCall(PetscCalloc1(scene->nrefinements, &scene->refinements));
-  for (PetscInt r = 0; r < scene->nrefinements; ++r) {
-    scene->refinements[r].name = names[r];
-    PetscCall(RefinementRead(keys, scene, &scene->refinements[r]));
-  }
-  PetscCall(PetscFree(names));
-  PetscFunctionReturn(0);
-}
-
-/* What an entry is near: a face, or the contact pair that has both */
-static const char *RefinementNear(Scene scene, const SceneRefinement *refinement)
-{
-  for (PetscInt p = 0; refinement->face[1] && p < scene->npairs; ++p) {
-    if (!strcmp(scene->pairs[p].mortar, refinement->face[0]) && !strcmp(scene->pairs[p].nonmortar, refinement->face[1]))
-      return scene->pairs[p].name;
-  }
-  return refinement->face[0];
-}
-
-PetscErrorCode SceneViewRefinement(Scene scene, PetscViewer viewer, PetscInt r)
-{
-  const SceneRefinement *refinement = &scene->refinements[r];
-
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", refinement->name));
-  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  if (refinement->face[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "near: %s", RefinementNear(scene, refinement)));
-  else {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "lower: "));
-    PetscCall(SceneViewList(viewer, 3, refinement->lower));
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", upper: "));
-    PetscCall(SceneViewList(viewer, 3, refinement->upper));
-    if (refinement->body >= 0)
-      PetscCall(PetscViewerASCIIPrintf(viewer, ", body: %s", scene->bodies[refinement->body].name));
-  }
-  PetscCall(PetscViewerASCIIPrintf(viewer, ", levels: %" PetscInt_FMT ", distance: ", refinement->levels));
-  PetscCall(SceneViewReal(viewer, refinement->distance));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
-  PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -144,16 +91,5 @@ PetscErrorCode SceneValidateRefinements(MPI_Comm comm, const char file[], Scene 
       ": only hexahedra of order 1 are refined locally",
       file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
   }
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SceneDestroyRefinements(Scene scene)
-{
-  PetscFunctionBegin;
-  for (PetscInt r = 0; r < scene->nrefinements; ++r) {
-    PetscCall(PetscFree(scene->refinements[r].name));
-    for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(scene->refinements[r].face[k]));
-  }
-  PetscCall(PetscFree(scene->refinements));
   PetscFunctionReturn(0);
 }

@@ -45,26 +45,12 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
   PetscFunctionReturn(0);
 }
 
-/* A file's name is relative to the folder of the scene */
-PetscErrorCode SceneResolveFile(const char scene[], char **file)
-{
-  const char *slash = strrchr(scene, '/');
-  char        path[PETSC_MAX_PATH_LEN];
-
-  PetscFunctionBegin;
-  if (!*file || (*file)[0] == '/' || !slash) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%.*s/%s", (int)(slash - scene), scene, *file));
-  PetscCall(PetscFree(*file));
-  PetscCall(PetscStrallocpy(path, file));
-  PetscFunctionReturn(0);
-}
-
 /* The key mesh without a shape says gmsh */
 static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text, *mesh = NULL;
-  PetscInt    shape = SHAPE_BOX;
+  PetscInt    shape = PETSC_DECIDE;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_shape", body->name));
@@ -76,6 +62,10 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
     PetscCall(PetscSNPrintf(key, sizeof(key), "-bodies_%s_mesh", body->name));
     PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &mesh, &set));
     if (set) shape = SHAPE_GMSH;
+  }
+  if (shape < 0) { /* or none that there is: which keys are known hangs on it */
+    if (text) keys->decides = PETSC_TRUE;
+    shape = SHAPE_BOX;
   }
   body->shape = (BodyShape)shape;
   PetscFunctionReturn(0);
@@ -158,15 +148,24 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneDestroyShape(SceneBody *body)
+/* As rows of a table of Markdown */
+PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
 {
+  static const char *const types[] = {[KEY_REALS] = "numbers",
+    [KEY_INTS]                                    = "whole numbers",
+    [KEY_AXIS]                                    = "an axis",
+    [KEY_DIRECTION]                               = "a direction",
+    [KEY_TEXT]                                    = "a text"};
+
   PetscFunctionBegin;
-  PetscCall(PetscFree(body->gmsh.file));
-  PetscCall(PetscFree(body->gmsh.volume));
-  for (PetscInt s = 0; s < body->nsubfaces; ++s) {
-    PetscCall(PetscFree(body->subfaces[s].name));
-    PetscCall(PetscFree(body->subfaces[s].of));
+  for (PetscInt i = 0; BodyShapes[i + 2]; ++i) {
+    const SceneBody body = {.shape = (BodyShape)i};
+    const ShapeKey *keys = NULL;
+
+    PetscCall(SceneGetShapeKeys(&body, &keys));
+    for (const ShapeKey *k = keys; k->name; ++k)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %" PetscInt_FMT " %s | %s |\n", k->name, BodyShapes[i],
+        k->n, types[k->type], k->required ? "required" : ""));
   }
-  PetscCall(PetscFree(body->subfaces));
   PetscFunctionReturn(0);
 }

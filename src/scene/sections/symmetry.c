@@ -150,6 +150,7 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
     SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
     PetscBool          same;
 
+    displacement->body = PETSC_DECIDE;
     if (strchr(words[i], '.')) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
     else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
     for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {

@@ -1,0 +1,283 @@
+/*
+   The table of keys: all that a scene file may say, list by list. Reading, the check of single values, showing,
+   freeing, -scene_keys and the tables of share/scenes/README.md follow it. What values must be to one another stands
+   in the other files here, and in validate.c.
+*/
+#include "sectionsimpl.h"
+#include <stddef.h>
+#include <string.h>
+
+#define REALS(name, of, n, struct, member, need, range, unit, otherwise, help) \
+  { \
+    name, of, SCENE_REALS, n, offsetof(struct, member), SCENE_##need, SCENE_##range, NULL, NULL, unit, otherwise, help \
+  }
+#define INTS(name, of, n, struct, member, need, otherwise, help) \
+  { \
+    name, of, SCENE_INTS, n, offsetof(struct, member), SCENE_##need, SCENE_ANY, NULL, NULL, "", otherwise, help \
+  }
+#define ONE(name, of, type, struct, member, need, names, own, unit, otherwise, help) \
+  { \
+    name, of, SCENE_##type, 1, offsetof(struct, member), SCENE_##need, SCENE_ANY, names, own, unit, otherwise, help \
+  }
+#define ANSWER(name, of, struct, member, otherwise, help) \
+  ONE(name, of, ANSWER, struct, member, OPTIONAL, NULL, NULL, "", otherwise, help)
+#define NAMED(name, of, type, struct, member, need, names, otherwise, help) \
+  ONE(name, of, type, struct, member, need, names, NULL, "", otherwise, help)
+#define TEXT(name, of, struct, member, need, otherwise, help) \
+  ONE(name, of, TEXT, struct, member, need, NULL, NULL, "", otherwise, help)
+#define NUMBER_OF(name, type, struct, member, otherwise, help) \
+  ONE(name, NULL, type, struct, member, OPTIONAL, NULL, NULL, "", otherwise, help)
+#define OWN(name, of, struct, member, need, own, unit, otherwise, help) \
+  ONE(name, of, OWN, struct, member, need, NULL, &own, unit, otherwise, help)
+#define SECTION(name, otherwise, help) \
+  { \
+    name, NULL, SCENE_SECTION, 0, 0, SCENE_OPTIONAL, SCENE_ANY, NULL, NULL, "", otherwise, help \
+  }
+
+static const SceneKey top_rows[] = {
+  TEXT("problem", NULL, struct _n_Scene, name, OPTIONAL, "the file's name", "name of the scene, in reports"),
+  TEXT("units", NULL, struct _n_Scene, units, OPTIONAL, "none",
+    "a note that tables and summary carry, as `mm, N, MPa`"),
+  SECTION("library", "none", "a file with materials by name, see [materials](#materials)"),
+  SECTION("materials", "none", "list of materials by name"), SECTION("bodies", "required", "list of bodies"),
+  SECTION("faces", "none", "list of parts of faces"),
+  SECTION("displacements", "none", "list of prescribed displacements"),
+  SECTION("symmetry", "none", "list of plane faces whose normal displacement is 0"),
+  SECTION("pressures", "none", "list of pressures, dead or following their faces"),
+  SECTION("tractions", "none", "list of dead loads on faces, per area"),
+  SECTION("forces", "none", "list of dead loads on faces and rigid bodies, by their resultant"),
+  SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
+  OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
+    "whether bodies that move freely are held by springs that carry next to nothing: `true`, or what these are worth "
+    "of a body's stiffness, above 0 and at most 0.01"),
+  SECTION("temperatures", "none", "list of temperatures of bodies that expand"),
+  SECTION("body_forces", "none", "list of dead forces per volume"),
+  SECTION("contact", "none: no search, no optimizer", "list of contact pairs"),
+  SECTION("ties", "none", "list of pairs of faces that are joined"),
+  SECTION("refinements", "none", "list of places where cells are refined beyond `refine`"),
+  SECTION("probes", "none", "list of points and lines at which results are wanted"),
+  SECTION("load", "one step", "the load program, see [load program](#load-program)"),
+  SECTION("ramps", "none", "list of further load programs"),
+  INTS("refine", NULL, 1, struct _n_Scene, refine, SHOWN, "0", "uniform refinements of level 0"),
+  NAMED("model", NULL, CHOICE, struct _n_Scene, model, SHOWN, StepModels, "`energy`",
+    "what a load step minimizes. `energy`: the true energy, in equilibrium on exit. `quadratic`: its quadratic model "
+    "at the state before, with one tangent a load step"),
+  INTS("contact_updates", NULL, 1, struct _n_Scene, contact_updates, SHOWN, "20",
+    "contact (gap) updates per load step at most. They end when the gap changes by less than 1e-6 of the largest "
+    "displacement. With 1 the gap is not checked"),
+  INTS("displacement_bounds", NULL, 1, struct _n_Scene, displacement_bounds, OPTIONAL, "0: none",
+    "the first load step, from 2, in which no displacement may change by more than the largest increment so far"),
+  SECTION("solver", "none", "PETSc options, see [solver options](#solver-options)"), {NULL}};
+
+static const SceneKey body_rows[] = {
+  SECTION("shape", "`box`; `gmsh` where there is `mesh`", "the shape; its own keys follow below"),
+  SECTION("curved", "`true`",
+    "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
+  SECTION("material", "`linear`",
+    "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `rigid`; or a material by name. Its constants follow "
+    "below"),
+  NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
+    "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
+    "(modes for bending)"),
+  INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 of hexahedra, 2 of tetrahedra",
+    "of the displacements in a cell, 1 or 2; 2: hexahedra of 27 and tetrahedra of 10 nodes, curved as the surface is"),
+  {NULL}};
+
+static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMaterial, material.type, OPTIONAL,
+                                           MaterialTypes, "`linear`", "the law; its constants as of a body"),
+  {NULL}};
+
+static const SceneKey face_rows[] = {
+  TEXT("of", NULL, SceneSubface, of, REQUIRED, "", "a face, or a part listed before"),
+  OWN("lower", NULL, SceneSubface, lower, OPTIONAL, SceneOwnLower, "L", "no bound",
+    "lower corner of the box that the facets' centroids are in; `-inf` bounds nothing"),
+  OWN("upper", NULL, SceneSubface, upper, OPTIONAL, SceneOwnUpper, "L", "no bound",
+    "upper corner of that box; `inf` bounds nothing"),
+  {NULL}};
+
+static const SceneKey displacement_rows[] = {
+  NUMBER_OF("body", BODY, SceneDisplacement, body, "", "a rigid body, or the body of `point` or of `from` and `to`"),
+  TEXT("face", NULL, SceneDisplacement, face, OPTIONAL, "", "a face; required without `body`"),
+  REALS("point", NULL, 3, SceneDisplacement, from, SHOWN, ANY, "L", "", "of `body`: the vertex there is displaced"),
+  REALS("from", NULL, 3, SceneDisplacement, from, SHOWN, ANY, "L", "",
+    "of `body`: one end of an edge, whose vertices are displaced"),
+  REALS("to", NULL, 3, SceneDisplacement, to, SHOWN, ANY, "L", "", "the other end"),
+  OWN("value", NULL, SceneDisplacement, value, REQUIRED, SceneOwnComponents, "L", "",
+    "three displacements at factor 1, each a number or `free`"),
+  OWN("rotation", NULL, SceneDisplacement, rotation, OPTIONAL, SceneOwnRotation, "degrees", "none",
+    "rotation vector at factor 1: along the axis, of the length of the angle; of a rigid body each number may be "
+    "`free`"),
+  REALS("center", NULL, 3, SceneDisplacement, center, SHOWN, ANY, "L", "required with `rotation`",
+    "a point on the axis, which moves by `value`"),
+  NUMBER_OF("ramp", RAMP, SceneDisplacement, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey symmetry_rows[] = {
+  TEXT("face", NULL, SceneDisplacement, face, SHOWN, "",
+    "a plane face; where its name tells the normal it stands alone, without a name"),
+  REALS("normal", NULL, 3, SceneDisplacement, normal, SHOWN, ANY, "", "", "`x`, `y`, `z` or a vector"), {NULL}};
+
+static const SceneKey pressure_rows[] = {TEXT("face", NULL, ScenePressure, face, REQUIRED, "", "a face"),
+  REALS("value", NULL, 1, ScenePressure, value, REQUIRED, ANY, "F/L²", "",
+    "pressure at factor 1; positive pushes on the body, along the normal of the undeformed face"),
+  ANSWER("follows", NULL, ScenePressure, follows, "`false`",
+    "whether it pushes on the deformed area along the deformed normal; of bodies of finite strain"),
+  NUMBER_OF("ramp", RAMP, ScenePressure, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey traction_rows[] = {TEXT("face", NULL, SceneTraction, face, REQUIRED, "", "a face"),
+  REALS("value", NULL, 3, SceneTraction, value, REQUIRED, ANY, "F/L²", "", "force per undeformed area at factor 1"),
+  NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey force_rows[] = {NUMBER_OF("body", BODY, SceneTraction, body, "", "a rigid body"),
+  TEXT("face", NULL, SceneTraction, face, OPTIONAL, "", "a face; required without `body`"),
+  REALS("value", NULL, 3, SceneTraction, value, SHOWN, ANY, "F", "0 with `moment`", "the resultant at factor 1"),
+  REALS("point", NULL, 3, SceneTraction, point, SHOWN, ANY, "L", "the face's centroid",
+    "where it acts, on the body or off it"),
+  REALS("moment", NULL, 3, SceneTraction, moment, OPTIONAL, ANY, "F L", "0", "its moment about that point at factor 1"),
+  NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey spring_rows[] = {TEXT("face", NULL, SceneSpring, face, REQUIRED, "", "a face"),
+  TEXT("to", NULL, SceneSpring, to, OPTIONAL, "the ground",
+    "another face at their other end, which is over all of the first one"),
+  REALS("distance", NULL, 1, SceneSpring, distance, OPTIONAL, ABOVE_0, "L", "half the size of a facet",
+    "of springs `to` a face: facets further apart are not joined"),
+  REALS("value", NULL, 3, SceneSpring, value, REQUIRED, ANY, "F/L³", "",
+    "stiffness along x, y, z per undeformed area, not negative"),
+  {NULL}};
+
+static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForce, body, "every body", "a body"),
+  REALS("value", NULL, 3, SceneBodyForce, value, REQUIRED, ANY, "F/L³", "", "force per undeformed volume at factor 1"),
+  NUMBER_OF("ramp", RAMP, SceneBodyForce, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTemperature, body, "every body that expands",
+                                              "a body whose material has an `expansion`"),
+  OWN("value", NULL, SceneTemperature, value, REQUIRED, SceneOwnTemperature, "temperature", "",
+    "above that without stress, at factor 1: a number, or an expression of the undeformed place `x`, `y`, `z`"),
+  NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
+
+static const SceneKey contact_rows[] = {
+  TEXT("mortar", NULL, SceneContactPair, mortar, REQUIRED, "", "a face, best the larger one"),
+  TEXT("nonmortar", NULL, SceneContactPair, nonmortar, REQUIRED, "",
+    "a face, which carries the constraints; best the finer or softer side"),
+  NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
+    "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
+    "mortar face; `dual`: as `mortar`, with dual functions, whose forces act at the nonmortar vertices (see Edges)"),
+  REALS("distance", NULL, 1, SceneContactPair, distance, OPTIONAL, FROM_0, "L", "chosen from the size of the faces",
+    "facets further apart never pair"),
+  OWN("interference", NULL, SceneContactPair, interference, OPTIONAL, SceneOwnInterference, "L", "`false`",
+    "whether the faces are meant to overlap at the start, as of a press fit: `true`, or the largest overlap that is "
+    "meant"),
+  NUMBER_OF("ramp", RAMP, SceneContactPair, interference_ramp, "all of it in the first load step",
+    "a ramp, `load` too, that an `interference` given as a length follows: at factor 0 the faces count as that much "
+    "farther apart"),
+  REALS("friction", NULL, 1, SceneContactPair, friction, OPTIONAL, FROM_0, "", "0: none",
+    "Coulomb's coefficient: the shear of a row is at most this times its pressure, and opposes its slip"),
+  NUMBER_OF("friction_ramp", RAMP, SceneContactPair, friction_ramp, "as it is", "a ramp that the coefficient follows"),
+  REALS("shear_limit", NULL, 1, SceneContactPair, shear_limit, OPTIONAL, FROM_0, "F/L²", "none",
+    "largest shear of the contact; beside `friction` a cap, alone Tresca's law where the faces touch"),
+  OWN("stick", NULL, SceneContactPair, friction, OPTIONAL, SceneOwnStick, "", "`false`",
+    "`true`: faces that touch do not slip while the shear force is below 1,000 times the normal force; without "
+    "`friction` and `shear_limit`"),
+  ANSWER("smooth", NULL, SceneContactPair, smooth, "`true`",
+    "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than 35 "
+    "degrees stay sharp. `false`: the facets are the bodies"),
+  {NULL}};
+
+static const SceneKey tie_rows[] = {TEXT("mortar", NULL, SceneTie, mortar, REQUIRED, "", "a face"),
+  TEXT("nonmortar", NULL, SceneTie, nonmortar, REQUIRED, "",
+    "a face, whose displacements follow those of the other in the mean; best the finer or softer side"),
+  REALS("distance", NULL, 1, SceneTie, distance, OPTIONAL, ABOVE_0, "L", "half the size of a nonmortar facet",
+    "facets further apart are not joined"),
+  {NULL}};
+
+static const SceneKey refinement_rows[] = {
+  OWN("near", NULL, SceneRefinement, face, OPTIONAL, SceneOwnNear, "", "a box",
+    "a contact pair: cells near both of its faces, undeformed; or a face: cells of its body near it"),
+  REALS("lower", NULL, 3, SceneRefinement, lower, SHOWN, ANY, "L", "required without `near`", "lower corner of a box"),
+  REALS("upper", NULL, 3, SceneRefinement, upper, SHOWN, ANY, "L", "required without `near`",
+    "upper corner of the box"),
+  NUMBER_OF("body", BODY, SceneRefinement, body, "any body", "the box's cells of one body only"),
+  INTS("levels", NULL, 1, SceneRefinement, levels, SHOWN, "1",
+    "how often the cells there become eight each, after the uniform refinements; where places overlap the larger "
+    "number counts"),
+  REALS("distance", NULL, 1, SceneRefinement, distance, SHOWN, FROM_0, "L", "0: those that touch it",
+    "from each face, or from the box, of boxes about the cells"),
+  {NULL}};
+
+static const SceneKey probe_rows[] = {
+  REALS("point", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a line", "a point of the undeformed body"),
+  REALS("from", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a point", "one end of a line"),
+  REALS("to", NULL, 3, SceneProbe, to, SHOWN, ANY, "L", "a point", "the other end"),
+  INTS("points", NULL, 1, SceneProbe, n, SHOWN, "a point", "how many points the line has, both ends among them"),
+  NUMBER_OF("body", BODY, SceneProbe, body, "the first of those that touch there",
+    "the body that is meant where bodies touch"),
+  {NULL}};
+
+static const SceneKey load_rows[] = {SECTION("steps", "1", "number of load steps, equal parts from 0 to 1"),
+  SECTION("factors", "", "the factor at the end of each step, in place of `steps`"),
+  SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done, beside `steps`"),
+  SECTION("times", "", "ascending times of a table, beside `steps`: load step k ends at time k"),
+  SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
+
+static const SceneKey ramp_rows[] = {
+  SECTION("factors", "", "the factor at the end of each load step, 0 before the first, linear in between"),
+  SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done"),
+  SECTION("times", "", "ascending times of a table: load step k ends at time k"),
+  SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
+static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
+static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
+static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
+static const SceneBodyForce    body_force_initial   = {.body = PETSC_DECIDE};
+static const SceneTemperature  temperature_initial  = {.body = PETSC_DECIDE};
+static const SceneContactPair  contact_initial      = {.interference_ramp = PETSC_DECIDE,
+        .friction_ramp                                                    = PETSC_DECIDE,
+        .shear_limit                                                      = PETSC_INFINITY,
+        .smooth                                                           = PETSC_TRUE};
+static const SceneRefinement   refinement_initial   = {.body = PETSC_DECIDE, .levels = 1};
+static const SceneProbe        probe_initial        = {.body = PETSC_DECIDE, .n = 1};
+static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY, PETSC_NINFINITY, PETSC_NINFINITY},
+               .upper                                         = {PETSC_INFINITY, PETSC_INFINITY, PETSC_INFINITY}};
+
+#define OF_SCENE(n, list) .count = offsetof(struct _n_Scene, n), .entries = offsetof(struct _n_Scene, list)
+
+/* As they are shown. Lists that others hold the entries of come after them */
+const SceneList SceneLists[] = {
+  {.name = "", .rows = top_rows},
+  {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE,
+    .finish = SceneFinishBody},
+  {"faces", face_rows, sizeof(SceneSubface), .initial = &face_initial},
+  {"displacements", displacement_rows, sizeof(SceneDisplacement), OF_SCENE(ndisplacements, displacements),
+    .initial = &displacement_initial, .finish = SceneFinishDisplacement, .holds = SceneDisplacementIsListed,
+    .hides = SceneDisplacementHides},
+  {"symmetry", symmetry_rows, sizeof(SceneDisplacement), OF_SCENE(ndisplacements, displacements),
+    .holds = SceneDisplacementIsPlane, .shared = PETSC_TRUE},
+  {"pressures", pressure_rows, sizeof(ScenePressure), OF_SCENE(npressures, pressures)},
+  {"tractions", traction_rows, sizeof(SceneTraction), OF_SCENE(ntractions, tractions), .initial = &traction_initial,
+    .holds = SceneTractionIsNone},
+  {"forces", force_rows, sizeof(SceneTraction), OF_SCENE(ntractions, tractions), .initial = &force_initial,
+    .finish = SceneFinishForce, .holds = SceneTractionIsForce, .hides = SceneForceHides, .shared = PETSC_TRUE},
+  {"springs", spring_rows, sizeof(SceneSpring), OF_SCENE(nsprings, springs), .finish = SceneFinishSpring},
+  {"temperatures", temperature_rows, sizeof(SceneTemperature), OF_SCENE(ntemperatures, temperatures),
+    .initial = &temperature_initial},
+  {"body_forces", body_force_rows, sizeof(SceneBodyForce), OF_SCENE(nforces, forces), .initial = &body_force_initial},
+  {"contact", contact_rows, sizeof(SceneContactPair), OF_SCENE(npairs, pairs), .initial = &contact_initial,
+    .finish = SceneFinishPair},
+  {"ties", tie_rows, sizeof(SceneTie), OF_SCENE(nties, ties)},
+  {"refinements", refinement_rows, sizeof(SceneRefinement), OF_SCENE(nrefinements, refinements),
+    .initial = &refinement_initial, .finish = SceneFinishRefinement, .hides = SceneRefinementHides},
+  {"probes", probe_rows, sizeof(SceneProbe), OF_SCENE(nprobes, probes), .initial = &probe_initial,
+    .finish = SceneFinishProbe, .hides = SceneProbeHides},
+  {"materials", material_rows, sizeof(SceneMaterial), .finish = SceneFinishMaterial},
+  {.name = "load", .rows = load_rows},
+  {.name = "ramps", .rows = ramp_rows},
+  {.name = NULL},
+};
+
+/* By its name; NULL: there is none */
+const SceneList *SceneFindList(const char name[])
+{
+  const SceneList *list = SceneLists;
+
+  while (list->name && strcmp(list->name, name)) ++list;
+  return list->name ? list : NULL;
+}
