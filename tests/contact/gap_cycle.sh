@@ -3,11 +3,12 @@
 contact=$AMGF_DIR/bin/contact
 
 "$PYTHON" "$AMGF_DIR/tests/contact/gap_cycle.py" write 16
+coarse="deep in the other body\|times as large as those of the mortar face" # true of so few facets, and beside the point here
 run() {
   name=$1
   shift
   "$contact" ring.yaml -quiet -error_estimate 0 -summary "$name.json" "$@" 2> err
-  echo "$name: exit code $?, $(sed -n 's/^contact: \([a-z]*\).*/\1/p' err | tr '\n' ' ')"
+  echo "$name: exit code $?, $(grep -v "$coarse" err | sed -n 's/^contact: \([a-z]*\).*/\1/p' | tr '\n' ' ')"
 }
 run smooth -contact_update_tol 1e-7 # the ring rolls easily: a gap off by 1e-6 of its push still leaves a force to the side
 run facets -contact_smooth false
