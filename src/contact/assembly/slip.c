@@ -100,7 +100,7 @@ static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, c
 
   PetscFunctionBegin;
   PetscCall(MatGetRow(couplings, row, &n, &node, &value));
-  *cover = PetscMin(SlipCover(n, value), mass); /* dual functions are negative in places */
+  *cover = SlipCover(n, value);
   for (PetscInt k = 0; k < n; ++k) {
     const PetscInt rows[2] = {to, to + 1}, columns[3] = {3 * node[k], 3 * node[k] + 1, 3 * node[k] + 2};
     PetscScalar    entries[6];
@@ -154,10 +154,14 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscCall(MatGetOwnershipRange(lin->slip, &start, NULL));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    const ContactPairData *pair = &contact->pairs[lin->pair[k]];
+
     SlipRowTangents(contact, kept[k], &lin->tangent[6 * k]);
-    if (contact->pairs[lin->pair[k]].rubs)
-      PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
-        lin->slip, &lin->covered[k]));
+    if (!pair->rubs) continue;
+    PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
+      lin->slip, &lin->covered[k]));
+    /* Dual functions are negative in places, which counts as cover */
+    if (pair->gap == GAP_DUAL || pair->dual) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));
