@@ -126,7 +126,7 @@ static PetscErrorCode Report(Tao tao, const char name[], PetscReal *optimum)
     Said((PetscBool)(count.filters > 0)), Said((PetscBool)(count.direct > 0)), Said((PetscBool)(count.failures > 0)),
     Said((PetscBool)(shifted > 0))));
   if (reason < 0)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  after %s iterations: %.20s...; %.31s\n", sum <= 20 ? "few" : "MANY",
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  after %s iterations: %.20s...; %.17s\n", sum <= 20 ? "few" : "MANY",
       sentence, strstr(sentence, "; ") ? strstr(sentence, "; ") + 2 : "no more is said"));
   else if (*optimum == PETSC_INFINITY) *optimum = f;
   else
