@@ -139,13 +139,13 @@ static PetscErrorCode TestRandomAreas(PetscRandom r)
       continue;
     }
     ++noverlap;
-    ContactIntegrate(&o, x1, x2, normals, &m);
+    ContactIntegrate(&o, x1, x2, normals, NULL, &m);
     for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
     area  = PetscMax(area, PetscAbsReal(o.area - exact) / size);
     unity = PetscMax(unity, PetscAbsReal(sum - exact) / size);
     for (PetscInt a = 0; a < 4; ++a) gaperror = PetscMax(gaperror, PetscAbsReal(m.gap[a] - h * Weight(&m, a)) / size);
     for (PetscInt i = 0; i < 12; ++i) normals[i] = motion.R[i % 3][0];
-    ContactIntegrate(&o, x1, x2, normals, &m);
+    ContactIntegrate(&o, x1, x2, normals, NULL, &m);
     for (PetscInt a = 0; a < 4; ++a) slip = PetscMax(slip, PetscAbsReal(m.gap[a]) / size);
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "random convex facets: %s\n",
@@ -249,7 +249,7 @@ static PetscErrorCode TestParallelograms(PetscRandom r)
     Move(&motion, x2);
     PetscCheck(ContactOverlapFind(x1, x2, &limits, &rule, &o), PETSC_COMM_SELF, PETSC_ERR_PLIB,
       "Overlapping parallelograms were not found");
-    ContactIntegrate(&o, x1, x2, normals, &m);
+    ContactIntegrate(&o, x1, x2, normals, NULL, &m);
     size = (to[0] - from[0]) * (to[1] - from[1]);
     for (PetscInt a = 0; a < 4; ++a) {
       for (PetscInt b = 0; b < 4; ++b) {
@@ -316,7 +316,7 @@ static PetscErrorCode TestDegenerate(PetscRandom r)
       Move(&motion, x1);
       Move(&motion, x2);
       if (ContactOverlapFind(x1, x2, &limits, &rule, &o)) {
-        ContactIntegrate(&o, x1, x2, normals, &m);
+        ContactIntegrate(&o, x1, x2, normals, NULL, &m);
         for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
       }
       sum /= scale * scale;
@@ -360,7 +360,7 @@ static PetscErrorCode TestWarped(PetscRandom r)
     }
     if (!ContactOverlapFind(x1, x2, &limits, &rule, &o)) continue;
     ++noverlap;
-    ContactIntegrate(&o, x1, x2, normals, &m);
+    ContactIntegrate(&o, x1, x2, normals, NULL, &m);
     for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
     unity = PetscMax(unity, PetscAbsReal(sum - o.area) / o.area);
     for (PetscInt k = 0; k < o.n; ++k) {
@@ -376,8 +376,8 @@ static PetscErrorCode TestWarped(PetscRandom r)
       x1[i] += eps * d1[i];
       x2[i] += eps * d2[i];
     }
-    ContactIntegrate(&o, x1, x2, normals, &plus);
-    ContactIntegrate(&o, y1, y2, normals, &minus);
+    ContactIntegrate(&o, x1, x2, normals, NULL, &plus);
+    ContactIntegrate(&o, y1, y2, normals, NULL, &minus);
     for (PetscInt a = 0; a < 4; ++a) {
       PetscReal J = 0.0;
 
@@ -697,7 +697,7 @@ static void CheckPair(const PetscReal x1[12], const PetscReal x2[12], PetscReal 
     return;
   }
   ++*noverlaps;
-  ContactIntegrate(&o, x1, x2, normals, &m);
+  ContactIntegrate(&o, x1, x2, normals, NULL, &m);
   for (PetscInt i = 0; i < 16; ++i) {
     sum[0] += m.D[i / 4][i % 4];
     sum[1] += m.M[i / 4][i % 4];
