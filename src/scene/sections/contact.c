@@ -89,7 +89,7 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
   if (pair->interference_ramp >= 0 && interference &&
       (pair->interference >= PETSC_INFINITY || pair->interference == 0.0))
     PetscCall(SceneKeysComplain(keys,
-      "%s_interference is true, false or 0; one that follows a ramp is the largest overlap that is meant", owner));
+      "%s_interference is true, false or 0; with a ramp it must be the largest intended overlap", owner));
   if (pair->friction_ramp >= 0 && !coefficient)
     PetscCall(SceneKeysComplain(keys, "%s_friction_ramp is what a coefficient follows, but %s_friction is missing",
       owner, owner));
