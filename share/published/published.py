@@ -32,7 +32,7 @@ BOOMERAMG = {"coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": "4", "stro
 AMG_ALONE = (IP + "pc_type", "hypre", IP + "ksp_max_it", AMG_LIMIT, *(word for key, value in BOOMERAMG.items() for word in (f"{IP}pc_hypre_boomeramg_{key}", value)))
 OPTIONS = ("-options_file", "share/options/published.opts")
 # configuration: options; the limit of a run [s] on mesh 1, quick and full
-WAYS = {"AMGF": (OPTIONS + ("-contact_free", "-info", ":tao"), 300), "AMG": (OPTIONS + AMG_ALONE, 120), "defaults": ((), 120)}
+WAYS = {"AMGF": (OPTIONS + ("-contact_free", "-info", ":tao"), 300), "AMG": (OPTIONS + AMG_ALONE, 100), "defaults": ((), 120)}
 LIMITS = {1: 1, 2: 10, 3: 40, 4: 60}  # times that of mesh 1
 DEVIATION = 0.10  # above which a value is marked
 EXPLANATIONS = os.path.join(HERE, "explanations.json")
