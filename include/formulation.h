@@ -12,7 +12,7 @@
 #define ELEMENT_TYPES(ELEMENT) \
   ELEMENT(FULL, Full, "full") /* full integration; locks as Poisson's ratio nears 1/2, and in bending */ \
   ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation: the volume change is constant in an element (B-bar, F-bar) */ \
-  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* incompatible modes: locks in neither way; small strain only */
+  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* no locking in bending or near nu = 1/2; small strain */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
 typedef enum {

@@ -42,7 +42,7 @@ displacements:
 SCENE
 run turned_rigid
 
-# A die whose contact is one facet wide or so slides by half a facet a step; then over smaller facets
+# A die slides by half a facet per load step. Its contact is about one facet wide; on the finer mesh it is wider
 for cells in 16 48; do
   cat > slide_$cells.yaml <<SCENE
 problem: slide

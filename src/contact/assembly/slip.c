@@ -160,7 +160,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
     if (!pair->rubs) continue;
     PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
       lin->slip, &lin->covered[k]));
-    /* Dual functions are negative in places, which counts as cover */
+    /* Dual functions have negative values. SlipCover() adds their sizes and finds too large an area */
     if (pair->gap == GAP_DUAL || pair->dual) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));

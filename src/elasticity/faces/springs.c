@@ -1,5 +1,4 @@
-/* Springs between the bodies and the ground, a stiffness of each unknown, E = sum k u^2/2, and between bodies, E =
-   u^T S u/2 */
+/* Springs. To the ground: one stiffness k an unknown, E = sum k u^2/2. Between bodies: a matrix S, E = u^T S u/2. */
 #include "facesimpl.h"
 
 /*@
