@@ -136,7 +136,7 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   if (*missed) {
     if (sim->monitor)
       PetscCall(PetscPrintf(sim->comm,
-        "Faces beyond the search distance went through each other by %g: searched again, to a distance of %g\n",
+        "Faces beyond the contact search distance penetrated by %g: searched again up to a distance of %g\n",
         -(double)least, (double)*reach));
     PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = wide;
@@ -183,7 +183,7 @@ static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepRepor
       "contact did not converge: after %" PetscInt_FMT
       " contact updates %s still changes by %g, more than %g of the largest displacement",
       report->contact_updates,
-      report->untruth > report->gap_change ? "the slip, or what the normals turn by," : "the gap",
+      report->untruth > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
       (double)report->untruth, (double)sim->tolerances.gap_untrue));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);

@@ -103,8 +103,8 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
     char            reason[256];
 
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; "
-      "friction, something that holds it, or stiffer springs than weak_springs: %g",
+      "body \"%s\" slides or turns away: it moved by %g, more than its size of %g, and only weak springs hold it; "
+      "add a support, friction, or stiffer springs than weak_springs: %g",
       scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
     if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }

@@ -117,6 +117,6 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
     PetscCall(FollowersLinearize(p));
   } else
     PetscCall(ReportReason(report, PETSC_FALSE,
-      "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
+      "no equilibrium was found with the pressures that follow their faces; use smaller load steps"));
   PetscFunctionReturn(0);
 }

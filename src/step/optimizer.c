@@ -71,7 +71,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
-    "friction is for -tao_type ipfilter, and not for another optimizer");
+    "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
@@ -158,7 +158,7 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "%s; a body may slide away that friction no longer holds, tip over, or be wedged by a large coefficient",
+    "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it",
     report->reason));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
@@ -215,7 +215,8 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(ContactSolutionCreate(lin->g, sol));
   PetscCall(StepProblemConstraint(tao, u, sol->gap, p));
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
-  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP, "-tao_type gives no multipliers, and so no contact pressures");
+  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP,
+    "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));

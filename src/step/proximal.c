@@ -105,7 +105,7 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &way));
   PetscCall(VecWAXPY(way, -1.0, p->centre, u));
-  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found that friction holds"));
+  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
   PetscCall(RigidMotionReport(p->sim, way, "no solve brings it to rest", report));
   PetscCall(VecDestroy(&way));
   p->moves_on = PETSC_TRUE;
@@ -115,10 +115,11 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that forces drive is not held"));
+  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
   PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (!p->unheld)
-    PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found of the rigid bodies that forces drive"));
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "no equilibrium was found for the rigid bodies that are driven by forces"));
   PetscFunctionReturn(0);
 }
 

@@ -128,7 +128,7 @@ PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepRepo
 PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
 /* linear.c, optimizer.c, penalty.c: the three solvers. resume: start from u and from the pressures of the last solve */
-#define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
+#define STEP_INVERTED "the prescribed displacements invert an element at the start of the load step"
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);

@@ -49,6 +49,7 @@ PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization unde
   PetscCall(VecCopy(undeformed->g, sol->gap));
   PetscCall(ContactHistoryStore(&p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
-  PetscCall(ReportReason(report, PETSC_TRUE, "converged: nothing is asked for, the bodies are undeformed"));
+  PetscCall(ReportReason(report, PETSC_TRUE,
+    "converged: loads and prescribed displacements are zero, the bodies are undeformed"));
   PetscFunctionReturn(0);
 }
