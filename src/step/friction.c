@@ -2,7 +2,7 @@
    Coulomb friction. The friction force tau of a contact row is a 2-vector along its tangents. It depends on the slip
    since the last state of equilibrium:
 
-     |tau| <= b,   tau = -b slip/|slip| where the slip is not 0,   b = min(limit, coefficient x normal force of the row).
+     |tau| <= b,   tau = -b slip/|slip| if slip != 0,   b = min(limit, coefficient x normal force of the row).
 
    The optimizer treats these laws as norm terms. Forces are stored between solves in global coordinates, since the
    tangents belong to one linearization.

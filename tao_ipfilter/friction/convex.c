@@ -20,7 +20,7 @@ typedef struct {
   PetscReal  largest;    /* largest compliance of a row [length/force] */
 } TermConvex;
 
-/* Penalty stiffness rho of a row as a multiple of 1/(its compliance). Larger values need fewer rounds. */
+/* Penalty stiffness rho of a row: 100/(its compliance). Larger values need fewer rounds. */
 static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
 {
   const PetscReal times = 100.0;

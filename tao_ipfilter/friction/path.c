@@ -17,8 +17,8 @@ typedef struct {
   PetscReal  m, e;
 } TermPath;
 
-/* Initial point: the same force for all constraints, of the size that moves the rows by about their distance, and w
-   of that distance */
+/* Initial point: the same force for all constraints, chosen so that they move each other by the largest gap; w is
+   the largest gap */
 static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, TermPath *path)
 {
   PetscReal length = 0.0, moved = 0.0, force;

@@ -65,8 +65,8 @@ static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal later    = 0.7,
-                  factored = 10.0; /* ratio of the applications of a later solve to those of the first, and number of
-                                      solves with a factorization */
+                  factored = 10.0; /* later: applications of a later solve, relative to this one; factored: those of a
+                                      factorization in a solve */
   const PetscReal n        = ip->rec.napplications + left,
                   solves   = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
 
