@@ -62,6 +62,11 @@ typedef enum {
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
 } ContactNormals;
 
+#define CONTACT_FEATURE_ANGLE 35.0   /* edges between undeformed facets that make more degrees stay sharp */
+#define CONTACT_NORMAL_COSINE -0.174 /* facets pair when n1.n2 is at most this */
+#define CONTACT_OVERLAP_DROP  1e-8   /* overlaps below this part of the smaller facet's area are left out */
+#define CONTACT_ROW_DROP      1e-5   /* rows whose 1-norm is below this part of the largest row's are left out */
+
 struct _n_Contact {
   DM                       dm;
   MPI_Comm                 comm;
@@ -70,21 +75,16 @@ struct _n_Contact {
   PetscBool                rubs; /* whether any of them does */
   ContactRows              rows;
   ContactNormals           normals;
-  PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
   PetscBool                smoothed;      /* whether it is known which pairs are curved */
   ContactSmoothNormals     bends;
-  Mat         trace; /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
-  ContactRule rule;  /* of the triangles that overlaps are cut into */
-  PetscReal   reach; /* least search distance of pairs without one of their own [length] */
-  PetscReal
-    reach_depth;    /* least search depth of every pair, whatever the angle of the normals; 0: the usual one [length] */
-  PetscReal depth;  /* 0: from the thickness of the bodies */
-  PetscReal cosine; /* facets pair when n1.n2 is at most this */
-  PetscReal overlap_drop; /* relative to the smaller facet's area */
-  PetscReal row_drop;     /* relative to the largest row's 1-norm */
-  PetscInt  nrows;        /* of the last linearization, on all ranks */
+  Mat         trace;     /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
+  ContactRule rule;      /* of the triangles that overlaps are cut into */
+  PetscReal   reach;     /* least search distance of pairs without one of their own [length] */
+  PetscReal reach_depth; /* least search depth of all pairs, for any angle of the normals; 0: the usual one [length] */
+  PetscReal depth;       /* 0: from the thickness of the bodies */
+  PetscInt  nrows;       /* of the last linearization, on all ranks */
 };
 
 /* rows.c: the rows there may be */
