@@ -384,10 +384,10 @@ typedef enum {
 } IPSubspaceUse;
 
 /* Constants of the method. The names are those of Waechter and Biegler (2006), the values of most those of IPOPT */
-#define IP_ACCEPTABLE_TOL   1e-6  /* KKT error accepted where no further progress is made, */
-#define IP_ACCEPTABLE_IT    15    /* and after this many iterates in a row within it */
-#define IP_UNBOUNDED_FACTOR 1e10  /* fall of the objective, against its first size, that counts as unbounded */
-#define IP_ROW_RATIO        100.0 /* scaling of rows: largest gradient at the start, as a multiple of the smallest one */
+#define IP_ACCEPTABLE_TOL   1e-6   /* KKT error accepted where no further progress is made, */
+#define IP_ACCEPTABLE_IT    15     /* and after this many iterates in a row within it */
+#define IP_UNBOUNDED_FACTOR 1e10   /* fall of the objective, against its first size, that counts as unbounded */
+#define IP_ROW_RATIO        100.0  /* scaling of rows: largest gradient at the start, as a multiple of the smallest */
 #define IP_GRADIENT_MAX     100.0  /* scaling by gradients: largest entry of all gradients at the start */
 #define IP_BOUND_PUSH       1e-2   /* distance of the start from its bounds, as a fraction of their size or distance */
 #define IP_PREDICT_MU       0.3    /* predicted start: mu as a fraction of mean length x mean pressure */
