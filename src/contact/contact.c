@@ -127,13 +127,9 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactCheckPairs(dm, npairs, pairs));
   PetscCall(PetscNew(&c));
   PetscCall(PetscObjectReference((PetscObject)dm));
-  c->dm            = dm;
-  c->comm          = PetscObjectComm((PetscObject)dm);
-  c->npairs        = npairs;
-  c->feature_angle = 35.0;
-  c->cosine        = -0.174;
-  c->overlap_drop  = 1e-8;
-  c->row_drop      = 1e-5;
+  c->dm     = dm;
+  c->comm   = PetscObjectComm((PetscObject)dm);
+  c->npairs = npairs;
   PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule));
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBoundaryCreate(dm, &boundary));
@@ -172,21 +168,12 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
 . -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand
                                        for, whatever the pair says
-. -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make more than these degrees stay
-                                       sharp
 . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the
                                        normals of the facets
 . -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every
                                        triangle of an overlap
-. -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the
-                                       square root of the smaller face's area
-. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
-                                       body, or the
-                                       pair's own distance up to 0.9 of what both bodies are thick
-. -contact_normal_cosine <-0.174>    - facets pair when the cosine between their normals is at most this
-. -contact_overlap_drop <1e-8>       - overlaps below this part of the smaller facet's area are left out
-. -contact_row_drop <1e-5>           - rows whose 1-norm is below this part of the largest row's are left out
-- -contact_view                      - prints the contact after every linearization
+- -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
+                                       body, or the pair's own distance up to 0.9 of what both bodies are thick
 
   Level: beginner
 
@@ -194,11 +181,10 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 @*/
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
-  GapType   gap      = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
-  PetscReal distance = contact->npairs ? contact->pairs[0].given : 0.0;
-  PetscInt  degree   = contact->rule.degree;
-  PetscBool smooth   = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
-  PetscBool set_gap, set_distance, set_smooth;
+  GapType   gap    = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
+  PetscInt  degree = contact->rule.degree;
+  PetscBool smooth = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
+  PetscBool set_gap, set_smooth;
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
@@ -206,49 +192,24 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
   PetscCall(PetscOptionsBool("-contact_smooth", "Measure the gap of every pair between smooth surfaces",
     "ContactSetFromOptions", smooth, &smooth, &set_smooth));
-  PetscCall(PetscOptionsReal("-contact_feature_angle", "Angle between facets above which an edge stays sharp [degrees]",
-    "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
   PetscCall(PetscOptionsEnum("-contact_normals", "Direction along which mortar gaps are measured",
     "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature",
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
     degree, &degree, NULL));
-  PetscCall(
-    PetscOptionsReal("-contact_search_distance", "Largest distance of facets that pair (0: from the size of the faces)",
-      "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth",
     "Largest penetration of facets that pair (0: from the thickness of the bodies)", "ContactSetFromOptions",
     contact->depth, &contact->depth, NULL));
-  PetscCall(
-    PetscOptionsReal("-contact_normal_cosine", "Facets pair if the cosine between their normals is at most this",
-      "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
-  PetscCall(PetscOptionsReal("-contact_overlap_drop", "Relative area below which an overlap is ignored",
-    "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
-  PetscCall(PetscOptionsReal("-contact_row_drop", "Relative 1-norm below which a row is ignored",
-    "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
-  PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every contact update", "ContactView", NULL,
-    NULL, NULL));
   PetscOptionsEnd();
-  PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_search_distance must not be negative, but is %g", (double)distance);
   PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
-  PetscCheck(contact->feature_angle >= 0.0 && contact->feature_angle < 90.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_feature_angle must be in [0, 90) degrees, but is %g", (double)contact->feature_angle);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
-  PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
-  PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
   PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
     "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
     "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
-    if (set_distance) contact->pairs[p].given = distance;
     if (set_smooth) contact->pairs[p].smooth = smooth;
   }
   PetscCall(ContactSmoothReset(contact));
@@ -401,9 +362,6 @@ PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
 + contact - the contact
 - viewer  - an ASCII viewer; others are ignored
 
-  Options Database Key:
-. -contact_view - calls this after every linearization
-
   Level: intermediate
 
 .seealso: `ContactLinearize()`
@@ -428,10 +386,6 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
       pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
       nfacing, pair->gap != GAP_NODE ? "overlapping facets" : "vertices over a facet"));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows "
-    "below %g of the largest are left out\n",
-    (double)contact->cosine, (double)contact->overlap_drop, (double)contact->row_drop));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

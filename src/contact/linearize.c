@@ -39,22 +39,6 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactViewFromOptions(Contact contact)
-{
-  PetscViewer       viewer;
-  PetscViewerFormat format;
-  PetscBool         wanted;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsCreateViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
-  if (!wanted) PetscFunctionReturn(0);
-  PetscCall(PetscViewerPushFormat(viewer, format));
-  PetscCall(ContactView(contact, viewer));
-  PetscCall(PetscViewerPopFormat(viewer));
-  PetscCall(PetscViewerDestroy(&viewer));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
@@ -66,9 +50,6 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
 
   Output Parameter:
 . lin - the linearized gap; may have no rows at all
-
-  Options Database Key:
-. -contact_view - prints the pairs, the search distances and the number of rows
 
   Level: beginner
 
@@ -153,7 +134,6 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(ContactViewFromOptions(contact));
   PetscFunctionReturn(0);
 }
 

@@ -47,7 +47,7 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
       const PetscReal *x = &side->x[12 * f + 3 * a];
       ContactNearest   nearest;
 
-      ContactFindNearest(&tree, &facets, contact->cosine, reach, x, n, &nearest);
+      ContactFindNearest(&tree, &facets, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
       if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(&facets, &nearest, x));
     }
   }

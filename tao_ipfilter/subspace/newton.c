@@ -224,7 +224,7 @@ static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
   const PetscReal largest = 0.1, smallest = 1e-3;
   const PetscReal fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
 
-  return PetscMax(fraction * ip->kkt.dual_norm, ip->opt.forcing_last * ip->tol * IPErrorBoundForceUnit(ip));
+  return PetscMax(fraction * ip->kkt.dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
 }
 
 /* Evaluates the Hessian at the present point and adds delta M_u */

@@ -137,7 +137,7 @@ static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row,
   PetscFunctionReturn(0);
 }
 
-/* kept: local rows whose 1-norm, divided by the mass, is at least row_drop times the largest on all ranks */
+/* kept[k]: local rows whose 1-norm, divided by the mass, is not below CONTACT_ROW_DROP of the largest of all ranks */
 static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
@@ -163,7 +163,7 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
   *nkept = 0;
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
-    if (norm[i] > 0.0 && norm[i] >= contact->row_drop * largest) kept[(*nkept)++] = i;
+    if (norm[i] > 0.0 && norm[i] >= CONTACT_ROW_DROP * largest) kept[(*nkept)++] = i;
   }
   PetscCall(PetscFree(norm));
   PetscFunctionReturn(0);

@@ -64,6 +64,11 @@ typedef enum {
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
 } ContactNormals;
 
+#define CONTACT_FEATURE_ANGLE 35.0   /* edges between undeformed facets that make more degrees stay sharp */
+#define CONTACT_NORMAL_COSINE -0.174 /* facets pair when n1.n2 is at most this */
+#define CONTACT_OVERLAP_DROP  1e-8   /* overlaps below this part of the smaller facet's area are left out */
+#define CONTACT_ROW_DROP      1e-5   /* rows whose 1-norm is below this part of the largest row's are left out */
+
 struct _n_Contact {
   DM                       dm;
   MPI_Comm                 comm;
@@ -72,22 +77,16 @@ struct _n_Contact {
   PetscBool                rubs; /* whether any pair has friction */
   ContactRows              rows;
   ContactNormals           normals;
-  PetscReal                feature_angle; /* edges with a larger angle between their facets stay sharp [degrees] */
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
   PetscBool                smoothed;      /* whether ContactSmoothDeform() has found the curved pairs */
   ContactSmoothNormals     bends;
-  Mat         trace;        /* displacement of the surfaces' vertices minus that of the mesh's nodes (trace.c); NULL: no
-                        face has order 2 */
-  ContactRule rule;         /* for the triangles that overlaps are divided into */
-  PetscReal   reach;        /* lower bound of the search distance, for pairs without their own [length] */
-  PetscReal   reach_depth;  /* lower bound of the search depth of every pair; if set, the angle of the normals is not
-                       limited; 0: none [length] */
-  PetscReal   depth;        /* search depth of the option; 0: computed from the thickness of the bodies [length] */
-  PetscReal   cosine;       /* facets pair only if n1.n2 <= cosine */
-  PetscReal   overlap_drop; /* overlaps below this fraction of the smaller facet's area are dropped */
-  PetscReal   row_drop;     /* rows whose 1-norm is below this fraction of the largest are dropped */
-  PetscInt    nrows;        /* rows of the last linearization, on all ranks */
+  Mat         trace;     /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
+  ContactRule rule;      /* of the triangles that overlaps are cut into */
+  PetscReal   reach;     /* least search distance of pairs without one of their own [length] */
+  PetscReal reach_depth; /* least search depth of all pairs, for any angle of the normals; 0: the usual one [length] */
+  PetscReal depth;       /* 0: from the thickness of the bodies */
+  PetscInt  nrows;       /* of the last linearization, on all ranks */
 };
 
 /* rows.c: all possible rows */

@@ -35,7 +35,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
 /* Collective. Creates the rings around both faces, and destroys them again if both are plane and of order 1 */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
-  const PetscReal cosine     = PetscCosReal(contact->feature_angle * PETSC_PI / 180.0);
+  const PetscReal cosine     = PetscCosReal(CONTACT_FEATURE_ANGLE * PETSC_PI / 180.0);
   ContactSurface *surface[2] = {&pair->mortar, &pair->nonmortar};
   ContactRing    *ring[2]    = {&pair->mortar_ring, &pair->nonmortar_ring};
   PetscReal       largest[4] = {0};

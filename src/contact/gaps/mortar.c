@@ -175,7 +175,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
-  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop,
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : CONTACT_NORMAL_COSINE, CONTACT_OVERLAP_DROP,
     pair->distance + pair->bulge, pair->depth + pair->bulge};
   ContactNear                near;
 
