@@ -26,12 +26,12 @@ typedef struct {
 #define AMGF_LAG_NEVER (-1)
 #define AMGF_LAG_UNSET (-2)
 
+/* Automatic lag: growth of the costs, or of a diagonal entry outside the subspace, above which the AMG is rebuilt */
+#define AMGF_LAG_RATIO 1.5
+
 /* When to rebuild the AMG */
 typedef struct {
-  PetscInt every; /* as PCAMGFSetAMGLag() */
-  PetscReal
-    ratio; /* automatic lag: ratio of the costs, or of diagonal entries outside the subspace, above which the AMG is
-              rebuilt */
+  PetscInt  every; /* as PCAMGFSetAMGLag() */
   PetscBool built;
   PetscInt  age;      /* changed operators since the last rebuild */
   AMGFStamp seen;     /* operator at the last set-up */

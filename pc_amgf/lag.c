@@ -57,7 +57,7 @@ static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
     PetscCall(MatGetDiagonal(pc->pmat, diagonal));
     PetscCall(LagDiagonalDrift(amgf, diagonal, &drift));
     PetscCall(VecDestroy(&diagonal));
-    if (drift > amgf->lag.ratio) *rebuild = PETSC_TRUE;
+    if (drift > AMGF_LAG_RATIO) *rebuild = PETSC_TRUE;
   } else *rebuild = PETSC_TRUE; /* automatic lag was set after the AMG was built: there is nothing to compare with */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rebuild, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   PetscFunctionReturn(0);
@@ -170,10 +170,10 @@ static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   const PetscBool perdigit = (PetscBool)(lag->digits > 0.0 && digits > 0.0);
-  const PetscReal allowed  = lag->ratio * lag->its * (perdigit ? digits / lag->digits : 1.0);
+  const PetscReal allowed  = AMGF_LAG_RATIO * lag->its * (perdigit ? digits / lag->digits : 1.0);
 
   if (its <= allowed + LAG_FREE_ITERATIONS) return PETSC_FALSE;
-  if (perdigit && digits > 2.0 * lag->digits && its <= lag->ratio * allowed + LAG_FREE_ITERATIONS) {
+  if (perdigit && digits > 2.0 * lag->digits && its <= AMGF_LAG_RATIO * allowed + LAG_FREE_ITERATIONS) {
     LagSetReference(lag, its, digits);
     return PETSC_FALSE;
   }

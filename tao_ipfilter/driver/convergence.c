@@ -56,7 +56,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol && OwnMet(ip));
+  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
 }
 
 /* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
@@ -206,9 +206,9 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
       (double)ip->first.f, (double)lowest));
     ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, or the last step, no other does */
-  } else if (ip->rec.nacceptable >= ip->opt.acceptable_it && IPConstraintsMet(tao)) {
+  } else if (ip->rec.nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g",
-      (double)IPBothErrors(ip), (double)ip->opt.acceptable_tol, (double)ip->tol));
+      (double)IPBothErrors(ip), (double)IP_ACCEPTABLE_TOL, (double)ip->tol));
   }
   PetscFunctionReturn(0);
 }

@@ -57,9 +57,7 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
-  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0
-                  ? PetscMax(1.0, largest / ip->opt.gradient_max)
-                  : 1.0;
+  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT ? PetscMax(1.0, largest / IP_GRADIENT_MAX) : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
@@ -137,11 +135,11 @@ static PetscErrorCode ResetSolve(Tao tao)
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
-  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
+  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
   const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol),
                   same = 1.01;
 
-  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol)
+  if (acceptable || ip->rec.best_error <= IP_ACCEPTABLE_TOL)
     return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
 }
@@ -379,7 +377,7 @@ static PetscErrorCode EndTerms(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error <= ip->opt.acceptable_tol)
+  if (ip->rec.best_error <= IP_ACCEPTABLE_TOL)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec.best_error,
       (double)ip->tol));

@@ -5,8 +5,8 @@
    indicates an unbounded one */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
-  return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
-                                      PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
+                                 PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
 /* Whether every unknown has two bounds, or is fixed: no objective falls without end between them */

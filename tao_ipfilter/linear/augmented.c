@@ -358,7 +358,7 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
   PetscCall(AugmentedUnit(tao, &unit));
-  ip->aug.delta    = ip->opt.delta_equality * unit;
+  ip->aug.delta    = IP_DELTA_EQUALITY * unit;
   ip->aug.centered = PETSC_TRUE;
   PetscCall(AugmentedAssemble(tao, ip->cond.A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));

@@ -94,7 +94,7 @@ static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!IPUndefined(ip->lin.norm) &&
-                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
+                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, IP_FORCING_MAX * ip->lin.rhs));
 }
 
 /* In the order in which they are tried: what is changed first, if anything can be, and who solves then */

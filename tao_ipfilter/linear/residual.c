@@ -35,7 +35,7 @@ PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
   if (ip->lin.backward_error <= IP_ROUNDING) return PETSC_TRUE;
   if (ip->opt.forcing == IP_FORCING_FIXED)
-    return (PetscBool)(reason > 0 && ip->lin.norm <= ip->opt.forcing_max * ip->lin.rhs);
+    return (PetscBool)(reason > 0 && ip->lin.norm <= IP_FORCING_MAX * ip->lin.rhs);
   return (PetscBool)(ip->lin.norm <= 2.0 * ip->lin.target);
 }
 

@@ -144,7 +144,7 @@ PetscReal IPBothErrors(const TAO_IPFILTER *ip)
 static PetscErrorCode OwnNearEnd(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal near = PetscMax(ip->tol, ip->opt.acceptable_tol);
+  const PetscReal near = PetscMax(ip->tol, IP_ACCEPTABLE_TOL);
 
   PetscFunctionBegin;
   ip->kkt.own = 0.0;

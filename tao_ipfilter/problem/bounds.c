@@ -112,7 +112,7 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : ip->opt.bound_push;
+  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : IP_BOUND_PUSH;
   Vec                v[2] = {tao->XL, tao->XU};
   const PetscScalar *b[2] = {NULL, NULL};
   PetscScalar       *x;

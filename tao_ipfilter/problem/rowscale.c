@@ -1,7 +1,7 @@
 /*
    Scales constraints by their gradients at the start: row d_i c_i with d_i such that its gradient is at most
-   row_ratio times the smallest one, or gradient_max. With row_ratio, rows of similar size stay unscaled, whatever the
-   units. The whole iteration uses scaled rows; multipliers and slacks are scaled back on return.
+   IP_ROW_RATIO times the smallest one, or IP_GRADIENT_MAX. With the ratio, rows of similar size stay unscaled, whatever
+   the units. The whole iteration uses scaled rows; multipliers and slacks are scaled back on return.
 */
 #include "problemimpl.h"
 
@@ -10,7 +10,7 @@
 /* Largest entry that a row may keep: a multiple of that of the smallest row, or one that is given */
 static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
 {
-  return opt->scaling == IP_SCALING_GRADIENT ? opt->gradient_max : opt->row_ratio * smallest;
+  return opt->scaling == IP_SCALING_GRADIENT ? IP_GRADIENT_MAX : IP_ROW_RATIO * smallest;
 }
 
 /* d = NULL where no row is larger than the limit */
@@ -54,9 +54,7 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->opt.scaling == IP_SCALING_NONE ||
-      (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0)
-    PetscFunctionReturn(0);
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
   if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
   if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
   *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);

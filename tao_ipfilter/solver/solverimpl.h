@@ -383,29 +383,56 @@ typedef enum {
   IP_SUBSPACE_AUTO
 } IPSubspaceUse;
 
+/* Constants of the method. The names are those of Waechter and Biegler (2006), the values of most those of IPOPT */
+#define IP_ACCEPTABLE_TOL   1e-6   /* KKT error accepted where no further progress is made, */
+#define IP_ACCEPTABLE_IT    15     /* and after this many iterates in a row within it */
+#define IP_UNBOUNDED_FACTOR 1e10   /* fall of the objective, against its first size, that counts as unbounded */
+#define IP_ROW_RATIO        100.0  /* scaling of rows: largest gradient at the start, as a multiple of the smallest */
+#define IP_GRADIENT_MAX     100.0  /* scaling by gradients: largest entry of all gradients at the start */
+#define IP_BOUND_PUSH       1e-2   /* distance of the start from its bounds, as a fraction of their size or distance */
+#define IP_PREDICT_MU       0.3    /* predicted start: mu as a fraction of mean length x mean pressure */
+#define IP_PREDICT_FORCING  0.1    /* and forces out of balance as a fraction of those that the rows transmit */
+#define IP_WARM_MU          3e-2   /* warm start: least mu as a fraction of the mean product of length and pressure */
+#define IP_KAPPA_EPSILON    10.0   /* monotone: mu falls once the barrier error is below this many times mu, */
+#define IP_KAPPA_DUAL       0.1    /* and, by the relative measure, the imbalance of forces below this; */
+#define IP_KAPPA_MU         0.2    /* then mu falls by this factor, */
+#define IP_THETA_MU         1.5    /* or to this power, */
+#define IP_MU_REDUCTIONS    1      /* at most so often at an iteration after the first */
+#define IP_KAPPA_PROGRESS   0.9999 /* Mehrotra: fall of the KKT error against the worst of four, or mu is monotone */
+#define IP_TAU_MIN          0.99   /* least fraction to the boundary */
+#define IP_KAPPA_SIGMA      1e10   /* multipliers are kept within this factor of mu / s */
+#define IP_GAMMA_THETA      1e-5   /* filter: sufficient reduction of the constraint violation theta */
+#define IP_DELTA_SWITCH     1.0    /* constant of the switching condition, */
+#define IP_S_THETA          1.1    /* exponent of the violation */
+#define IP_S_PHI            2.3    /* and of the descent in it */
+#define IP_GAMMA_ALPHA      0.05   /* safety factor of the smallest step */
+#define IP_THETA_MIN_FACT   1e-4   /* violation below which Armijo may decide, as a fraction of the first */
+#define IP_THETA_MAX_FACT   1e4    /* largest violation accepted, as a multiple of the first */
+#define IP_OBJ_MAX_INC      1e5    /* largest rise of the barrier function for less violation, against its size */
+#define IP_KAPPA_SOC        0.99   /* reduction of the violation by a correction that is continued */
+#define IP_KAPPA_CURVATURE  1e-11  /* curvature d^T W d that a direction must have, as a fraction of d^T d */
+#define IP_DELTA_FIRST      1e-4   /* first multiple of M_u that is added to the Hessian, in its unit, */
+#define IP_DELTA_GROW_FIRST 100.0  /* its growth before one has worked, */
+#define IP_DELTA_GROW       8.0    /* its growth later, */
+#define IP_DELTA_SHRINK     (1.0 / 3.0) /* and its decrease from one step to the next */
+#define IP_DELTA_EQUALITY   1e-8  /* regularization of dependent equality constraints, in units of J_E H^-1 J_E^T */
+#define IP_FORCING_MAX      0.1   /* adaptive forcing: linear residual while mu falls, of the forces in balance, */
+#define IP_FORCING_REDUCE   0.7   /* as a fraction of the last stationarity residual, */
+#define IP_FORCING_LAST     0.5   /* and as a fraction of the tolerance in the step that would finish */
+#define IP_FILTER_THRESHOLD 1e-12 /* least entry, relative to the largest, of columns of J in the filter subspace */
+
 /* Parameters that the user may set; the names are those of the options in opts.c */
 typedef struct {
-  PetscReal     acceptable_tol;
-  PetscInt      acceptable_it;
-  IPStart       start;
-  IPBarrierRule barrier;
-  IPKKTMeasure  measure;
-  IPForcing     forcing;
-  IPScaling     scaling;
-  PetscBool     monitor;
-  PetscReal     delta_equality, kappa_progress;
-  PetscReal     mu0, s0, z0, mu_start, mu_warm, forcing_start;
-  PetscReal     kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
-  PetscInt      max_mu_first, max_mu_later;
-  PetscReal gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact,
-    obj_max_inc;
-  PetscInt         max_soc;
-  PetscReal        kappa_soc;
-  PetscReal        forcing_max, forcing_reduce, forcing_last;
-  PetscReal        kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal        filter_threshold, filter_switch, row_ratio, gradient_max;
+  IPStart          start;
+  IPBarrierRule    barrier;
+  IPKKTMeasure     measure;
+  IPForcing        forcing;
+  IPScaling        scaling;
+  PetscBool        monitor;
+  PetscReal        mu0, s0, z0;
+  PetscInt         max_mu_first, max_soc;
+  PetscReal        gamma_phi, eta_phi, delta_max, filter_switch;
   PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: what the scaling has */
-  PetscReal        bound_push, unbounded_factor;
   PetscReal        direct_memory;
   PetscBool        direct_always;
   IPSubspaceUse    subspace;

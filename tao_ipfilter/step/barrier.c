@@ -24,8 +24,8 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = &ip->kkt;
-  const PetscReal limit   = ip->opt.kappa_epsilon * mu,
-                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
+  const PetscReal limit   = IP_KAPPA_EPSILON * mu,
+                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, IP_KAPPA_DUAL);
 
   return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
 }
@@ -34,13 +34,13 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscInt limit = tao->niter ? ip->opt.max_mu_later : ip->opt.max_mu_first;
+  const PetscInt limit = tao->niter ? IP_MU_REDUCTIONS : ip->opt.max_mu_first;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
     const PetscReal next =
-      PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+      PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(IP_KAPPA_MU * mu, PetscPowReal(mu, IP_THETA_MU)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -85,7 +85,7 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   PetscReal      worst  = 0.0;
 
   for (PetscInt k = 0; k < PetscMin(ip->bar.nerrors, length); k++) worst = PetscMax(worst, ip->bar.errors[k]);
-  if (ip->bar.nerrors >= length && ip->kkt.error > ip->opt.kappa_progress * worst) return PETSC_FALSE;
+  if (ip->bar.nerrors >= length && ip->kkt.error > IP_KAPPA_PROGRESS * worst) return PETSC_FALSE;
   ip->bar.errors[ip->bar.nerrors++ % length] = ip->kkt.error;
   return PETSC_TRUE;
 }

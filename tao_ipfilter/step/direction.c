@@ -90,7 +90,7 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal kappa     = ip->opt.kappa_curvature;
+  const PetscReal kappa     = IP_KAPPA_CURVATURE;
   PetscReal       curvature = 0.0, square = 0.0, step, size;
 
   PetscFunctionBegin;
@@ -136,9 +136,9 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
    start */
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
-  PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
+  PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale.dual, IP_FORCING_REDUCE * ip->kkt.dual_norm);
 
-  if (!ip->mi && !ip->me) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
+  if (!ip->mi && !ip->me) loose = PetscMin(loose, IP_FORCING_MAX * rhs);
   return PetscMax(loose, last);
 }
 
@@ -166,7 +166,7 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal factor = ip->opt.forcing_last * ip->tol;
+  const PetscReal factor = IP_FORCING_LAST * ip->tol;
   PetscReal       norm, last = factor * IPErrorBoundForceUnit(ip);
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;

@@ -29,8 +29,8 @@ static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, Pe
 static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
 {
   if (slope >= 0.0) return PETSC_FALSE;
-  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) >
-                     ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
+  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, IP_S_PHI) >
+                     IP_DELTA_SWITCH * PetscPowReal(ip->search.theta / ip->search.theta_ref, IP_S_THETA));
 }
 
 /* Violation that theta's limits are fractions and multiples of */
@@ -44,7 +44,7 @@ static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = &ip->search;
   const PetscReal trace = 1e-10, worth = 1e-2,
-                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
+                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : IP_OBJ_MAX_INC;
 
   return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY
                                             : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
@@ -67,11 +67,11 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
 
   PetscFunctionBegin;
   *objective = (PetscBool)(alone || (switches && armijo));
-  if (theta > opt->theta_max_fact * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
-  else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
+  if (theta > IP_THETA_MAX_FACT * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
+  else if (alone || (search->theta <= IP_THETA_MIN_FACT * first && switches)) *accepted = armijo;
   else
     *accepted =
-      (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta ||
+      (PetscBool)(theta <= (1.0 - IP_GAMMA_THETA) * search->theta ||
                   change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
   descends = *accepted;
   if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
@@ -83,13 +83,12 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
 static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
 {
   const PetscReal theta = ip->search.theta / ip->search.theta_ref, descent = -slope / ip->search.phi_ref;
-  PetscReal       least = ip->opt.gamma_theta;
+  PetscReal       least = IP_GAMMA_THETA;
 
   if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
-  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip))
-    least = PetscMin(least,
-      ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
-  return PetscMax(ip->opt.gamma_alpha * least, 1e-12);
+  if (descent > 0.0 && ip->search.theta <= IP_THETA_MIN_FACT * SearchFirstViolation(ip))
+    least = PetscMin(least, IP_DELTA_SWITCH * PetscPowReal(theta, IP_S_THETA) / PetscPowReal(descent, IP_S_PHI));
+  return PetscMax(IP_GAMMA_ALPHA * least, 1e-12);
 }
 
 /* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own
@@ -106,7 +105,7 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
     if (!p->n) continue;
     if (b != IP_SLACK) PetscCall(VecCopy(p->trial, p->t));
     PetscCall(VecAXPY(p->z, dual, p->dz));
-    PetscCall(IPPairSafeguard(p, ip->mu, ip->opt.kappa_sigma));
+    PetscCall(IPPairSafeguard(p, ip->mu, IP_KAPPA_SIGMA));
   }
   if (ip->mi) {
     PetscCall(VecAXPY(ip->at.lambda, alpha, ip->dir.lambda));
@@ -190,7 +189,7 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
     ip->search.ntrials++;
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
     if (*ok) PetscCall(SearchAccept(tao, step, dual, objective, PETSC_TRUE));
-    else if (!finite || theta > ip->opt.kappa_soc * last) break;
+    else if (!finite || theta > IP_KAPPA_SOC * last) break;
     last = theta;
   }
   PetscFunctionReturn(0);
@@ -246,7 +245,7 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal tau   = PetscMax(ip->opt.tau_min, 1.0 - ip->mu / ip->scale.product);
+  const PetscReal tau   = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale.product);
   PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
 
   PetscFunctionBegin;

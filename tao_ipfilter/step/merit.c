@@ -145,7 +145,7 @@ PetscErrorCode IPMeritFilterAdd(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->opt.gamma_theta) * ip->search.theta,
+  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - IP_GAMMA_THETA) * ip->search.theta,
     ip->search.phi - ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta));
   PetscFunctionReturn(0);
 }

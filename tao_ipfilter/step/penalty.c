@@ -97,10 +97,10 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
   for (PetscInt pass = 0; pass < 3 && *usable; pass++) {
     PetscReal force;
 
-    target *= ip->opt.forcing_start;
+    target *= IP_PREDICT_FORCING;
     PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
     PetscCall(PenaltyTransmitted(tao, &force));
-    if (ip->lin.norm <= ip->opt.forcing_start * force || force == 0.0) break;
+    if (ip->lin.norm <= IP_PREDICT_FORCING * force || force == 0.0) break;
     target = force;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));

@@ -8,9 +8,9 @@
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
 {
   if (ip->shift.delta == 0.0)
-    return ip->shift.last > 0.0 ? PetscMax(ip->opt.delta_shrink * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
-                                : ip->opt.delta_first * unit;
-  return (ip->shift.last > 0.0 ? ip->opt.delta_grow : ip->opt.delta_grow_first) * ip->shift.delta;
+    return ip->shift.last > 0.0 ? PetscMax(IP_DELTA_SHRINK * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
+                                : IP_DELTA_FIRST * unit;
+  return (ip->shift.last > 0.0 ? IP_DELTA_GROW : IP_DELTA_GROW_FIRST) * ip->shift.delta;
 }
 
 /* The unit of delta: typical diagonal entry of H over typical mass */

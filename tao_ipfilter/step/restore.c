@@ -144,7 +144,7 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
   PetscFunctionBegin;
   *alpha = 1.0;
   PetscCall(IPBoundsDirection(tao));
-  PetscCall(IPFractionToBoundary(tao, IP_LOWER, ip->opt.tau_min, alpha, NULL));
+  PetscCall(IPFractionToBoundary(tao, IP_LOWER, IP_TAU_MIN, alpha, NULL));
   for (PetscInt k = 0; k < halvings; k++, *alpha *= 0.5) {
     PetscReal trial;
 

@@ -141,11 +141,11 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscCall(MeanMagnitude(tao, z, &pressure));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
-  ip->mu = moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
+  ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
   PetscCall(BoundsErrorBound(tao, &worth));
-  ip->mu = PetscMax(ip->mu, ip->opt.mu_start * worth);
+  ip->mu = PetscMax(ip->mu, IP_PREDICT_MU * worth);
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -220,7 +220,7 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff.rho));
   PetscCall(VecAYPX(q, -1.0, slack->t));
   PetscCall(MeanProduct(tao, q, &mean));
-  ip->mu = PetscMax(average, mismatch * ip->opt.mu_warm * (mean > 0.0 ? mean : 1.0));
+  ip->mu = PetscMax(average, mismatch * IP_WARM_MU * (mean > 0.0 ? mean : 1.0));
   PetscCall(IPSlackCentral(tao, q, ip->mu, slack->t, slack->z));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -238,7 +238,7 @@ static PetscErrorCode StartWarmBounds(Tao tao)
   PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPBarrierAverage(tao, &average));
   PetscCall(IPWarmMeanProduct(tao, &mean));
-  ip->mu = PetscMax(average, PetscMax(mismatch * ip->opt.mu_warm, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
+  ip->mu = PetscMax(average, PetscMax(mismatch * IP_WARM_MU, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
   PetscFunctionReturn(0);
 }
 
@@ -252,11 +252,11 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscFunctionBegin;
   if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
     PetscCall(IPFreeStep(tao, &moved, &mean));
-  if (moved) ip->mu = ip->opt.mu_start * mean;
+  if (moved) ip->mu = IP_PREDICT_MU * mean;
   else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
-    ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
+    ip->mu = IP_PREDICT_MU * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);

@@ -3,9 +3,8 @@
 #include "systemimpl.h"
 
 /* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
-PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
+PetscErrorCode IPSubspaceOf(Mat J, IS *is)
 {
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   Vec                mark;
   const PetscScalar *a;
   PetscReal          local = 0.0, largest;
@@ -26,7 +25,7 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
       PetscCall(MatGetRow(J, i, &nc, &cols, &v));
       for (PetscInt k = 0; k < nc; k++) {
         if (!pass) local = PetscMax(local, PetscAbsScalar(v[k]));
-        else if (PetscAbsScalar(v[k]) > ip->opt.filter_threshold * largest)
+        else if (PetscAbsScalar(v[k]) > IP_FILTER_THRESHOLD * largest)
           PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
       }
       PetscCall(MatRestoreRow(J, i, &nc, &cols, &v));
@@ -60,7 +59,7 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionBegin;
   if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state)
     PetscFunctionReturn(0);
-  PetscCall(IPSubspaceOf(tao, rows->J, &filter));
+  PetscCall(IPSubspaceOf(rows->J, &filter));
   cond->filter_id    = rows->stamp.value_id;
   cond->filter_state = rows->stamp.value_state;
   if (cond->filter) PetscCall(ISEqual(filter, cond->filter, &same));

@@ -20,7 +20,7 @@ PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, Pets
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPSubspaceOf(Tao, Mat, IS *);
+PETSC_INTERN PetscErrorCode IPSubspaceOf(Mat, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, Mat, IS, IS *);
