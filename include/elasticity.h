@@ -75,6 +75,15 @@ PETSC_EXTERN PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], Petsc
 /* Estimated squared discretization error in the energy norm: of each body, and of each local cell unless cells is
    NULL [force length] */
 PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal bodies[], PetscReal *cells[]);
+/* Of laws with a history: makes that at u the one of the last state of equilibrium. Whether any point has one;
+   plastic work, and of each body the largest equivalent plastic strain; plastic strain (xx yy zz xy yz zx) and its
+   equivalent, means over local cells; the points themselves */
+PETSC_EXTERN PetscErrorCode ElasticityCommit(Elasticity, Vec u);
+PETSC_EXTERN PetscErrorCode ElasticityHasYielded(Elasticity, PetscBool *);
+PETSC_EXTERN PetscErrorCode ElasticityPlasticWork(Elasticity, PetscReal *work, PetscReal largest[]);
+PETSC_EXTERN PetscErrorCode ElasticityCellPlastic(Elasticity, PetscReal *strain[]);
+PETSC_EXTERN PetscErrorCode ElasticityGetHistory(Elasticity, PetscInt *npoints, PetscReal *places[],
+  PetscReal *history[]);
 PETSC_EXTERN PetscErrorCode ElasticityDestroy(Elasticity *);
 
 #endif

@@ -62,7 +62,10 @@ static PetscErrorCode KeysViewConstants(PetscViewer viewer)
     PetscCall(MaterialGetLaw(&material, &law));
     for (const MaterialConstant *c = law->constants; c && c->name; ++c)
       PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %s | %s | %s |\n", c->name, MaterialTypes[t],
-        c->n == 1 ? "a number" : "three numbers", c->symbol ? c->symbol : "", c->required ? "required" : "0"));
+        !c->n       ? "numbers"
+        : c->n == 1 ? "a number"
+                    : "three numbers",
+        c->symbol ? c->symbol : "", c->required ? "required" : "0"));
   }
   PetscFunctionReturn(0);
 }

@@ -139,13 +139,29 @@ static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
   return 0;
 }
 
-/* Names of keys in other programs, and common variants */
+PetscErrorCode SceneKeysComplainOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
+{
+  char   full[SCENE_KEY_LENGTH];
+  size_t line;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(full, sizeof(full), "%s_%s", owner, key));
+  line = SceneKeysGetLine(keys, full);
+  if (line) PetscCall(SceneKeysComplain(keys, "line %zu: %s %s", line, full, wrong));
+  else PetscCall(SceneKeysComplain(keys, "%s %s", full, wrong));
+  PetscFunctionReturn(0);
+}
+
+/* What other programs, or other people, call a key */
 static const char *const synonyms[][2] = {
   {"e", "young"},
   {"modulus", "young"},
   {"youngs_modulus", "young"},
   {"young_modulus", "young"},
   {"nu", "poisson"},
+  {"yield_stress", "yield"},
+  {"plastic_strain", "plastic_strains"},
+  {"hardening_modulus", "hardening"},
   {"poissons_ratio", "poisson"},
   {"poisson_ratio", "poisson"},
   {"alpha", "expansion"},

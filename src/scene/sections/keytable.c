@@ -75,7 +75,8 @@ static const SceneKey body_rows[] = {
     "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
-    "strain), `mooney_rivlin`, `orthotropic` (small strain), `rigid`; or a material by name. Its constants follow "
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or a material "
+    "by name. Its constants follow "
     "below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
