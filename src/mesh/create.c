@@ -74,11 +74,11 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
     nvertices += meshes[b].nvertices;
   }
   PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
+    "The %" PetscInt64_FMT " level 0 vertices are too many for PETSc's integer type", nvertices);
   finecells = *ncells;
   for (PetscInt l = 0; l < refine; ++l) {
     PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers",
+      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for PETSc's integer type",
       refine, *ncells);
     finecells *= 8;
   }

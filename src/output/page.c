@@ -94,8 +94,7 @@ PetscErrorCode ReportPageCheck(MPI_Comm comm, const char file[])
       status = PageRun(words, sentence, sizeof(sentence));
     } else {
       status = -1;
-      PetscCall(
-        PetscStrncpy(sentence, "share/report/report.py is missing; it belongs beside the program", sizeof(sentence)));
+      PetscCall(PetscStrncpy(sentence, "share/report/report.py was not found next to the program", sizeof(sentence)));
     }
   }
   PetscCallMPI(MPI_Bcast(&status, 1, MPI_INT, 0, comm));
@@ -130,6 +129,6 @@ int ReportPageMake(const ReportPage *page, char sentence[], size_t length)
     page->command, page->versions, NULL};
 
   if (PageFindScript(script, sizeof(script))) return PageRun(words, sentence, length);
-  (void)snprintf(sentence, length, "share/report/report.py is missing; it belongs beside the program");
+  (void)snprintf(sentence, length, "share/report/report.py was not found next to the program");
   return -1;
 }

@@ -3,24 +3,23 @@
 #include <math.h>
 
 #define ACCURACY_RATE \
-  4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth \
-       */
+  4.0 /* factor by which a uniform refinement reduces the error in energy of trilinear elements for smooth solutions */
 #define ACCURACY_RAISED \
-  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 \
-          on a cylinder */
+  16.0 /* the same for order 2 instead of 1; measured: 11 on a ball, limited by the edge of contact; 26 on a
+          cantilever; 80 on a cylinder */
 #define ACCURACY_UPDATES 20
 #define ACCURACY_REGULAR \
-  1.05 /* times what elements of order 1 have at best for so many unknowns, their power 2/3: recovery that falls by \
-          less has something singular left */
+  1.05 /* relative to the best rate of order 1 elements, error ~ unknowns^(-2/3): if the recovered error falls by
+          less, the solution has a singularity */
 #define ACCURACY_UNSEEN \
-  2.0 /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does \
-         not see */
-#define ACCURACY_MINOR 1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+  2.0 /* relative to the recovered errors of both meshes: a larger difference of the results shows an error that
+         recovery does not see */
+#define ACCURACY_MINOR 1e-2 /* relative to the largest pair's force: smaller forces are compared with this value */
 #define ACCURACY_MARGIN \
-  0.5 /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more \
-         than a Newton step */
+  0.5 /* fraction of its share at which the solver aims, since it leaves up to 1.3 times its tolerance, and a second
+         run costs more than a Newton step */
 
-/* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
+/* Values of -accuracy_of; force includes the energy, pressure includes both, displacement includes the energy */
 typedef enum {
   ACCURACY_ENERGY,
   ACCURACY_FORCE,
@@ -72,8 +71,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
     ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
   PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only the cells where the error is", "AccuracyAssess",
     acc->adaptive, &acc->adaptive, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_share", "Share of it that the solver may leave", "AccuracyPlan", acc->share,
-    &acc->share, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_share", "Fraction of the requested error that the solver may leave",
+    "AccuracyPlan", acc->share, &acc->share, NULL));
   PetscCall(
     PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
   PetscCall(PetscOptionsInt("-accuracy_order", "Element order of all bodies from the second mesh on", "AccuracyAssess",
@@ -99,7 +98,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscFunctionReturn(0);
 }
 
-/* Of order 1 before, and no element that is of order 1 alone; the probes that are to be accurate */
+/* Checks that -accuracy_order can be used (bodies of order 1, no element that exists for order 1 only), and that
+   there are probes if displacements must be accurate */
 static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
 {
   PetscInt npoints = 0;
@@ -170,7 +170,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
   PetscFunctionReturn(0);
 }
 
-/* The largest difference of the load steps, relative to the largest value, but not to less than `least` */
+/* Largest difference over the load steps, relative to the largest value, which is taken as at least `least` */
 static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[],
   PetscReal least)
 {
@@ -183,7 +183,7 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
   return size > 0.0 ? difference / size : 0.0;
 }
 
-/* Of each probe, by size */
+/* Largest relative change of the magnitude of each probe's displacement */
 static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt nprobes)
 {
@@ -203,7 +203,8 @@ static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const Accu
   return change;
 }
 
-/* Of the energy, and of each pair's force by its size and by the sum of its rows', where they are asked for */
+/* Largest relative change of the energy, and of each pair's force (its magnitude, and the sum of its rows'), as far
+   as requested */
 static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
 {
@@ -218,7 +219,7 @@ static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const Acc
   return change;
 }
 
-/* Of each pair's largest pressure */
+/* Largest relative change of each pair's largest pressure */
 static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs)
 {
@@ -229,7 +230,7 @@ static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const Accuracy
   return change;
 }
 
-/* The last run on a coarser mesh than the last run's, NULL if there is none */
+/* The last run on a coarser mesh than that of the last run; NULL: none */
 static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
@@ -240,19 +241,19 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
-/* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the
-   width of uniform cells */
+/* Guaranteed reduction of the error: by the cell size of uniform meshes, as for the strongest singularity considered
+   (crack, edge of a punch) */
 static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now)
 {
   return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
 }
 
 /*
-   Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the
-   results; no faster than they can, though recovery does on meshes that are too coarse for it. Where results hardly
-   differ by chance, a quarter of the recovered error stands, and all of it beside what is singular; where results
-   differ by more than recovery can tell, nothing of their difference is taken off. Pressures err with the stress,
-   whose error is the root of that of the energy
+   Estimates the error of the finer mesh from the difference of the results on two meshes. The ratio of the errors is
+   that of the recovered errors, limited by the best possible rate, since recovery may fall faster on meshes that are
+   too coarse for it. The estimate is at least a quarter of the recovered error, in case results agree by chance, and at
+   least all of it if the solution is singular. If results differ by more than recovery can explain, the whole
+   difference is the estimate. The error of pressures is that of the stress, the square root of that of the energy
 */
 static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
@@ -281,7 +282,7 @@ static void AccuracyRecordProbes(const StepReport *step, PetscReal displaced[])
   for (PetscInt i = 0; i < 3 * step->nprobes; ++i) displaced[i] = step->probes[i / 3].displacement[i % 3];
 }
 
-/* Of each pair in a load step */
+/* force, pressure: of each pair in a load step */
 static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[],
   PetscReal pressure[])
 {
@@ -296,8 +297,8 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
   PetscFunctionReturn(0);
 }
 
-/* What the solver leaves in the energy; where one linearization of the gap is asked for, the true gap is another
-   problem's, and no tolerance makes it truer */
+/* Error of the solver in the energy. With one contact update per load step the gap error is not included, because no
+   tolerance reduces it */
 static PetscReal AccuracySolverError(const Accuracy *acc, const StepReport *step)
 {
   return acc->updates == 1 ? step->algebraic_error - step->gap_error : step->algebraic_error;
@@ -340,8 +341,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refines once more, unless two meshes show that the error is within a factor 2 of the target, or the limit on
-   unknowns forbids it */
+/* Refines again, unless two meshes show an error within a factor 2 of the target, or the limit of unknowns is
+   reached */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
@@ -359,7 +360,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   PetscFunctionReturn(0);
 }
 
-/* What an option of the user's has made of the plan */
+/* Adopts tolerances that options have set */
 static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
 {
   const PetscReal solver = acc->contact ? used->optimizer : used->linear;
@@ -369,7 +370,7 @@ static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
   acc->update_tolerance = used->gap_change;
 }
 
-/* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
+/* If the solver's error exceeds its share, tightens the tolerance, at most twice per mesh */
 static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
   const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
@@ -390,7 +391,7 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   PetscFunctionReturn(0);
 }
 
-/* Of all bodies that have one */
+/* Sets the order of all bodies with an elastic law */
 static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 {
   PetscFunctionBegin;

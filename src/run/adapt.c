@@ -1,8 +1,10 @@
-/* Chooses the cells to refine for the next mesh: those that hold a fixed share of the error of all load steps, and
-   those at the contact of the last one */
+/* Chooses the cells to refine for the next mesh: those with the largest errors over all load steps, and those at the
+   contact in the last one */
 #include "runimpl.h"
 
-#define ADAPT_SHARE 0.8 /* share of the squared error that the refined cells hold; 0.4 of all remains */
+#define ADAPT_SHARE \
+  0.8 /* fraction of the squared error in the refined cells; after refinement about 0.4 of it
+                           remains */
 
 /*@C
    SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before
@@ -40,7 +42,7 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* The errors of this rank's cells above a threshold, over the ranks */
+/* sum: errors of cells above a threshold, over all ranks */
 static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
 {
   PetscFunctionBegin;
@@ -50,8 +52,8 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
   PetscFunctionReturn(0);
 }
 
-/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of
-   cells: equal ones by symmetry stay together, on any number of ranks */
+/* Marks the cells with the largest errors (Doerfler 1996). Thresholds are fractions of the largest error, not errors
+   of cells, so that cells which are equal by symmetry are treated equally on any number of ranks */
 static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 {
   const PetscReal step    = PetscPowReal(2.0, -0.125);

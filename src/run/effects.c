@@ -1,4 +1,4 @@
-/* The effects of a scene: which are on, why, and what each costs. */
+/* Effects of a scene: which are on, why, and their cost. */
 #include "runimpl.h"
 #include <math.h>
 
@@ -141,7 +141,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscFunctionReturn(0);
 }
 
-/* The filter's use is known after the solve: it is built for the first system that needs it */
+/* Sets the times. Whether the filter is used is known after the solve only */
 PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
 {
   PetscInt systems = 0, filtered = 0;

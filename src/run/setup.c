@@ -1,4 +1,4 @@
-/* Building what a scene calls for: mesh, elasticity, loads, contact, report. */
+/* Sets up a scene: mesh, elasticity, loads, contact, report. */
 #include "runimpl.h"
 
 static PetscErrorCode SimulationSetUpElasticity(Simulation sim)

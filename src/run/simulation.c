@@ -1,4 +1,4 @@
-/* The life of a simulation, and what its caller may set and ask. */
+/* Creation and destruction of a simulation, and its settings. */
 #include "runimpl.h"
 
 /*@C
@@ -154,8 +154,9 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
-  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the rate and the pressures of the last one",
-    "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBool("-load_warm_start",
+    "Start a load step from the extrapolated displacements and the pressures of the last one", "SimulationStep",
+    sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
     "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",

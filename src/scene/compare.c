@@ -32,7 +32,7 @@ PetscErrorCode SceneGetText(Scene scene, char **text)
   FILE       *stream = open_memstream(&buffer, &length);
 
   PetscFunctionBegin;
-  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the text of a scene");
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_MEM, "not enough memory for the text of a scene");
   PetscCall(PetscViewerASCIIOpenWithFILE(PETSC_COMM_SELF, stream, &viewer));
   PetscCall(SceneView(scene, viewer));
   PetscCall(PetscViewerDestroy(&viewer));

@@ -437,7 +437,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: no displacement_bounds\n", "displacement bounds"));
   for (PetscInt o = 0; o < scene->noptions; ++o)
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name,
-      scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file wins)"));
+      scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file takes precedence)"));
   PetscFunctionReturn(0);
 }
 

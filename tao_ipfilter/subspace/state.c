@@ -314,7 +314,7 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
 {
   PetscFunctionBegin;
   PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-    "There is one solve to come at least, not %" PetscInt_FMT, n);
+    "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
   ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
   PetscFunctionReturn(0);
 }
