@@ -59,7 +59,8 @@ typedef struct {
   const char *name;
   PetscReal   contact[3], reaction[3], springs[3], ties[3], load[3]; /* [force] */
   PetscReal   residual[3];                                           /* their sum [force] */
-  PetscReal   balance; /* size of the residual over the sum of the sizes of all these forces */
+  PetscReal   balance;        /* size of the residual over the sum of the sizes of all these forces */
+  PetscReal   plastic_strain; /* equivalent, the largest at any quadrature point; 0 without plasticity */
 } BodyReport;
 
 typedef struct {
@@ -80,6 +81,8 @@ typedef struct {
     filtered_systems;          /* condensed systems; those solved with the filter (the others needed the AMG alone) */
   TaoIPFilterFallbacks linear; /* linear solves that needed more than the Krylov method alone */
   PetscReal            energy; /* elastic, from the elements [force length] */
+  PetscReal            plastic_work;   /* of the stresses on the plastic strains since the start [force length] */
+  PetscReal            plastic_strain; /* equivalent, the largest of all bodies */
   PetscReal work; /* work of the dead loads and of the reactions on driven faces since the start, by the trapezoidal
                      rule over all solves [force length] */
   PetscReal contact_work; /* work taken up by the contacts since the start, by the same rule: friction and normal
@@ -167,6 +170,7 @@ typedef struct {
   Vec                 displacement; /* global, 3 a vertex [length] */
   const PetscReal    *stress;       /* 7 values a local cell, see ElasticityCellStress() */
   const PetscReal    *nodal;        /* STRESS_VALUES a vertex that this rank owns, in the order of global vectors */
+  const PetscReal    *plastic;      /* 7 values a local cell, see ElasticityCellPlastic(); NULL: no law yields */
   const PetscReal    *density;      /* strain energy per undeformed volume, one a local cell [force/length^2] */
   PetscInt            nquadrature;  /* quadrature points of this rank */
   const PetscReal    *quadrature;   /* 3 coordinates each, undeformed [length] */

@@ -24,10 +24,10 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
 {
   const PetscReal at_rest = 1e-2; /* of the energy: a step that turns over less than that is measured by it */
-  const PetscReal stored  = report->energy - path->energy;
+  const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
-  path->energy = report->energy;
+  path->energy += stored;
   path->unbalanced += PetscAbsReal(work - stored - taken);
   path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
   report->normal_work = report->contact_work - report->dissipated;

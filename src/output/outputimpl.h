@@ -33,6 +33,7 @@ struct _n_Output {
   PetscInt  nindices,
     nindiceslocal; /* numbers that describe the cells: 8 nodes each, or where they are mixed the kind and its nodes */
   PetscBool   friction;    /* the steps have shear and slip */
+  PetscBool   plastic;     /* the steps have plastic strain */
   PetscBool   nodes;       /* the steps have stress at nodes and strain energy */
   PetscInt    nquadrature; /* quadrature points of all ranks, of the steps that have stress there */
   PetscBool   meshed;      /* the mesh has been written */
@@ -109,6 +110,7 @@ typedef enum {
   TABLE_PAIRS,
   TABLE_FACES,
   TABLE_BALANCE,
+  TABLE_PLASTICITY,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,
