@@ -1,10 +1,10 @@
-/* Materials of elastic bodies: plain parameters, and the constitutive laws evaluated at a point. */
+/* Materials of elastic bodies: parameters, and the constitutive laws at a point. */
 #ifndef MATERIAL_H
 #define MATERIAL_H
 
 #include <petscsys.h>
 
-/* The laws: a new one is a file of src/material and a line here. What it is called in C, and by scenes */
+/* The material laws. A new one is a file in src/material and a line here: name in C, and name in scenes */
 #define MATERIAL_LAWS(LAW) \
   LAW(LINEAR, Linear, "linear")                     /* small strain, isotropic */ \
   LAW(NEOHOOKEAN, NeoHookean, "neohookean")         /* compressible neo-Hookean, finite strain */ \
@@ -21,7 +21,7 @@ typedef enum {
 #undef MATERIAL_TYPE
 PETSC_EXTERN const char *const MaterialTypes[];
 
-#define MATERIAL_OWN 8 /* constants, and moduli, that a law may have beside those that have names here */
+#define MATERIAL_OWN 8 /* number of constants and moduli that a law may have without a named member here */
 
 #define MATERIAL_HISTORY 7 /* values that a law may keep at a point */
 
@@ -70,14 +70,14 @@ typedef struct {
   const PetscReal         *history;   /* of the point, from the law's advance(); NULL: elastic, without any */
 } MaterialModuli;
 
-/* A constant of a law, as scenes have it: so many numbers of a Material, each between two bounds */
+/* A constant of a law in scenes: one or more numbers of a Material, with bounds */
 typedef struct {
   const char *name; /* of its key; NULL ends a list */
   PetscInt    n;    /* 0: a MaterialList */
   size_t      at;   /* offset in a Material */
   PetscBool   required;
-  const char *label, *symbol; /* in sentences; NULL: its name */
-  PetscReal   lower, upper;   /* both excluded; PETSC_INFINITY: none. Both 0: any number will do */
+  const char *label, *symbol; /* name in messages; NULL: the key's name */
+  PetscReal   lower, upper;   /* bounds, both excluded; PETSC_INFINITY: none. Both 0: no bounds */
 } MaterialConstant;
 
 /*
@@ -89,7 +89,7 @@ typedef struct {
 */
 typedef struct {
   PetscBool constant;  /* the tangent does not depend on H */
-  PetscBool isotropic; /* and is lambda I (x) I + 2 mu I_sym */
+  PetscBool isotropic; /* and equals lambda I (x) I + 2 mu I_sym */
   /* Energy density W(H) [force/length^2] */
   PetscReal (*energy)(const MaterialModuli *, const PetscReal H[9]);
   /* First Piola-Kirchhoff stress P = dW/dH [force/length^2] */
@@ -109,9 +109,10 @@ typedef struct {
   PetscReal (*work)(const MaterialModuli *, const PetscReal history[MATERIAL_HISTORY]);
   PetscBool               finite; /* strains are */
   const MaterialConstant *constants;
-  /* Its bulk modulus, 2 mu/3 + lambda, and what else the functions above read; an error if no such material exists */
+  /* Computes the moduli used by the functions above, among them the bulk modulus lambda + 2 mu/3; error if no such
+     material exists */
   PetscErrorCode (*moduli)(const Material *, MaterialModuli *);
-  /* Young's modulus, about, from other constants; NULL: it is one of them */
+  /* Sets an equivalent Young's modulus from other constants; NULL: it is one of the constants */
   void (*scale)(Material *);
 } MaterialLaw;
 
@@ -121,9 +122,9 @@ PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
 /* Sets an equivalent Young's modulus for a material with other constants */
 PETSC_EXTERN PetscErrorCode MaterialSetScale(Material *);
-/* Linear thermal expansion along the axes of space, a symmetric tensor */
+/* Linear thermal expansion as a symmetric tensor in global axes */
 PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9]);
-/* The constants for the law, and for its isochoric part alone */
+/* Moduli for the law, and for its isochoric part */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
 /* Whether a law of plasticity has such a hardening; if not, which constant is wrong and why */

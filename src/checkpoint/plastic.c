@@ -1,6 +1,7 @@
 /*
    Plastic strains at quadrature points. They are found by their places: each rank looks for its points among those of
-   the file, whichever rank wrote or has read them. On another mesh the points are others, and no strain is carried over.
+   the file, whichever rank wrote or has read them. On another mesh the points are others, and no strain is carried
+   over.
 */
 #include "checkpointimpl.h"
 #include <stdlib.h>

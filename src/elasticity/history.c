@@ -191,8 +191,8 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
 
   Output Parameters:
 + npoints - number of such points of this rank
-. places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`. `NULL` on every
-            rank if no law has a history
+. places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`.
+            `NULL` on every rank if no law has a history
 - history - MATERIAL_HISTORY values a point, borrowed: they may be written
 
   Level: developer

@@ -1,4 +1,4 @@
-/* What a scene must satisfy beyond its grammar. Every rank holds the same scene, so every rank finds the same error. */
+/* Checks of a scene beyond its syntax. Every rank has the same scene, so every rank finds the same error. */
 #include "sceneimpl.h"
 #include <mesh.h>
 

@@ -1,4 +1,4 @@
-/* Constants of a material: which ones its law has, read, viewed, described and checked */
+/* Constants of a material law: reading, printing, description, checks */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 
@@ -19,13 +19,13 @@ static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, PetscIn
   return constant->required;
 }
 
-/* A direction, which cannot be zero; zero stands for one that is not given */
+/* Whether the constant is a direction: must not be zero; zero means not given */
 static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
 {
   return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
 }
 
-/* An expansion for a law that has none: an error that names the laws that have one */
+/* Error if a thermal expansion is given for a law that has none; names the laws that have one */
 static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
 {
   const char *text;
@@ -130,7 +130,7 @@ static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Those that are required or not 0 */
+/* Shows the constants that are required or not 0 */
 static PetscErrorCode ConstantsShow(const Material *material,
   PetscErrorCode (*show)(const MaterialConstant *, PetscInt, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
@@ -147,7 +147,7 @@ static PetscErrorCode ConstantsShow(const Material *material,
   PetscFunctionReturn(0);
 }
 
-/* A line each, as it is read */
+/* Prints the constants as YAML, one per line */
 PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -155,7 +155,7 @@ PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* In words, within a line */
+/* Describes the constants within a line */
 PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -187,7 +187,7 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-/* Within the bounds that its law gives it */
+/* Checks a constant against its law's bounds */
 static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
   const MaterialConstant *c)
 {
@@ -197,7 +197,7 @@ static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const S
   char             lower[32], upper[32];
 
   PetscFunctionBegin;
-  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's would print 0. */
+  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's formatting would print 0. */
   (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
   for (PetscInt i = 0; i < n && c->lower < c->upper; ++i) {
     PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,
