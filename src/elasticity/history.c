@@ -1,4 +1,4 @@
-/* Plastic strain at the quadrature points: kept from one state of equilibrium to the next */
+/* Plastic strain at the quadrature points, kept from one state of equilibrium to the next */
 #include "elasticityimpl.h"
 
 PetscErrorCode ElasticitySetUpHistory(Elasticity e)
@@ -83,7 +83,7 @@ PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
   PetscFunctionReturn(0);
 }
 
-/* A cell, and the volumes of its points; whether its law has a history */
+/* Gets a cell, and the volumes of its points; returns whether its law has a history */
 static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[], CellState *cell, PetscReal w[])
 {
   PetscReal G[3][CELL_MAX_NODES];

@@ -7,8 +7,8 @@
 #define MODES INCOMPATIBLE_MODES
 
 typedef struct {
-  PetscReal K[MODES][3][CELL_MAX_NODES]; /* derivatives of the energy by a mode and U[i][a] */
-  PetscReal L[MODES][MODES];             /* Cholesky factor of those by two modes */
+  PetscReal K[MODES][3][CELL_MAX_NODES]; /* second derivatives of the energy by a mode and U[i][a] */
+  PetscReal L[MODES][MODES];             /* Cholesky factor of the second derivatives by two modes */
 } Incompatibility;
 
 static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
@@ -33,7 +33,7 @@ static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, Pet
   IncompatibleFactor(modes->L);
 }
 
-/* a = -K_aa^(-1) K_au u; returns the energy that the modes take away, a.K_aa a/2 */
+/* a = -K_aa^(-1) K_au u; returns the energy that the modes remove, a.K_aa a/2 */
 static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][CELL_MAX_NODES], PetscReal a[MODES])
 {
   PetscReal released = 0;

@@ -2,21 +2,22 @@
    The 12 incompatible modes of a cell of order 1 as displacement gradients. With J the Jacobian at a point and J0 that
    at the centre they are
 
-     M_(3 i + k) = det J0/det J  xi_k e_i (x) (row k of J0^(-1)),   M_(9 + k) = det J0/det J  xi_(k + 1) xi_(k + 2) I:
+     M_(3 i + k) = det J0/det J xi_k e_i (x) (row k of J0^(-1)),
+     M_(9 + k) = det J0/det J xi_(k + 1) xi_(k + 2) I.
 
-   the gradients of xi_k^2, in which a bent cell does not shear, and the dilatations that a trilinear displacement
-   lacks, without which it locks as Poisson's ratio nears 1/2. det J0/det J makes int M = 0 in cells of every shape,
-   so they pass the patch test.
+   The first nine are gradients of xi_k^2, which avoid shear locking in bending. The last three are dilatations that a
+   trilinear displacement lacks; they avoid locking as Poisson's ratio approaches 1/2. The factor det J0/det J makes int
+   M = 0 in cells of any shape, so they pass the patch test.
 
-   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A
-   class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
+   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A class
+   of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
    versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
 #include "elementsimpl.h"
 
 #define MODES INCOMPATIBLE_MODES
 
-/* det J0 J0^(-1): the modes are scaled by det J0 */
+/* cofactor = det J0 J0^(-1); the modes are scaled by det J0 */
 void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
 {
   PetscReal J[3][3];
@@ -51,7 +52,8 @@ void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscRea
   }
 }
 
-/* Positive definite: no combination of modes is a rotation at all points */
+/* Cholesky factorization in place; the matrix is positive definite, since no combination of modes is a rotation at
+   all points */
 void IncompatibleFactor(PetscReal L[MODES][MODES])
 {
   for (int m = 0; m < MODES; ++m) {
