@@ -64,16 +64,11 @@ typedef struct {
 
 /* One volume of a mesh file */
 typedef struct {
-<<<<<<< HEAD
-  char *file;   /* path of the file */
-  char *volume; /* physical name */
-=======
   char     *file;       /* with its folder */
   char     *volume;     /* physical name */
   PetscReal scale;      /* factor of its coordinates; 0 stands for 1 */
   char     *converted;  /* the temporary Gmsh file that a file of another format, or with a scale, became; else NULL */
   int       descriptor; /* of that file, for the first body that has it, on the first rank; 0: none */
->>>>>>> 08dece6e (meshes of Abaqus, CalculiX, MED, Exodus and VTK: contact-mesh converts and checks them, scenes name them, scale multiplies their coordinates)
 } SceneGmsh;
 
 /* A part of a face: its facets at refinement level 0 whose centroids lie in a box */
