@@ -304,9 +304,9 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   Level: intermediate
 
   Notes:
-  For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor
-  solved. What was set up before is kept: when the
-  filter is switched on again, and subspace and nonzero pattern have stayed, the symbolic factorization is reused.
+  For operators that do not always need the filter. While it is off, the subspace is not determined, set up or solved.
+  Earlier set-ups are kept: when the filter is switched on again and subspace and nonzero pattern have not changed, the
+  symbolic factorization is reused.
 
   `PCAMGFGetFilterSize()` gives the dimension of the last set-up with the filter on.
 
@@ -322,21 +322,20 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 }
 
 /*@
-  PCAMGFSetFilterOptional - says whether a set-up without a subspace is meant
+  PCAMGFSetFilterOptional - sets whether a set-up without a subspace is intended
 
   Logically Collective
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns
-             of it on the standard error stream;
-             `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, prints a
+             warning on the standard error stream; `PETSC_TRUE`: no warning
 
   Level: intermediate
 
   Note:
-  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty
-  is never warned of.
+  For programs that use `PCAMGF` for operators with and without a stiff part. There is never a warning for a subspace
+  that was given but is empty.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
 @*/
@@ -368,12 +367,10 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
-  reduction
-  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry
-  of the operator outside the subspace has
-  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns
-  the preconditioner, compared with its first solve after the AMG was
-  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
+  reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a
+  diagonal entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has
+  failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the
+  AMG was built; the cost of a solve with an outdated AMG is known after the solve, so the AMG is rebuilt at the next
   changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
@@ -475,7 +472,7 @@ PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
 }
 
 /*@
-  PCAMGFGetCounts - gets what the preconditioner has done since it was created
+  PCAMGFGetCounts - gets the numbers of set-ups and applications since the preconditioner was created
 
   Not Collective
 

@@ -149,21 +149,19 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
 }
 
 /*@
-  ContactCheckDepth - Makes sure that no bodies overlap, undeformed, deeper than contact looks
+  ContactCheckDepth - Checks that no undeformed bodies overlap by more than the search depth
 
   Collective
 
   Input Parameters:
 + contact - the contact
-- usual   - the gap linearized at zero displacement
+- usual - the gap linearized at zero displacement, with the default search depth
 
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth
-  and what widens
-  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do
-  not.
+  Such bodies would have no contact rows and penetrate each other. The error message names the pair, the depth and the
+  option that increases the search depth. The check costs one more search for pairs whose bounding boxes overlap.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/

@@ -101,7 +101,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
   Input Parameters:
 + elasticity - the context
-. u          - displacement, global, 3 components a node [length]; may be `NULL` (no displacement)
+. u          - displacement, global, 3 components per node [length]; may be `NULL` (no displacement)
 - tangent    - matrix from `ElasticityCreateTangent()`
 
   Output Parameter:
@@ -110,14 +110,12 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies
-  with a constant
-  tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's tangent
-  is constant,
-  nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without
+  If the matrix is that of the last call and unchanged since (by its `PetscObjectState`), bodies with a constant tangent
+  are not assembled again, unless they share nodes with a body that is. If every body's tangent is constant, the matrix
+  and its state stay unchanged. Any other matrix is assembled completely, and so is one of a type without
   `MatZeroRows()` (sbaij).
 
-  A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
+  An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so the matrix contains no NaN.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `ElasticityForce()`, `ElasticityGetAssemblies()`
 @*/
@@ -157,7 +155,7 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
 - body       - the body, from 0
 
   Output Parameter:
-. assemblies - number of assemblies, into whichever matrix
+. assemblies - number of assemblies, into any matrix
 
   Level: intermediate
 

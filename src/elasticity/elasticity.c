@@ -183,9 +183,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Level: beginner
 
   Notes:
-  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
-  tangent is
-  assembled completely.
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force are not changed. The next
+  tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/

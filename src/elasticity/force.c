@@ -8,7 +8,7 @@
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . energy - stored energy of all bodies [force length]
@@ -16,9 +16,8 @@
   Level: beginner
 
   Notes:
-  The energy is `PETSC_INFINITY` on every rank where a point of a cell at which a finite strain law is evaluated is
-  turned inside
-  out (det F <= 0), so a line search that asks for a decrease steps back.
+  The energy is `PETSC_INFINITY` on every rank if a quadrature point with a finite strain law is inverted (det F <= 0),
+  so that a line search reduces its step.
 
 .seealso: `ElasticityForce()`, `ElasticityTangent()`
 @*/
@@ -55,7 +54,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . force - dE/du on all rows; on prescribed rows it is the reaction [force]
@@ -63,9 +62,8 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   Level: beginner
 
   Notes:
-  Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
-  `PETSC_INFINITY`
-  or more, and so the norm of the vector is infinite on every rank.
+  Where the energy is infinite the force is undefined: the rows of the nodes of every inverted cell are set to infinity,
+  so the norm of the vector is infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/

@@ -123,8 +123,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 }
 
 /*@
-  ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed
-  aggregation and nodal AMG build on
+  ElasticitySetNearNullSpace - Attaches the rigid body modes of the reference geometry to a tangent, for smoothed
+  aggregation and nodal AMG
 
   Collective
 
@@ -135,9 +135,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   Level: beginner
 
   Notes:
-  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
-  much memory as six solutions, and PCHYPRE copies
-  them whether or not it makes use of them.
+  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They need as
+  much memory as six solution vectors, and PCHYPRE copies them even if it does not use them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

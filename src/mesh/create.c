@@ -199,14 +199,10 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 
   Notes:
   The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on
-  rank 0,
-  or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh files
-  before any rank makes a `DMPLEX` of them; refinement
-  is parallel. Refined
-  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body
-  from a Gmsh file
-  of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its
-  vertices.
+  rank 0, or read there from Gmsh files. They are distributed at the coarsest level that can be balanced (with Gmsh
+  files before the `DMPLEX` is created). Refinement is parallel. Refined vertices of a curved body lie on its true
+  surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file of second order follow its
+  quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
   Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order
   open, 0, has order 1 of
@@ -235,7 +231,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   Input Parameters:
 + comm  - communicator
 . scene - the scene, the same on all ranks
-- marks - cells marked on meshes made before, which are refined after the others; `NULL` where none are to be marked
+- marks - cells marked on earlier meshes, which are refined after the others; `NULL`: none
 
   Output Parameter:
 . dm - the mesh, a `DMPLEX` with one component a body
@@ -244,11 +240,9 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
 
   Notes:
   Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the
-  mesh is distributed; neighbours of
-  finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer
-  cells
-  are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is
-  curved.
+  mesh is distributed; neighbours of finer cells are refined with them until they differ by one refinement. Hanging
+  vertices between coarser and finer cells are nodes like others. `MeshGetHanging()` gives the vertices whose mean they
+  are; they lie at this mean, also on curved bodies.
 
 .seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
 @*/

@@ -158,7 +158,7 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n",
+    "\nPeak memory %.1f MB, %.2f kB per unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n",
     report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n,
     (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n,
     (report->peak_memory_bytes - report->memory.assembly) / n));
@@ -166,7 +166,7 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 }
 
 /*@C
-   ReportViewEffects - Prints what the scene called for and what it did not, why, and the share of the time
+   ReportViewEffects - Prints which effects the scene uses and which not, why, and their share of the run time
 
    Collective on the viewer
 
@@ -177,7 +177,8 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
    Level: intermediate
 
    Note:
-   An effect without a share is part of the phases it works in (an element's formulation, say, of the assembly).
+   An effect without a share has no phase of its own: its time is part of other phases (for example, the element's
+   formulation is part of the assembly).
 
 .seealso: `ReportView()`
 @*/

@@ -29,7 +29,7 @@ typedef enum {
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C
-   AccuracySetFromOptions - How accurate a run is to be
+   AccuracySetFromOptions - Reads the required accuracy of a run from the options
 
    Collective
 
@@ -45,10 +45,10 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
                                 largest pressure too;
                                 displacement: of energy and the displacements of the scene's probes
 .  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
-.  -accuracy_share <0.1>      - what of it the solver may leave
-.  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's but for that;
-                                default: as the scene has it
--  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
+.  -accuracy_share <0.1>      - share of the target that the solver's error may have
+.  -accuracy_order <2>        - order of all bodies from the second mesh on. The second mesh then has the cells of the
+                                first. Default: the order of the scene
+-  -accuracy_max_dofs <1e6>   - largest number of unknowns of a mesh
 
    Level: beginner
 
@@ -135,7 +135,7 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Collective
 
    Input Parameters:
-+  acc   - what is asked for
++  acc   - the required accuracy
 -  scene - the scene; its contact_updates is raised, unless -contact_updates was given
 
    Input/Output Parameter:
@@ -144,10 +144,10 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Level: developer
 
    Notes:
-   The gap is linearized until it is true, so that load steps of any size end in the same state; with
-   -contact_updates 1 the accuracy is that of the problem with one linearization a load step. The optimizer's
-   tolerance starts at half of share x target and is tightened where that left too much. An option of the user's wins
-   over a tolerance, as over any other of a simulation; `AccuracyAssess()` learns of it after the run.
+   Contact is updated until the gap is consistent, so that load steps of any size end in the same state. With
+   -contact_updates 1 the accuracy refers to the problem with one linearization per load step. The optimizer's tolerance
+   starts at half of share x target and is tightened if the solver's error is too large. Tolerances given by the user as
+   options take precedence; `AccuracyAssess()` reads them after the run.
 
 .seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
@@ -402,15 +402,15 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 }
 
 /*@C
-   AccuracyAssess - Was the run accurate enough, and what is to be done if not?
+   AccuracyAssess - Estimates the error of a run, and chooses the next refinement if it is too large
 
    Collective
 
    Input Parameters:
-+  acc        - what is asked for
-.  tolerances - those that the run had
-.  report     - the run's
--  scene      - the scene; its refinement becomes that of the next run
++  acc        - the required accuracy
+.  tolerances - the tolerances of the run
+.  report - the report of the run
+-  scene      - the scene; its refinement is set to that of the next run
 
    Output Parameter:
 .  again - whether the scene is to be run again
@@ -418,29 +418,31 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Level: developer
 
    Notes:
-   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves
-   nor where the faces meet: no mesh is fine enough by itself, and a second one is always run. From then on the error
-   is extrapolated from the change of energy and of each pair's force between two meshes, whichever is largest, with
-   the rate that recovery shows, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of
-   recovery's at least, and for all of it where that falls by no more than a regular solution's, as beside singular
-   edges. A change beyond what recovery accounts for on both meshes is the error as it is. A pair's force is its size
-   and the sum of its rows' sizes, the first relative to the largest of all pairs.
+   The first mesh's error in energy is estimated by stress recovery, which does not include the errors of faceted curved
+   surfaces and of the edge of contact. Therefore a second mesh is always run. From then on the error is extrapolated
+   from the change of energy and of each pair's force between two meshes, whichever is largest, with the convergence
+   rate of the recovery estimate, at most a factor of 4, the rate of trilinear elements. The result is at least a
+   quarter of the recovery estimate, and at least all of it if the estimate falls more slowly than for a regular
+   solution, as near singular edges. If the change is larger than the recovery estimates of both meshes explain, the
+   change itself is taken as the error. A pair's force enters with two values: its magnitude, relative to the largest of
+   all pairs, and the sum of the magnitudes of its rows' forces.
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
-   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. A target that the first
-   mesh meets costs 8 times that mesh.
+   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. If the first mesh already
+   meets the target, the second one makes the cost 8 times that of the first.
 
-   Load steps of each mesh but the first start from what they ended with on the one before, see
+   Load steps of each mesh except the first start from the states at their ends on the previous mesh, see
    `SimulationSetForecast()`.
 
-   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()`
-   names; what is extrapolated follows the same rates, of the cube root of the growth of the unknowns at least.
+   Adaptive refinement uses at least two meshes too; each refines the cells chosen by `SimulationPropose()`. The error
+   is extrapolated with the same rates, where the ratio of cell sizes is at least the cube root of the ratio of
+   unknowns.
 
    With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too,
    and the error is extrapolated with a factor of 16 at most; later ones are refined.
 
-   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest
-   mesh the run is repeated with it.
+   If the solver's error exceeds its share, its tolerance is tightened, unless the user has given it; on the finest mesh
+   the run is repeated with the new tolerance.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/
@@ -465,7 +467,7 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 }
 
 /*@C
-   AccuracyDestroy - Frees what was recorded
+   AccuracyDestroy - Frees the record of the runs
 
    Not Collective
 

@@ -7,13 +7,13 @@
                            remains */
 
 /*@C
-   SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before
+   SimulationSetMarks - Makes a simulation record the error of every cell and refine the cells marked before
 
    Collective
 
    Input Parameters:
 +  sim   - the simulation, before SimulationSetUp()
--  marks - the marks, which must outlive the simulation's set-up; none at the beginning
+-  marks - the marks, which must exist until the simulation is set up; initially empty
 
    Level: developer
 
@@ -74,7 +74,7 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 }
 
 /*@C
-   SimulationPropose - Chooses the cells that the next mesh is to have refined
+   SimulationPropose - Chooses the cells to be refined in the next mesh
 
    Collective
 
@@ -82,14 +82,14 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 .  sim - the simulation, with marks and after its load steps
 
    Output Parameter:
-.  growth - how many times its unknowns the next mesh has, about
+.  growth - approximate ratio of the next mesh's unknowns to the present ones
 
    Level: developer
 
    Notes:
-   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps;
-   and, on both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces,
-   and of plane ones those at the edge of contact.
+   Chooses the cells with the largest errors, which together have 0.8 of the squared recovery estimate over all load
+   steps. Because recovery does not include the errors of contact, cells on both sides of the contact area of the last
+   load step are added: on curved faces all of them, on plane faces those at the edge of contact.
 
 .seealso: `SimulationMark()`, `AccuracyAssess()`
 @*/
@@ -109,7 +109,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 }
 
 /*@C
-   SimulationMark - Marks the cells that were proposed
+   SimulationMark - Marks the cells chosen by SimulationPropose()
 
    Collective
 
@@ -117,7 +117,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 .  sim - the simulation, after SimulationPropose()
 
    Output Parameter:
-.  marks - the marks that it was made with; those for the next mesh are added
+.  marks - the marks of the present mesh; the marks for the next mesh are added
 
    Level: developer
 

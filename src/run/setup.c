@@ -85,8 +85,8 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 }
 
 /*@C
-   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the
-   contact pairs if it names any; at time 0 with zero displacement
+   SimulationSetUp - Builds the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
+   at time 0 with zero displacement
 
    Collective
 

@@ -10,7 +10,7 @@ static const char *const free_keys[] = {"problem", "units", "probes", "load", "r
   "contact_updates", "displacement_bounds", "solver"};
 
 /*@C
-   SceneGetText - The scene as `SceneView()` prints it
+   SceneGetText - Gets the scene as text, as `SceneView()` prints it
 
    Not Collective
 
@@ -78,7 +78,7 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
 }
 
 /*@C
-   SceneCompare - Finds what sets a scene apart from the one that a text was made of by `SceneGetText()`
+   SceneCompare - Compares a scene with the text of another one from `SceneGetText()`
 
    Not Collective
 
@@ -93,7 +93,7 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
    Level: developer
 
    Note:
-   Programs of the load, refinement, probes, model and options may differ.
+   Load programs, refinement, probes, model and options are not compared.
 
 .seealso: `SceneGetText()`
 @*/

@@ -211,7 +211,8 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 }
 
 /*@
-  ElasticityAddFacetAreas - Adds the normals times the areas of a face that are about its nodes
+  ElasticityAddFacetAreas - Adds the nodal area vectors of a face: the integral of each node's shape function times the
+  normal
 
   Collective
 
@@ -226,9 +227,8 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   Level: developer
 
   Notes:
-  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
-  quadratic shape functions
-  are loads.
+  Facets of order 2 are divided into four bilinear facets at their nodes, as for contact, so that all areas are
+  positive. Integrals of quadratic shape functions can be zero or negative.
 
 .seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
 @*/

@@ -14,7 +14,7 @@ static PetscReal StressVonMises(const PetscReal s[6])
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];
@@ -23,9 +23,8 @@ static PetscReal StressVonMises(const PetscReal s[6])
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
-  dilatation. A cell
-  turned inside out has the value `PETSC_INFINITY`.
+  The stress is the one that is conjugate to the element's strain: in a cell of `ELEMENT_BBAR` its pressure follows from
+  the mean dilatation. An inverted cell has `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/

@@ -282,9 +282,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   Level: developer
 
   Notes:
-  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was
-  added first. Cells farther away
-  than a quarter of their size are not looked at.
+  A point is located in the nearest cell; if several are equally near, in that of the first body, and there in the one
+  added first. Cells farther away than a quarter of their size are ignored.
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
@@ -408,7 +407,7 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   Level: developer
 
   Notes:
-  A point on a curved surface may be outside of the facets: it has the nearest place in a cell beside it.
+  A point on a curved surface may lie outside the facets: it gets the nearest position in a neighbouring cell.
 
 .seealso: `MeshCreate()`, `MeshGetCellVertices()`
 @*/

@@ -173,8 +173,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 }
 
 /*@
-  MeshGetHanging - Gets the vertices that hang amid an edge or a facet of a cell which is refined less than its
-  neighbour
+  MeshGetHanging - Gets the hanging vertices: those in the middle of an edge or a facet of a cell that is refined less
+  than its neighbour
 
   Not Collective
 
@@ -182,9 +182,9 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 . dm - mesh from `MeshCreateScene()`
 
   Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are
-          the mean of, none of which hangs; the
-          others are empty. The mesh's own; NULL where no vertex hangs
+. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of the (not hanging)
+          vertices that they are the mean of; other rows are empty. Owned by the mesh; NULL if there are no hanging
+          vertices
 
   Level: developer
 
@@ -198,7 +198,7 @@ PetscErrorCode MeshGetHanging(DM dm, Mat *means)
 }
 
 /*@
-  MeshCountHanging - Counts the vertices that hang, on all ranks
+  MeshCountHanging - Counts the hanging vertices of all ranks
 
   Collective
 
