@@ -1,6 +1,5 @@
 /*
-   Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets
-   up
+   Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets up
 */
 #ifndef BLOCKAMG_H
 #define BLOCKAMG_H

@@ -162,9 +162,7 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 /* From the rank that has a point to all */
 static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
 {
-  enum {
-    values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal)
-  };
+  enum { values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal) };
   PetscReal *all;
 
   PetscFunctionBegin;

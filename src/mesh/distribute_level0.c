@@ -15,13 +15,7 @@ typedef struct {
   PetscReal *reals;
 } DistributePart;
 
-enum {
-  DEAL_CELLS,
-  DEAL_VERTICES,
-  DEAL_FACETS,
-  DEAL_CURVE,
-  DEAL_SIZES
-};
+enum { DEAL_CELLS, DEAL_VERTICES, DEAL_FACETS, DEAL_CURVE, DEAL_SIZES };
 
 /* On the first rank; cells and vertices of all bodies are numbered one body after another */
 typedef struct {

@@ -103,10 +103,9 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 }
 
 /*
-   KrylovRun() for a correction, by flexible CG instead of CG. If J^T D J is stiff, PCAMGF's result has rounding
-   errors that these terms amplify. Relative to the residual they are the same in every step, so that the
-   preconditioner is not quite linear. CG's recurrence fails then. Flexible CG works, but does not detect negative
-   curvature
+   KrylovRun() for a correction, by flexible CG instead of CG. If J^T D J is stiff, PCAMGF's result has rounding errors
+   that these terms amplify. Relative to the residual they are the same in every step, so that the preconditioner is not
+   quite linear. CG's recurrence fails then. Flexible CG works, but does not detect negative curvature
 */
 static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
 {

@@ -1,9 +1,8 @@
 /*
-   Error bound in the objective. To first order the error is at most sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i -
-   s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i: stationarity residual r times lengths l_j of the unknowns,
-   violation times multipliers, and the complementarity gap. Each term is an energy, whatever the units of its row,
-   bound or unknown; and the last sum grows with the number of bounds as the error does. All are compared with the
-   objective.
+   Error bound in the objective. To first order the error is at most sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i - s_i|
+   + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i: stationarity residual r times lengths l_j of the unknowns, violation times
+   multipliers, and the complementarity gap. Each term is an energy, whatever the units of its row, bound or unknown;
+   and the last sum grows with the number of bounds as the error does. All are compared with the objective.
 */
 #include "measureimpl.h"
 

@@ -30,9 +30,8 @@ static PetscErrorCode ReferenceInto(Vec from, Vec *to)
   PetscFunctionReturn(0);
 }
 
-/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the
-   trial slacks: called where any of them may have been made anew. The best iterate gets room for what the current one
-   has. */
+/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the trial
+   slacks: called where any of them may have been made anew. The best iterate gets room for what the current one has. */
 PetscErrorCode IPIterateBind(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

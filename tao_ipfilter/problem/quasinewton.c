@@ -3,8 +3,7 @@
    cost too much: damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank.
 
    The matrix that is assembled, and preconditioned, has sigma I in the place of the Hessian. Products with the
-   condensed matrix add the rest, of rank twice the history's length, which costs a Krylov method a few iterations
-   more.
+   condensed matrix add the rest, of rank twice the history's length, which costs a Krylov method a few iterations more.
 */
 #include "problemimpl.h"
 

@@ -16,12 +16,7 @@
 typedef struct _n_TAO_IPFILTER TAO_IPFILTER;
 
 /* Layouts of scratch vectors: unknowns, inequality and equality constraints */
-typedef enum {
-  IP_UNKNOWNS,
-  IP_INEQUALITIES,
-  IP_EQUALITIES,
-  IP_NSPACES
-} IPSpace;
+typedef enum { IP_UNKNOWNS, IP_INEQUALITIES, IP_EQUALITIES, IP_NSPACES } IPSpace;
 
 /* The limited-memory approximation B of the Hessian, where the caller gives none: quasinewton.c */
 typedef struct {
@@ -349,39 +344,14 @@ typedef struct {
   PetscBool          multipliers; /* those of the present point are its own */
 } IPMethod;
 
-typedef enum {
-  IP_START_COLD,
-  IP_START_PREDICT,
-  IP_START_WARM
-} IPStart;
-typedef enum {
-  IP_BARRIER_MONOTONE,
-  IP_BARRIER_MEHROTRA
-} IPBarrierRule;
-typedef enum {
-  IP_KKT_RELATIVE,
-  IP_KKT_MASS
-} IPKKTMeasure;
-typedef enum {
-  IP_FORCING_ADAPTIVE,
-  IP_FORCING_FIXED
-} IPForcing;
-typedef enum {
-  IP_SCALING_PROBLEM,
-  IP_SCALING_GRADIENT,
-  IP_SCALING_NONE
-} IPScaling;
-typedef enum {
-  IP_EQUALITY_AUTO,
-  IP_EQUALITY_AUGMENTED,
-  IP_EQUALITY_CONDENSED
-} IPEqualityMethod;
+typedef enum { IP_START_COLD, IP_START_PREDICT, IP_START_WARM } IPStart;
+typedef enum { IP_BARRIER_MONOTONE, IP_BARRIER_MEHROTRA } IPBarrierRule;
+typedef enum { IP_KKT_RELATIVE, IP_KKT_MASS } IPKKTMeasure;
+typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
+typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
+typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
 
-typedef enum {
-  IP_SUBSPACE_FALSE,
-  IP_SUBSPACE_TRUE,
-  IP_SUBSPACE_AUTO
-} IPSubspaceUse;
+typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
 
 /* Constants of the method. The names are those of Waechter and Biegler (2006), the values of most those of IPOPT */
 #define IP_ACCEPTABLE_TOL   1e-6   /* KKT error accepted where no further progress is made, */

@@ -1,8 +1,7 @@
 /*
    Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
-   slacks vanish before mu does. Then all inequality constraints are relaxed to c_I + r >= 0, with r a hundredth of
-   the tolerance times their size (Waechter and Biegler 2006, section 3.5, relax all problems from the start, and by
-   more).
+   slacks vanish before mu does. Then all inequality constraints are relaxed to c_I + r >= 0, with r a hundredth of the
+   tolerance times their size (Waechter and Biegler 2006, section 3.5, relax all problems from the start, and by more).
 */
 #include "stepimpl.h"
 

@@ -13,11 +13,7 @@ typedef struct {
 } OctantPatch;
 
 /* The faces' order; x0, y0, z0 follow each other, and a ball has no inner one */
-enum {
-  OCTANT_OUTER,
-  OCTANT_PLANE,
-  OCTANT_INNER = OCTANT_PLANE + 3
-};
+enum { OCTANT_OUTER, OCTANT_PLANE, OCTANT_INNER = OCTANT_PLANE + 3 };
 
 const char *const *OctantFaces(const SceneBody *body)
 {

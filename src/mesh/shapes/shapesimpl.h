@@ -53,13 +53,7 @@ PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, Petsc
   PetscInt n);
 
 /* The keys of shapes, as scenes have them: values of a SceneBody. An underscore may be nested, as outer: {radius: 1} */
-typedef enum {
-  KEY_REALS,
-  KEY_INTS,
-  KEY_AXIS,
-  KEY_DIRECTION,
-  KEY_TEXT
-} KeyType;
+typedef enum { KEY_REALS, KEY_INTS, KEY_AXIS, KEY_DIRECTION, KEY_TEXT } KeyType;
 
 typedef struct {
   const char *name;

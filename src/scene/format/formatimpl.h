@@ -107,11 +107,7 @@ typedef enum {
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum {
-  SCENE_ANY,
-  SCENE_ABOVE_0,
-  SCENE_FROM_0
-} SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
 
 /* A value with a grammar of its own */
 typedef struct {
