@@ -1,4 +1,4 @@
-/* The preconditioner type: its page, and its life from creation to destruction */
+/* The preconditioner type: manual page, creation, destruction */
 #include "amgfimpl.h"
 
 static PetscErrorCode PCReset_AMGF(PC pc)

@@ -1,7 +1,7 @@
 /* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
 #include "amgfimpl.h"
 
-/* A number or "auto" */
+/* Reads a number or "auto" */
 static PetscErrorCode LagFromString(PC pc, const char string[])
 {
   PetscBool automatic;

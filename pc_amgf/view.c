@@ -1,4 +1,4 @@
-/* What -ksp_view says of PCAMGF */
+/* Output of -ksp_view for PCAMGF */
 #include "amgfimpl.h"
 
 static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)

@@ -1,7 +1,7 @@
-/* The Tao type: its page and its creation. */
+/* The Tao type: its manual page and its creation. */
 #include "ipfilterimpl.h"
 
-/* KSPCG with PCAMGF, convergence on the true residual's norm */
+/* Creates the Krylov solver: CG with PCAMGF, convergence by the norm of the true residual */
 static PetscErrorCode CreateKSP(Tao tao)
 {
   PC pc;

@@ -9,7 +9,7 @@ const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEq
 const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
-/* Real numbers with their defaults, by option name without its prefix */
+/* Real-valued options and their defaults; names without prefix */
 typedef struct {
   const char *option, *text;
   size_t      offset;
@@ -60,7 +60,7 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
-  const PetscInt fewest = 4; /* directions that can be compressed */
+  const PetscInt fewest = 4; /* fewer directions cannot be compressed */
   IPOptions     *opt    = &((TAO_IPFILTER *)tao->data)->opt;
 
   PetscFunctionBegin;

@@ -1,5 +1,5 @@
 /*
-   Checkpoints, private: what the file that is written and read has in common.
+   Private header of checkpoints: what reading and writing have in common.
 */
 #ifndef CHECKPOINTIMPL_H
 #define CHECKPOINTIMPL_H
@@ -8,7 +8,7 @@
 #include <scene.h>
 #include "src/output/outputimpl.h"
 
-/* read.c, write.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
+/* read.c, write.c: numbers of a checkpoint, stored as attributes of its file; ends with a NULL name */
 typedef struct {
   const char *name;
   size_t      offset;

@@ -1,4 +1,4 @@
-/* The fields of a checkpoint. */
+/* Fields of a checkpoint. */
 #include <checkpoint.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
-/* The state of a simulation for a restart: displacement path and contact history. */
+/* The state of a simulation for a restart: displacements and contact history. */
 #include <checkpoint.h>
 #include "src/measure/measureimpl.h"
 
-/* A field of a global vector; NULL: zero */
+/* Adds a field from a global vector; NULL: zeros */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
 {
   const PetscScalar *a;
@@ -32,7 +32,7 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* In a vector of its own, as u is, in the place of the one that was */
+/* Replaces *force by a new vector with the layout of u */
 static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[], Vec u, Vec *force)
 {
   PetscFunctionBegin;

@@ -1,12 +1,12 @@
 /* The contact object: creation, pairs of faces, options, search distances */
 #include "contactimpl.h"
 
-/* Default search distance, as a part of the size of the smaller face (the square root of its area) */
+/* default search distance, as a fraction of the square root of the smaller face's area */
 #define SEARCH_FRACTION 0.25
-/* largest penetration that is searched, as a part of the thickness of both bodies */
+/* search depth with a given distance: at most this fraction of the thickness of both bodies */
 #define THROUGH_FRACTION 0.9
-/* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and
-   7 points */
+/* The integrand on parallelograms, a product of two bilinear functions, has degree 4. The rules of degree 4 and 5
+   have 6 and 7 points. */
 #define RULE_DEGREE 5
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
@@ -51,8 +51,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
   PetscFunctionReturn(0);
 }
 
-/* Penetration up to which facets of two bodies pair. If it were larger, a body's own faces, or those of thin bodies,
-   would pair through the bodies: two touching plates would do so at the sum of their thicknesses. */
+/* Search depth of a pair: penetration up to which facets pair. With a larger depth the far sides of thin bodies
+   would pair through the bodies; for two touching plates this would happen at the sum of their thicknesses. */
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
   const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
@@ -61,7 +61,7 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* Search distance and depth of a pair: constant lengths that do not depend on the mesh */
+/* Sets search distance and depth of all pairs: constant lengths that do not depend on the mesh */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;

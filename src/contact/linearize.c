@@ -3,7 +3,7 @@
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
 
-/* The surfaces and normals of a pair at the displacement of their vertices, local */
+/* Deforms the surfaces and normals of a pair; local: displacement of the vertices */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
 {
   ContactRows     *rows  = &contact->rows;
@@ -19,7 +19,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* The surfaces and normals at displacement u */
+/* Deforms the surfaces and normals of all pairs */
 PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
   Vec local, mean = NULL;
@@ -97,7 +97,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN */
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
   PetscCall(ContactDeform(contact, u));

@@ -1,16 +1,16 @@
 /*
-   The fields of a report: their keys, units, places and types, and their columns in the tables for people. The
-   summary has them in this order. A new field is a member in report.h and a line here.
+   The fields of a report: keys, units, members and types, and their columns in printed tables. The summary has them in
+   this order. A new field is a member in report.h and a line here.
 */
 #include "outputimpl.h"
 #include <math.h>
 
-/* Last the unit, and what else there is to say */
+/* The last arguments are the unit and further members */
 #define FIELD(record, member, stored, ...) \
   { \
     .name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__ \
   }
-/* The same behind the heading: the width, then what else */
+/* After the heading: width, then further members */
 #define COLUMN(place, above, below, ...) \
   { \
     .table = place, .head = {above, below}, .width = __VA_ARGS__ \
@@ -289,7 +289,7 @@ const void *SchemaAt(const ReportField *field, const void *record)
   return (const char *)record + field->offset;
 }
 
-/* Of a field that is a number or a truth */
+/* Value of a numeric or boolean field */
 double SchemaNumber(const ReportField *field, const void *record)
 {
   const void *value = SchemaAt(field, record);
@@ -310,7 +310,7 @@ const char *SchemaText(const ReportField *field, const void *record)
   return field->type == FIELD_CHARS ? (const char *)value : *(const char *const *)value;
 }
 
-/* How many values a list of this record's has */
+/* Number of values of a list */
 PetscInt SchemaCount(const ReportField *field, const void *record)
 {
   return *(const PetscInt *)((const char *)record + field->count);

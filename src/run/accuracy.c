@@ -1,4 +1,4 @@
-/* Chooses tolerances and mesh for a requested accuracy, and no more than that. */
+/* Chooses tolerances and mesh for a requested accuracy. */
 #include <accuracy.h>
 #include <math.h>
 

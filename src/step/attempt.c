@@ -491,6 +491,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {
+    PetscCall(ElasticityCommit(sim->elasticity, u));
     PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));

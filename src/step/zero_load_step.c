@@ -10,7 +10,7 @@
 PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
 {
   PetscReal before, displacement, temperature, load = 0.0, moved = 0.0;
-  PetscBool rubs = PETSC_FALSE; /* with friction, slip does not return to zero by itself */
+  PetscBool stays; /* what has slipped, or has yielded, does not go back by itself */
   Vec       u;
 
   PetscFunctionBegin;
@@ -23,9 +23,11 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
+  PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
-    rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
-  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
+    stays = (PetscBool)(stays || SceneContactPairRubs(&p->sim->scene->pairs[k]));
+  *due =
+    (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);
 }
 

@@ -19,8 +19,8 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need to balance
-   only to the per cents at which the linear solves aim, because pairs, not forces, follow mu */
+/* Whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to
+   balance only to the few per cent at which the linear solves aim, because mu affects the pairs, not the forces */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = &ip->kkt;
@@ -30,7 +30,7 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
   return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
 }
 
-/* mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
+/* Monotone rule: mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), with mu in units of the product scale */
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -50,8 +50,8 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it.
-   The second-order term counts for no more than a hundred times the mean product. */
+/* Mehrotra's choice: mu = sigma x mean product, where sigma is the cube of the fraction of the mean product that an
+   affine step (mu = 0) leaves. The second-order term is limited to a hundred times the mean product. */
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -77,8 +77,8 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error is below the worst of the last iterates in free mode, which it then replaces there
-   (Nocedal, Waechter and Waltz 2009, section 4) */
+/* Whether the KKT error is below the worst of the last iterates in free mode, and stores it in its place (Nocedal,
+   Waechter and Waltz 2009, section 4) */
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
   const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar.errors);
@@ -90,8 +90,8 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Changes from Mehrotra's method to the monotone one, with a mu near the present products, limited to a few times
-   those of the start */
+/* Changes from Mehrotra's rule to the monotone one, with mu near the present products, limited to a few times the
+   mean at the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -106,7 +106,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The same for some iterations at least, whatever progress there is */
+/* The same for at least this many iterations */
 PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 {
   PetscFunctionBegin;
@@ -116,9 +116,9 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 }
 
 /*
-   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's method suits convex objectives and
-   linear constraints, where the affine step predicts mu. The monotone method replaces it if the problem is different,
-   and while the KKT error does not fall
+   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives and linear
+   constraints, where the affine step predicts mu. The monotone rule replaces it for other problems, and while the KKT
+   error does not fall
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {

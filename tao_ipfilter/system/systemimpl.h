@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/system: the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/system, the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter. Files are in the order
+   in which they depend on each other; they use the folders below.
 */
 #ifndef IPFILTER_SYSTEMIMPL_H
 #define IPFILTER_SYSTEMIMPL_H

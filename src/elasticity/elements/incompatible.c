@@ -1,15 +1,20 @@
 /*
-   Incompatible modes, for linear laws and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), the modes of
-   a cell condensed in it. With J the Jacobian at a point and J0 that at the centre the 12 modes are
+   Incompatible modes, for linear laws and cells of order 1:
 
-     M_(3 i + k) = det J0/det J  xi_k e_i (x) (row k of J0^(-1)),   M_(9 + k) = det J0/det J  xi_(k + 1) xi_(k + 2) I:
+     E = min over a of int W(H + sum_m a_m M_m).
 
-   the gradients of xi_k^2, in which a bent cell does not shear, and the dilatations that a trilinear displacement
-   lacks, without which it locks as Poisson's ratio nears 1/2. det J0/det J makes int M = 0 in cells of every shape,
-   so they pass the patch test.
+   The mode amplitudes a of a cell are condensed. With J the Jacobian at a point and J0 that at the centre, the 12 modes
+   are
 
-   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A
-   class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
+     M_(3 i + k) = det J0/det J xi_k e_i (x) (row k of J0^(-1)),
+     M_(9 + k) = det J0/det J xi_(k + 1) xi_(k + 2) I.
+
+   The first nine are gradients of xi_k^2, which avoid shear locking in bending. The last three are dilatations that a
+   trilinear displacement lacks; they avoid locking as Poisson's ratio approaches 1/2. The factor det J0/det J makes int
+   M = 0 in cells of any shape, so they pass the patch test.
+
+   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A class
+   of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
    versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
 #include "elementsimpl.h"
@@ -17,11 +22,11 @@
 #define MODES 12
 
 typedef struct {
-  PetscReal K[MODES][3][CELL_MAX_NODES]; /* derivatives of the energy by a mode and U[i][a] */
-  PetscReal L[MODES][MODES];             /* Cholesky factor of those by two modes */
+  PetscReal K[MODES][3][CELL_MAX_NODES]; /* second derivatives of the energy by a mode and U[i][a] */
+  PetscReal L[MODES][MODES];             /* Cholesky factor of the second derivatives by two modes */
 } Incompatibility;
 
-/* det J0 J0^(-1): the modes are scaled by det J0 */
+/* cofactor = det J0 J0^(-1); the modes are scaled by det J0 */
 static void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
 {
   PetscReal J[3][3];
@@ -57,7 +62,8 @@ static void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, P
   }
 }
 
-/* Positive definite: no combination of modes is a rotation at all points */
+/* Cholesky factorization in place; the matrix is positive definite, since no combination of modes is a rotation at
+   all points */
 static void IncompatibleFactor(PetscReal L[MODES][MODES])
 {
   for (int m = 0; m < MODES; ++m) {
@@ -92,7 +98,7 @@ static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, Pet
   IncompatibleFactor(modes->L);
 }
 
-/* a = -K_aa^(-1) K_au u; returns the energy that the modes take away, a.K_aa a/2 */
+/* a = -K_aa^(-1) K_au u; returns the energy that the modes remove, a.K_aa a/2 */
 static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][CELL_MAX_NODES], PetscReal a[MODES])
 {
   PetscReal released = 0;
@@ -164,7 +170,7 @@ static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const Bod
   return PETSC_TRUE;
 }
 
-/* The modes' stresses have no mean */
+/* the stresses of the modes have zero mean */
 static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
