@@ -301,11 +301,37 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
+/* Records that each rank takes a part of */
+static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt components, Checkpoint checkpoint)
 {
-  PetscBool rubs = PETSC_FALSE;
+  Vec                stored;
+  const PetscScalar *s;
+  PetscReal         *values;
+  PetscInt           n;
 
   PetscFunctionBegin;
+  PetscCall(RestartLoad(r, name, PETSC_DECIDE, components, &stored));
+  PetscCall(RestartCheckNumbers(r, name, stored));
+  PetscCall(VecGetLocalSize(stored, &n));
+  PetscCall(CheckpointAddField(checkpoint, name, components, n / components, &values));
+  PetscCall(VecGetArrayRead(stored, &s));
+  for (PetscInt i = 0; i < n; ++i) values[i] = PetscRealPart(s[i]);
+  PetscCall(VecRestoreArrayRead(stored, &s));
+  PetscCall(VecDestroy(&stored));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
+{
+  PetscBool rubs = PETSC_FALSE, yields = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < r->scene->nbodies; ++b)
+    yields = (PetscBool)(yields || r->scene->bodies[b].material.type == MATERIAL_J2);
+  if (yields) {
+    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
+    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, checkpoint));
+  }
   for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));

@@ -1,5 +1,5 @@
 /* The state of a simulation for a restart: displacements and contact history. */
-#include <checkpoint.h>
+#include "checkpointimpl.h"
 #include "src/measure/measureimpl.h"
 
 /* Adds a field from a global vector; NULL: zeros */
@@ -111,6 +111,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
   if (sim->history.shear) PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
+  PetscCall(CheckpointAddPlastic(sim->elasticity, *checkpoint));
   PetscFunctionReturn(0);
 }
 
@@ -156,6 +157,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(CheckpointGetPlastic(sim->comm, sim->elasticity, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);

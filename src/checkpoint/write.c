@@ -80,11 +80,11 @@ static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
   PetscCall(FieldsWriteMesh(viewer, contents->mesh));
   for (PetscInt f = 0; f < contents->checkpoint->nfields; ++f) {
     const CheckpointField *field = &contents->checkpoint->fields[f];
-    const PetscInt         n     = field->components * contents->mesh->nowned;
+    const PetscInt         n     = field->components * field->n;
     Vec                    data;
     PetscScalar           *a;
 
-    PetscCall(DatasetCreate(contents->mesh->comm, field->name, contents->mesh->nowned, field->components, &data));
+    PetscCall(DatasetCreate(contents->mesh->comm, field->name, field->n, field->components, &data));
     PetscCall(VecGetArrayWrite(data, &a));
     for (PetscInt i = 0; i < n; ++i) a[i] = field->values[i];
     PetscCall(VecRestoreArrayWrite(data, &a));

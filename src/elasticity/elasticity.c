@@ -150,7 +150,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
-    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
+    PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
       "Body %" PetscInt_FMT
       ": incompatible modes are for small strain; under compression at finite strain they are unstable",

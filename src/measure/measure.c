@@ -109,6 +109,24 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* The plastic work, which is then no part of the energy, and the largest plastic strains */
+static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
+{
+  PetscReal *largest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &largest));
+  PetscCall(ElasticityPlasticWork(sim->elasticity, &report->plastic_work, largest));
+  report->energy -= report->plastic_work;
+  report->plastic_strain = 0.0;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    report->bodies[b].plastic_strain = largest[b];
+    report->plastic_strain           = PetscMax(report->plastic_strain, largest[b]);
+  }
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
    residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
@@ -128,6 +146,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
+  PetscCall(MeasurePlastic(sim, report));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
   moves = (PetscBool)(size <= rounding);

@@ -51,6 +51,7 @@ PetscErrorCode ResultsMeasure(Simulation sim)
 
   PetscFunctionBegin;
   PetscCall(ResultsFree(results));
+  PetscCall(ElasticityCellPlastic(sim->elasticity, &results->plastic));
   if (!results->nodes && !results->points && !sim->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
   if (results->nodes || sim->probes.n)
@@ -70,6 +71,7 @@ PetscErrorCode ResultsFree(Results *results)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(results->recovered));
+  PetscCall(PetscFree(results->plastic));
   PetscCall(PetscFree(results->nodal));
   PetscCall(PetscFree(results->density));
   PetscCall(PetscFree(results->places));

@@ -25,10 +25,10 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
 {
   const PetscReal at_rest = 1e-2; /* relative to the energy: the imbalance of a step with less turnover is related to
                                      this */
-  const PetscReal stored  = report->energy - path->energy;
+  const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
-  path->energy = report->energy;
+  path->energy += stored;
   path->unbalanced += PetscAbsReal(work - stored - taken);
   path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
   report->normal_work = report->contact_work - report->dissipated;

@@ -33,6 +33,7 @@ struct _n_Output {
     nindiceslocal;         /* number of integers that describe the cells: 8 nodes each, or in mixed files a kind and its
                       nodes */
   PetscBool   friction;    /* friction stress and slip are written */
+  PetscBool   plastic;     /* plastic strain is written */
   PetscBool   nodes;       /* nodal stress and strain energy are written */
   PetscInt    nquadrature; /* quadrature points on all ranks, in steps with stress there */
   PetscBool   meshed;      /* the mesh has been written */
@@ -109,6 +110,7 @@ typedef enum {
   TABLE_PAIRS,
   TABLE_FACES,
   TABLE_BALANCE,
+  TABLE_PLASTICITY,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,

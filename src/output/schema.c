@@ -106,6 +106,7 @@ static const ReportField body_fields[] = {
   FIELD(BodyReport, load, FIELD_VECTOR, "force"),
   FIELD(BodyReport, residual, FIELD_VECTOR, "force"),
   FIELD(BodyReport, balance, FIELD_REAL, ""),
+  FIELD(BodyReport, plastic_strain, FIELD_REAL, ""),
   END,
 };
 static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_fields};
@@ -133,6 +134,10 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, energy, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1),
       COLUMN(TABLE_BALANCE, "stored", "", 13, .format = "%.5e", .behind = PETSC_TRUE)}),
+  FIELD(StepReport, plastic_work, FIELD_REAL, "force length",
+    .columns = {COLUMN(TABLE_PLASTICITY, "plastic", "work", 13, .format = "%.5e")}),
+  FIELD(StepReport, plastic_strain, FIELD_REAL, "",
+    .columns = {COLUMN(TABLE_PLASTICITY, "largest", "plastic strain", 14, .format = "%.5e")}),
   FIELD(StepReport, work, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_BALANCE, "work", "", 13, .format = "%.5e")}),
   FIELD(StepReport, dissipated, FIELD_REAL, "force length",

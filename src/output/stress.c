@@ -51,6 +51,10 @@ PetscErrorCode StressWriteCells(Output output, const StepState *state, PetscView
   PetscFunctionBegin;
   PetscCall(StressWritePieces(output, "stress", 6, tensor6, 7, state->stress, viewer));
   PetscCall(StressWritePieces(output, "von_mises", 1, mises, 7, state->stress, viewer));
+  if (state->plastic) {
+    PetscCall(StressWritePieces(output, "plastic_strain", 6, tensor6, 7, state->plastic, viewer));
+    PetscCall(StressWritePieces(output, "equivalent_plastic_strain", 1, mises, 7, state->plastic, viewer));
+  }
   if (state->density)
     PetscCall(StressWritePieces(output, "strain_energy_density", 1, identity, 1, state->density, viewer));
   PetscFunctionReturn(0);

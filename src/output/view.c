@@ -44,6 +44,16 @@ static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Where a body has yielded */
+static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (!report->nsteps || !(report->steps[report->nsteps - 1].plastic_strain > 0.0)) PetscFunctionReturn(0);
+  PetscCall(ViewSteps(report, TABLE_PLASTICITY, 2, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(0);
+}
+
 /* Prints load steps whose linear systems needed more than the Krylov method */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
@@ -207,6 +217,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewBalance(report, viewer));
+  PetscCall(ViewPlasticity(report, viewer));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));
   PetscCall(ViewErrors(report, viewer));

@@ -132,6 +132,10 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
       PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
     XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
     XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    if (output->plastic) {
+      XDMFWriteAttribute(stream, file, "plastic_strain", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
+      XDMFWriteAttribute(stream, file, "equivalent_plastic_strain", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    }
     if (output->nodes) XDMFWriteNodalStress(stream, output, file);
     fputs("      </Grid>\n", stream);
   }

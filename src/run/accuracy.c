@@ -318,7 +318,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
 
-    level->energy[s] = step->energy;
+    level->energy[s] = step->energy + step->plastic_work;
     level->amg_applications += step->amg_applications;
     largest = PetscMax(largest, step->energy);
     PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));

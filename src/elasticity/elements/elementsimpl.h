@@ -157,6 +157,25 @@ typedef struct {
     PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
 
+/* modes.c: det J0 J0^(-1) of a cell, its incompatible modes at point q, which has volume w, and Cholesky's factor */
+#define INCOMPATIBLE_MODES 12
+PETSC_INTERN void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3]);
+PETSC_INTERN void IncompatibleModes(const CellBasis *, PetscInt q, PetscReal w, PetscReal cofactor[3][3],
+  PetscReal M[INCOMPATIBLE_MODES][9]);
+PETSC_INTERN void IncompatibleFactor(PetscReal L[INCOMPATIBLE_MODES][INCOMPATIBLE_MODES]);
+
+/* condensed.c: incompatible modes of a law that is not linear, members of an Element */
+PETSC_INTERN PetscReal CondensedEnergy(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES]);
+PETSC_INTERN PetscBool CondensedForce(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
+PETSC_INTERN PetscBool CondensedStiffness(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
+PETSC_INTERN PetscBool CondensedCauchy(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
+PETSC_INTERN void      CondensedStrains(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+       PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
+
 #define ELEMENT_DECLARE(name, element, text) PETSC_INTERN const Element Element##element;
 ELEMENT_TYPES(ELEMENT_DECLARE)
 #undef ELEMENT_DECLARE
@@ -202,8 +221,8 @@ struct _n_Elasticity {
   Vec              springs;     /* stiffness of springs to the ground, one per row; NULL: none [force/length] */
   Mat              between;     /* stiffness of springs between unknowns; NULL: none [force/length] */
   PetscReal       *temperature; /* 4 per cell; NULL: none */
-  PetscInt        *firstpoint;  /* first point of cell c in history; PETSC_DECIDE: its law has no history; NULL: no
-                                   law has */
+  PetscBool        yields;      /* some body's law has a history */
+  PetscInt        *firstpoint;  /* then: first point of cell c in history; PETSC_DECIDE: its law has none */
   PetscInt         npoints;     /* number of points with a history on this rank */
   PetscReal       *history;     /* at the last state of equilibrium, MATERIAL_HISTORY values per point */
   AssembledTangent assembled;

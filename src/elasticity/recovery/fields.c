@@ -155,7 +155,8 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
   Level: intermediate
 
   Notes:
-  Density times volume sums to `ElasticityEnergy()`. A cell turned inside out has `PETSC_INFINITY`.
+  Density times volume sums to `ElasticityEnergy()`, less the plastic work. A cell turned inside out has
+  `PETSC_INFINITY`.
 
 .seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
 @*/
@@ -175,7 +176,10 @@ PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
     ElasticityGetCell(e, c, x, ul, &cell);
     basis = cell.body->basis;
     for (PetscInt q = 0; q < basis->npoints; ++q) volume += CELL_CALL(CellGradients, basis, q, cell.X, G);
-    energy        = cell.body->element->energy(basis, cell.material, cell.X, cell.U);
+    energy = cell.body->element->energy(basis, cell.material, cell.X, cell.U);
+    for (PetscInt q = 0; cell.material->moduli.history && q < basis->npoints; ++q)
+      energy -= CELL_CALL(CellGradients, basis, q, cell.X, G) *
+                cell.material->law->work(&cell.material->moduli, cell.material->moduli.history + MATERIAL_HISTORY * q);
     (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
