@@ -79,10 +79,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
     if (e->bodies[e->cellbody[c]].kept && !all) continue;
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (!cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, cell.U, K)) {
+    if (!cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, cell.U, K)) {
       PetscReal rest[3][CELL_MAX_NODES] = {{0}};
 
-      (void)cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, rest, K);
+      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, rest, K);
     }
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];

@@ -143,12 +143,13 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   for (PetscInt b = 0; b < nbodies; ++b) {
     BodyMaterial *m = &e->bodies[b].material;
 
-    PetscCall(MaterialGetModuli(&materials[b], &m->moduli, &m->isochoric));
+    e->bodies[b].given = materials[b];
+    PetscCall(MaterialGetModuli(&e->bodies[b].given, &m->moduli, &m->isochoric));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     PetscCall(MaterialGetExpansion(&materials[b], e->bodies[b].expansion));
     for (int i = 0; i < 9; ++i)
       e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
-    PetscCheck(m->law->constant || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
+    PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
@@ -164,6 +165,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
   PetscCall(ElasticitySetUpKept(e));
+  PetscCall(ElasticitySetUpHistory(e));
   *elasticity = e;
   PetscFunctionReturn(0);
 }
@@ -249,6 +251,8 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
+  PetscCall(PetscFree((*e)->firstpoint));
+  PetscCall(PetscFree((*e)->history));
   PetscCall(VecDestroy(&(*e)->springs));
   PetscCall(MatDestroy(&(*e)->between));
   PetscCall(PetscFree(*e));

@@ -9,6 +9,9 @@
 /* constant.c: the bodies whose tangent is constant, and which of them are kept when a tangent is assembled again */
 PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);
 
+/* history.c: zeros at the points of laws with a history */
+PETSC_INTERN PetscErrorCode ElasticitySetUpHistory(Elasticity);
+
 /* preallocate.c: allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
 

@@ -47,7 +47,7 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
   PetscBool       good = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!OptionGetKind(name, &kind) || kind == OPTION_VIEWER) PetscFunctionReturn(0);
+  if (!OptionGetKind(name, &kind)) PetscFunctionReturn(0);
   PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, and needs %s", name,
     needs[kind]);
   if (missing) PetscFunctionReturn(0);

@@ -5,50 +5,36 @@
 
 /* All that pc_amgf, tao_ipfilter, src and apps ask for; tests/doc/options.py holds the list against their sources */
 const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
-  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_feature_angle",
-  "contact_free", "contact_gap", "contact_gap_tol", "contact_normal_cosine", "contact_normals", "contact_overlap_drop",
-  "contact_penalty", "contact_quadrature", "contact_row_drop", "contact_search_depth", "contact_search_distance",
-  "contact_smooth", "contact_update_tol", "contact_updates", "contact_view", "displacement_bounds", "effects_view",
-  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_monitor", "load_steps",
-  "load_warm_start", "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_amg_lag_ratio", "pc_amgf_cycle",
-  "pc_amgf_detect", "pc_amgf_factor", "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks",
-  "progress_every", "quiet", "refine", "report", "restart", "scene_check", "summary", "tao_ipfilter_acceptable_it",
-  "tao_ipfilter_acceptable_tol", "tao_ipfilter_barrier", "tao_ipfilter_bound_push", "tao_ipfilter_compl_inf_tol",
-  "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_equality", "tao_ipfilter_delta_first", "tao_ipfilter_delta_grow",
-  "tao_ipfilter_delta_grow_first", "tao_ipfilter_delta_max", "tao_ipfilter_delta_shrink", "tao_ipfilter_delta_switch",
-  "tao_ipfilter_direct", "tao_ipfilter_direct_memory", "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init",
-  "tao_ipfilter_equality", "tao_ipfilter_eta_phi", "tao_ipfilter_filter_switch", "tao_ipfilter_filter_threshold",
-  "tao_ipfilter_forcing", "tao_ipfilter_forcing_last", "tao_ipfilter_forcing_max", "tao_ipfilter_forcing_reduce",
-  "tao_ipfilter_gamma_alpha", "tao_ipfilter_gamma_phi", "tao_ipfilter_gamma_theta", "tao_ipfilter_gradient_max",
-  "tao_ipfilter_kappa_curvature", "tao_ipfilter_kappa_dual", "tao_ipfilter_kappa_epsilon", "tao_ipfilter_kappa_mu",
-  "tao_ipfilter_kappa_progress", "tao_ipfilter_kappa_sigma", "tao_ipfilter_kappa_soc", "tao_ipfilter_kkt",
-  "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions",
-  "tao_ipfilter_mu_reductions_first", "tao_ipfilter_obj_max_inc", "tao_ipfilter_predict_forcing",
-  "tao_ipfilter_predict_mu", "tao_ipfilter_proximal", "tao_ipfilter_row_ratio", "tao_ipfilter_s_phi",
-  "tao_ipfilter_s_theta", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
-  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tau_min", "tao_ipfilter_theta_max_fact",
-  "tao_ipfilter_theta_min_fact", "tao_ipfilter_theta_mu", "tao_ipfilter_tol", "tao_ipfilter_unbounded_factor",
-  "tao_ipfilter_warm_mu", "traceback", NULL};
+  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
+  "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
+  "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "effects_view",
+  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start",
+  "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor",
+  "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report",
+  "restart", "scene_check", "summary", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
+  "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_max", "tao_ipfilter_direct", "tao_ipfilter_direct_memory",
+  "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init", "tao_ipfilter_equality", "tao_ipfilter_eta_phi",
+  "tao_ipfilter_filter_switch", "tao_ipfilter_forcing", "tao_ipfilter_gamma_phi", "tao_ipfilter_kkt",
+  "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions_first",
+  "tao_ipfilter_proximal", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
+  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tol", "traceback", NULL};
 
 /* Of them those that are true or false; without a value true. Those of no list below need a number */
 static const char *const OptionsSwitches[] = {"accuracy_adaptive", "accuracy_view", "contact_free", "contact_smooth",
-  "effects_view", "error_estimate", "load_monitor", "load_warm_start", "output_gauss", "quiet", "scene_check",
-  "tao_ipfilter_direct", "tao_ipfilter_monitor", "traceback", NULL};
+  "effects_view", "error_estimate", "load_warm_start", "output_gauss", "quiet", "scene_check", "tao_ipfilter_direct",
+  "tao_ipfilter_monitor", "traceback", NULL};
 
 /* Those that need a whole number */
 static const char *const OptionsCounts[] = {"accuracy_order", "checkpoint_every", "contact_quadrature",
   "contact_updates", "displacement_bounds", "elasticity_quadrature", "load_max_cuts", "load_steps",
-  "pc_amgf_filter_ranks", "refine", "tao_ipfilter_acceptable_it", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions",
-  "tao_ipfilter_mu_reductions_first", "tao_ipfilter_subspace_max", NULL};
+  "pc_amgf_filter_ranks", "refine", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions_first",
+  "tao_ipfilter_subspace_max", NULL};
 
 /* Those that need a word or a name */
 static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact_gap", "contact_normals",
   "elasticity_mat_type", "model", "output", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_factor", "pc_amgf_filter_file",
   "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
   "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
-
-/* Those that may have any value, and need none */
-static const char *const OptionsViewers[] = {"contact_view", NULL};
 
 /* Of PETSc's objects that are made later */
 static const char *const OptionsPrefixes[] = {"tao_ipfilter_augmented_", "tao_ipfilter_direct_", "tao_ipfilter_",
@@ -123,7 +109,6 @@ PetscBool OptionGetKind(const char name[], OptionKind *kind)
   if (OptionIsOneOf(ours, OptionsSwitches)) *kind = OPTION_SWITCH;
   else if (OptionIsOneOf(ours, OptionsCounts)) *kind = OPTION_COUNT;
   else if (OptionIsOneOf(ours, OptionsWords)) *kind = OPTION_WORD;
-  else if (OptionIsOneOf(ours, OptionsViewers)) *kind = OPTION_VIEWER;
   else *kind = OPTION_NUMBER;
   return OptionIsOneOf(ours, OptionsOurs);
 }

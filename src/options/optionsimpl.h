@@ -11,8 +11,7 @@ typedef enum {
   OPTION_SWITCH, /* true or false, or no value, which is true */
   OPTION_COUNT,  /* a whole number */
   OPTION_NUMBER,
-  OPTION_WORD,   /* one of a few, or a name */
-  OPTION_VIEWER, /* any value, or none */
+  OPTION_WORD, /* one of a few, or a name */
   OPTION_KINDS
 } OptionKind;
 

@@ -1,5 +1,5 @@
-/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when rows are
-   requested. On the first rank only, which has all of W. */
+/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed on demand. All
+   data are on the first rank. */
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
@@ -12,7 +12,8 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether a factor of K has no negative pivot. Cholesky factorizations report no error at one: they keep L D L^T. */
+/* Whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D L^T,
+   without an error. */
 static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
 {
   PetscInt negative;
@@ -23,8 +24,8 @@ static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky of K_WW by MUMPS, or by PETSc, which counts pivots in its SBAIJ format alone; *definite is false where K_WW
-   is not positive definite */
+/* Cholesky factorization of K_WW by MUMPS, or by PETSc in SBAIJ format, which counts pivots. *definite: false if
+   K_WW is not positive definite */
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
@@ -130,7 +131,7 @@ PetscErrorCode IPComplianceSpread(IPCompliance *c, const PetscReal x[], PetscRea
   PetscFunctionReturn(0);
 }
 
-/* The columns of the given rows, appended to those that there are */
+/* Computes the columns of the given rows and appends them */
 static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   PetscReal *b, *x;
@@ -153,7 +154,7 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Computes the columns of the given rows that are missing */
+/* Computes those columns of the given rows that are missing */
 PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   const PetscInt chunk = 64;

@@ -112,8 +112,27 @@ PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, Petsc
 */
 typedef struct {
   const MaterialLaw *law;
-  MaterialModuli     moduli, isochoric; /* all of the law, and what is left of it without its bulk modulus */
+  MaterialModuli     moduli, isochoric; /* all of the law, and what is left of it without its bulk modulus; of a law
+                                           with a history, that of a cell's points in turn */
 } BodyMaterial;
+
+/* The moduli at point q of a cell: its own copy where the law has a history */
+static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, PetscInt q, MaterialModuli *own)
+{
+  if (!cell->history) return cell;
+  *own = *cell;
+  own->history += MATERIAL_HISTORY * q;
+  return own;
+}
+
+/* Takes the plastic strain of point q of a cell off a displacement gradient */
+static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H[9])
+{
+  static const int at[9]   = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+  const PetscReal *history = cell->moduli.history;
+
+  for (int i = 0; history && i < 9; ++i) H[i] -= history[MATERIAL_HISTORY * q + at[i]];
+}
 
 #define ELEMENT_STRAINS 10
 
@@ -134,7 +153,8 @@ typedef struct {
   /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
   PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
-  /* Volumes of the points; displacement gradient (9) and dilatation there, those whose energy is the cell's */
+  /* Volumes of the points; displacement gradient (9) and dilatation there, those whose energy is the cell's: with the
+     plastic strain in them */
   void (*strains)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
@@ -151,6 +171,7 @@ PETSC_INTERN PetscLogEvent  ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Err
 PETSC_INTERN PetscErrorCode ElasticityEventsRegister(void);
 
 typedef struct {
+  Material         given; /* as the caller gave it */
   BodyMaterial     material;
   ElementType      type;
   const Element   *element; /* with the basis, that of the body's cells; NULL on ranks without any */
@@ -183,6 +204,9 @@ struct _n_Elasticity {
   Vec              springs;     /* stiffness of those to the ground, one a row; NULL: none [force/length] */
   Mat              between;     /* of springs between unknowns; NULL: there are none [force/length] */
   PetscReal       *temperature; /* 4 a cell; NULL: none is set */
+  PetscInt        *firstpoint;  /* of cell c in history, PETSC_DECIDE: its law has none; NULL: no law has */
+  PetscInt         npoints;     /* that have a history, of this rank */
+  PetscReal       *history;     /* of the last state of equilibrium, MATERIAL_HISTORY values a point */
   AssembledTangent assembled;
 };
 
@@ -203,10 +227,12 @@ static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscSca
 
 /* A cell with its places and displacements */
 typedef struct {
-  PetscInt        n;
-  const PetscInt *nodes;
-  const Body     *body;
-  PetscReal       X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
+  PetscInt            n;
+  const PetscInt     *nodes;
+  const Body         *body;
+  const BodyMaterial *material; /* the body's, or */
+  BodyMaterial        own;      /* that with the cell's history */
+  PetscReal           X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
 } CellState;
 
 /* thermal.c: takes off what a cell would move by in its temperature if it were free */
@@ -215,9 +241,15 @@ PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],
   CellState *cell)
 {
-  cell->n     = e->cellstart[c + 1] - e->cellstart[c];
-  cell->nodes = e->cellnodes + e->cellstart[c];
-  cell->body  = &e->bodies[e->cellbody[c]];
+  cell->n        = e->cellstart[c + 1] - e->cellstart[c];
+  cell->nodes    = e->cellnodes + e->cellstart[c];
+  cell->body     = &e->bodies[e->cellbody[c]];
+  cell->material = &cell->body->material;
+  if (e->history && e->firstpoint[c] >= 0) {
+    cell->own                = cell->body->material;
+    cell->own.moduli.history = cell->own.isochoric.history = e->history + MATERIAL_HISTORY * e->firstpoint[c];
+    cell->material                                         = &cell->own;
+  }
   CellGather(cell->n, cell->nodes, x, cell->X);
   CellGather(cell->n, cell->nodes, u, cell->U);
   if (e->temperature && cell->body->expands) ThermalSubtract(e->temperature + 4 * c, cell);

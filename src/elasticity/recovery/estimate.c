@@ -13,7 +13,7 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
   const PetscReal volumetric = m->moduli.bulk * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
 
-  if (m->law->constant) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
+  if (m->law->constant || m->law->advance) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
   if (!m->law->tangent(&m->isochoric, H, A)) return PETSC_INFINITY;
   for (int i = 0; i < 9; ++i) {
     for (int j = 0; j < 9; ++j) isochoric += error[i] * A[9 * i + j] * error[j];
@@ -23,19 +23,19 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
 
 static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recovered[])
 {
-  const CellBasis    *basis = cell->body->basis;
-  const BodyMaterial *m     = &cell->body->material;
-  PetscReal           w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
+  const CellBasis *basis = cell->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
 
-  cell->body->element->strains(basis, m, cell->X, cell->U, w, H);
+  cell->body->element->strains(basis, cell->material, cell->X, cell->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal error[ELEMENT_STRAINS];
 
+    CellElastic(cell->material, q, H[q]);
     for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = -H[q][k];
     for (PetscInt a = 0; a < cell->n; ++a) {
       for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[cell->nodes[a]].value[k];
     }
-    sum += w[q] * EstimateNormSquared(m, H[q], error);
+    sum += w[q] * EstimateNormSquared(&cell->body->material, H[q], error);
   }
   return sum;
 }

@@ -128,8 +128,9 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
 
     ElasticityGetCell(e, c, x, ul, &cell);
     basis = cell.body->basis;
-    cell.body->element->strains(basis, &cell.body->material, cell.X, cell.U, w, H);
+    cell.body->element->strains(basis, cell.material, cell.X, cell.U, w, H);
     for (PetscInt q = 0; q < basis->npoints; ++q, ++k) {
+      CellElastic(cell.material, q, H[q]);
       (void)FieldsStress(&cell.body->material, H[q], *stress + 6 * k);
       for (int a = 0; a < basis->nnodes; ++a) {
         for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += basis->N[q][a] * cell.X[d][a];
@@ -175,7 +176,7 @@ PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
     ElasticityGetCell(e, c, x, ul, &cell);
     basis = cell.body->basis;
     for (PetscInt q = 0; q < basis->npoints; ++q) volume += CELL_CALL(CellGradients, basis, q, cell.X, G);
-    energy        = cell.body->element->energy(basis, &cell.body->material, cell.X, cell.U);
+    energy        = cell.body->element->energy(basis, cell.material, cell.X, cell.U);
     (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));

@@ -89,7 +89,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
 
   *cell = (QuadraticCell){0};
   QuadraticWeights(basis, &cell->n, weight);
-  state->body->element->strains(basis, &state->body->material, state->X, state->U, w, H);
+  state->body->element->strains(basis, state->material, state->X, state->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal x[3] = {0, 0, 0};
 
@@ -98,6 +98,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
       for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
       for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
     }
+    CellElastic(state->material, q, H[q]);
     for (int s = 0; s < cell->n; ++s) {
       for (int d = 0; d < 3; ++d) cell->x[s][d] += weight[s][q] * x[d];
       for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight[s][q] * H[q][k];

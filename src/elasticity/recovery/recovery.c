@@ -44,6 +44,7 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
 
     CellDisplacementGradient((int)state->n, state->U, G, s);
     s[9] = law->dilatation(s, C);
+    CellElastic(state->material, q, s);
     volume += w;
     for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {

@@ -24,7 +24,7 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(&X[0][0], &cell->X[0][0], 3 * CELL_MAX_NODES));
   PetscCall(PetscArraycpy(&U[0][0], &cell->U[0][0], 3 * CELL_MAX_NODES));
-  cell->body->element->strains(basis, &cell->body->material, X, U, w, H);
+  cell->body->element->strains(basis, cell->material, X, U, w, H);
   *volume = *strain = *rotation = 0.0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal s = 0.0, r = 0.0;
@@ -74,9 +74,9 @@ PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2
     CellState  cell;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (!cell.body->material.law->constant) continue;
+    if (cell.body->material.law->finite) continue;
     PetscCall(StrainMeasureCell(&cell, &volume, &strain, &rotation));
-    energy = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    energy = cell.body->element->energy(cell.body->basis, cell.material, cell.X, cell.U);
     sum[0] += energy;
     sum[1] += energy * strain;
     sum[2] += volume;
