@@ -23,7 +23,7 @@ source_list := build/sources.list
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs)
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs) $(if $(programs),bin/contact-mesh)
 
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
@@ -33,8 +33,8 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 	$(call say,CC,$<)
 	$(Q)$(COMPILE) $< -o $@
 
-# Which Python makes the page of a run
-build/src/output/page.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
+# Which Python makes the page of a run, and converts meshes
+build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
@@ -58,6 +58,10 @@ bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
+
+bin/contact-mesh: share/python/contact-mesh.sh
+	@mkdir -p $(@D)
+	$(Q)install -m 755 $< $@
 
 .PRECIOUS: build/%.o
 -include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)

@@ -5,10 +5,10 @@
 #include <petscdmplex.h>
 #include "model.h"
 
-/* Values at the vertices that a rank owns, in the order of the global vectors */
+/* Values at the vertices that a rank owns, in the order of the global vectors; or n records of another kind */
 typedef struct {
   char       name[128];
-  PetscInt   components;
+  PetscInt   n, components;
   PetscReal *values;
 } CheckpointField;
 

@@ -58,7 +58,8 @@ typedef struct {
   const char *name;
   PetscReal   contact[3], reaction[3], springs[3], ties[3], load[3]; /* [force] */
   PetscReal   residual[3];                                           /* their sum [force] */
-  PetscReal   balance; /* |residual| / sum of the magnitudes of all these forces */
+  PetscReal   balance;        /* |residual| / sum of the magnitudes of all these forces */
+  PetscReal   plastic_strain; /* largest equivalent plastic strain at any quadrature point */
 } BodyReport;
 
 typedef struct {
@@ -79,7 +80,9 @@ typedef struct {
     filtered_systems;          /* condensed systems; those solved with the filter (for the others the AMG alone was
                                   sufficient) */
   TaoIPFilterFallbacks linear; /* linear solves for which the Krylov method alone was not sufficient */
-  PetscReal            energy; /* strain energy [force length] */
+  PetscReal            energy; /* strain energy, elastic [force length] */
+  PetscReal            plastic_work;   /* work of the stresses on the plastic strains since the start [force length] */
+  PetscReal            plastic_strain; /* largest equivalent plastic strain of all bodies */
   PetscReal    work; /* work of the dead loads and of the reactions on driven faces since the start, by the trapezoidal
                      rule over all solves [force length] */
   PetscReal    contact_work; /* work taken up by the contacts since the start, by the same rule: friction and normal
@@ -168,6 +171,7 @@ typedef struct {
   Vec                 displacement;      /* global vector, 3 components per node [length] */
   const PetscReal    *stress;            /* 7 values per local cell, see ElasticityCellStress() */
   const PetscReal    *nodal;             /* STRESS_VALUES per owned vertex, in the order of global vectors */
+  const PetscReal    *plastic;           /* 7 values per local cell, see ElasticityCellPlastic(); NULL: no law yields */
   const PetscReal    *density;           /* strain energy per undeformed volume, one per local cell [force/length^2] */
   PetscInt            nquadrature;       /* number of quadrature points on this rank */
   const PetscReal    *quadrature;        /* 3 undeformed coordinates per point [length] */

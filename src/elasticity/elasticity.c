@@ -21,7 +21,7 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* The basis of cells with so many nodes, and the body's element on it */
+/* Sets the basis for cells with this many nodes, and the body's element */
 static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
 {
   const PetscInt order = MeshOrder(nnodes);
@@ -39,7 +39,7 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
   PetscFunctionReturn(0);
 }
 
-/* Nodes and body of every cell of this rank; the array grows if cells have more nodes than hexahedra of order 1 */
+/* Sets nodes and body of every cell of this rank; the array grows if cells have more nodes than linear hexahedra */
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;
@@ -152,7 +152,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
     e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
-    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
+    PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
       "Body %" PetscInt_FMT
       ": incompatible modes are for small strain; under compression at finite strain they are unstable",

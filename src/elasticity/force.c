@@ -1,4 +1,4 @@
-/* Energy and internal force by loops over the cells; no matrix */
+/* Energy and internal force by loops over the cells, without a matrix */
 #include "elasticityimpl.h"
 
 /*@
@@ -26,7 +26,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal          sums[2] = {0, 0}; /* energy, number of cells turned inside out */
+  PetscReal          sums[2] = {0, 0}; /* energy; number of inverted cells */
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(ELASTICITY_Force, u, 0, 0, 0));

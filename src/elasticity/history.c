@@ -1,13 +1,11 @@
-/* Plastic strain at the quadrature points: kept from one state of equilibrium to the next */
+/* Plastic strain at the quadrature points, kept from one state of equilibrium to the next */
 #include "elasticityimpl.h"
 
 PetscErrorCode ElasticitySetUpHistory(Elasticity e)
 {
-  PetscBool any = PETSC_FALSE;
-
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < e->nbodies; ++b) any = (PetscBool)(any || e->bodies[b].material.law->advance);
-  if (!any) PetscFunctionReturn(0);
+  for (PetscInt b = 0; b < e->nbodies; ++b) e->yields = (PetscBool)(e->yields || e->bodies[b].material.law->advance);
+  if (!e->yields) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(e->ncells, &e->firstpoint));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const Body *body = &e->bodies[e->cellbody[c]];
@@ -41,7 +39,7 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   const PetscScalar *ul, *x;
 
   PetscFunctionBegin;
-  if (!e->firstpoint) PetscFunctionReturn(0);
+  if (!e->yields) PetscFunctionReturn(0);
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscReal      w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS];
@@ -78,14 +76,14 @@ PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
 {
   PetscFunctionBegin;
   *yielded = PETSC_FALSE;
-  if (!e->firstpoint) PetscFunctionReturn(0);
+  if (!e->yields) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < e->npoints && !*yielded; ++i)
     *yielded = (PetscBool)(e->history[MATERIAL_HISTORY * (i + 1) - 1] > 0);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yielded, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
   PetscFunctionReturn(0);
 }
 
-/* A cell, and the volumes of its points; whether its law has a history */
+/* Gets a cell, and the volumes of its points; returns whether its law has a history */
 static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[], CellState *cell, PetscReal w[])
 {
   PetscReal G[3][CELL_MAX_NODES];
@@ -121,7 +119,7 @@ PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal la
   PetscFunctionBegin;
   *work = 0;
   PetscCall(PetscArrayzero(largest, e->nbodies));
-  if (!e->firstpoint) PetscFunctionReturn(0);
+  if (!e->yields) PetscFunctionReturn(0);
   PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscReal w[CELL_MAX_POINTS];
@@ -152,7 +150,7 @@ PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal la
 
   Output Parameter:
 . strain - means over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
-           equivalent, MATERIAL_HISTORY values; 0 without plasticity; free with `PetscFree()`
+           equivalent, MATERIAL_HISTORY values; free with `PetscFree()`. `NULL` on every rank if no law yields
 
   Level: intermediate
 
@@ -164,9 +162,11 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
   const PetscScalar *zero, *x;
 
   PetscFunctionBegin;
+  *strain = NULL;
+  if (!e->yields) PetscFunctionReturn(0);
   PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
-  PetscCall(PetscCalloc1(MATERIAL_HISTORY * e->ncells, strain));
-  for (PetscInt c = 0; e->firstpoint && c < e->ncells; ++c) {
+  PetscCall(PetscCalloc1(MATERIAL_HISTORY * e->ncells + 1, strain));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscReal w[CELL_MAX_POINTS], volume = 0;
     CellState cell;
 
@@ -184,14 +184,15 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
 /*@C
   ElasticityGetHistory - Gets the points of laws with a history, for checkpoints
 
-  Not Collective
+  Collective
 
   Input Parameter:
 . elasticity - the context
 
   Output Parameters:
 + npoints - number of such points of this rank
-. places  - 3 coordinates a point, undeformed, cell by cell [length]; free with `PetscFree()`. `NULL` if not wanted
+. places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`.
+            `NULL` on every rank if no law has a history
 - history - MATERIAL_HISTORY values a point, borrowed: they may be written
 
   Level: developer
@@ -206,9 +207,9 @@ PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *
   PetscFunctionBegin;
   *npoints = e->npoints;
   *history = e->history;
-  if (!places) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(3 * e->npoints, places));
-  if (!e->firstpoint) PetscFunctionReturn(0);
+  *places  = NULL;
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(4 * e->npoints + 1, places));
   PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscReal w[CELL_MAX_POINTS];
@@ -216,9 +217,11 @@ PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *
 
     if (!HistoryGetCell(e, c, x, &cell, w)) continue;
     for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) {
+      PetscReal *place = *places + 4 * (e->firstpoint[c] + q);
+
+      place[3] = (PetscReal)e->cellbody[c];
       for (int a = 0; a < cell.n; ++a) {
-        for (int d = 0; d < 3; ++d)
-          (*places)[3 * (e->firstpoint[c] + q) + d] += cell.body->basis->N[q][a] * cell.X[d][a];
+        for (int d = 0; d < 3; ++d) place[d] += cell.body->basis->N[q][a] * cell.X[d][a];
       }
     }
   }

@@ -14,16 +14,16 @@
 */
 #include "materialimpl.h"
 
-/* Where a step ends; what is above yield by less than rounding is elastic */
+/* Result of a step; an excess over yield within rounding counts as elastic */
 typedef struct {
-  PetscReal strain[6], alpha; /* plastic strain, a */
-  PetscReal n[6], increment;  /* direction; da, 0: elastic */
-  PetscReal q, slope;         /* trial stress, and dsigma_y/da at the end */
+  PetscReal strain[6], alpha; /* plastic strain; equivalent plastic strain a */
+  PetscReal n[6], increment;  /* flow direction n; increment da, 0: elastic */
+  PetscReal q, slope;         /* trial stress q; dsigma_y/da at the end */
 } J2State;
 
 static const PetscReal rounding = 1e-13;
 
-/* int_0^a of a table's yield stress; its value and slope at a */
+/* Integral from 0 to a of a table's yield stress; its value and slope at a */
 static PetscReal J2Table(const MaterialHardening *h, PetscReal alpha, PetscReal *stress, PetscReal *slope)
 {
   PetscReal integral = 0;
@@ -39,7 +39,7 @@ static PetscReal J2Table(const MaterialHardening *h, PetscReal alpha, PetscReal 
   return integral + 0.5 * (h->stresses.value[i] + *stress) * (alpha - h->strains.value[i]);
 }
 
-/* sigma_y(a), its slope, and as value its integral from 0 */
+/* sigma_y(a) and its slope; returns its integral from 0 to a */
 static PetscReal J2YieldStress(const MaterialHardening *h, PetscReal alpha, PetscReal *stress, PetscReal *slope)
 {
   PetscReal integral = h->yield * alpha;
@@ -60,8 +60,8 @@ static PetscReal J2YieldStress(const MaterialHardening *h, PetscReal alpha, Pets
   return integral;
 }
 
-/* The root of q - stiffness da - sigma_y(a_n + da) by Newton's method, within bounds that close in: the function falls,
-   but a table makes it neither convex nor concave */
+/* Solves q - stiffness da - sigma_y(a_n + da) = 0 by Newton's method within a bracket: the function decreases, but
+   with a table it is neither convex nor concave */
 static PetscReal J2Increment(const MaterialHardening *h, PetscReal alpha, PetscReal q, PetscReal stiffness,
   PetscReal *slope)
 {
@@ -100,7 +100,7 @@ static void J2Deviator(const PetscReal H[9], PetscReal e[6])
   e[5] = 0.5 * (H[2] + H[6]);
 }
 
-/* The deviator e of a displacement gradient, and radial return from the history to it */
+/* Deviator e of the strain of a displacement gradient, and radial return from the history */
 static void J2Return(const MaterialModuli *m, const PetscReal H[9], PetscReal e[6], J2State *s)
 {
   const MaterialHardening *h = m->hardening;
@@ -173,7 +173,7 @@ static PetscBool MaterialStress_J2(const MaterialModuli *m, const PetscReal H[9]
   return PETSC_TRUE;
 }
 
-/* Hooke's less 2 mu (b I_dev + c n (x) n), b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y') - b */
+/* A: elastic tangent minus 2 mu (b I_dev + c n (x) n), b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y') - b */
 static PetscBool MaterialTangent_J2(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};

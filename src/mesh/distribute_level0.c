@@ -350,8 +350,8 @@ static PetscErrorCode DistributeReceive(MPI_Comm comm, PetscInt nbodies, Distrib
   PetscFunctionReturn(0);
 }
 
-/* Sends the parts one after another; the first rank keeps the first. If one cannot be made, the remaining ranks get
-   empty parts, because they wait for a message */
+/* Sends all parts; the first rank keeps its own. If a part cannot be created, the remaining ranks get empty parts,
+   because they wait for a message */
 static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
 {
   PetscErrorCode ierr;
@@ -370,7 +370,7 @@ static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
   PetscFunctionReturn(0);
 }
 
-/* On every rank; not collective except for its messages. Errors are passed to all ranks afterwards */
+/* The exchange on every rank, not collective except for its messages. Errors are raised on all ranks afterwards */
 static PetscErrorCode DistributeExchange(Distribute *deal, MeshOwners *owners)
 {
   DistributePart part = {.sizes = NULL};

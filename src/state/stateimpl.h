@@ -58,7 +58,7 @@ typedef struct {
   PetscReal work;                 /* work of the external forces [force length] */
   Vec       contact;              /* contact forces at u, with friction only; NULL: zero [force] */
   PetscReal contact_work;         /* work of the contact forces [force length] */
-  PetscReal energy;               /* strain energy of the bodies at u [force length] */
+  PetscReal energy;               /* of the bodies at u, with the plastic work [force length] */
   PetscReal unbalanced, turnover; /* in the present load step: work that is neither stored as energy nor taken up by
                                      contact; and the sum over solves of the largest of these three [force length] */
   PetscBool warned;               /* the imbalance has been warned of */
@@ -68,6 +68,7 @@ typedef struct {
 typedef struct {
   PetscBool  nodes, points; /* requested: at nodes and cells; at quadrature points */
   PetscReal *recovered;     /* recovered stress, 6 values per local node */
+  PetscReal *plastic;       /* plastic strain, 7 values a local cell; NULL: no law yields */
   PetscReal *nodal, *density, *places, *point_stress;
   PetscInt   npoints;
 } Results;

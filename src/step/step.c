@@ -40,6 +40,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
     .displacement      = sim->path.u,
     .stress            = sim->stress,
     .nodal             = sim->results.nodal,
+    .plastic           = sim->results.plastic,
     .density           = sim->results.density,
     .nquadrature       = sim->results.npoints,
     .quadrature        = sim->results.places,

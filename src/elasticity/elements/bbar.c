@@ -18,9 +18,9 @@
 typedef struct {
   int       npolynomials;
   PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], H[CELL_MAX_POINTS][9];
-  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell, the first is 1 */
+  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell; the first is 1 */
   PetscReal g[POLYNOMIALS][3][CELL_MAX_NODES];
-  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum mean_k p_k */
+  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum_k mean_k p_k */
 } Dilatation;
 
 static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
@@ -32,7 +32,7 @@ static inline void DilatationSetPoints(const int n, const CellBasis *basis, Pets
   }
 }
 
-/* 1, x, y and z, each less its part along those before it */
+/* Orthogonalizes 1, x, y and z over the cell */
 static void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
 {
   d->npolynomials = basis->nnodes == 27 ? POLYNOMIALS : 1;
@@ -80,7 +80,7 @@ static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, Pet
   CELL_CALL(DilatationProject, basis, m, d);
 }
 
-/* Theta at a point */
+/* Theta at a quadrature point */
 static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
 {
   PetscReal theta = 0;
@@ -197,7 +197,7 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
   return PETSC_TRUE;
 }
 
-/* The dilatation enters by its projection */
+/* As for full integration, but with the projected dilatation */
 static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {

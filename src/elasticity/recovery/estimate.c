@@ -1,11 +1,11 @@
-/* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the
-   energy */
+/* Estimate of the discretization error: difference between the elements' strains and the recovered ones, in the
+   energy norm */
 #include "recoveryimpl.h"
 
 /*
-   The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the
-   dilatation's own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform
-   pressure. At finite strain the isochoric tangent may be indefinite; no error is negative.
+   Second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error; the error of
+   the dilatation is used for kappa. The curvature of theta is omitted, as it integrates to zero under uniform pressure.
+   At finite strain the isochoric tangent may be indefinite; negative values are set to zero.
 */
 static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9],
   const PetscReal error[ELEMENT_STRAINS])
@@ -58,8 +58,8 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
 }
 
 /*
-   Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first
-   at all of their nodes
+   Selects from the remaining bodies some of which no two share a node, and removes them: those that are the first at
+   all of their nodes
 */
 static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
   PetscBool *more)
@@ -99,7 +99,7 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Selects bodies that remain, takes them off, and recovers them; more: whether others remain */
+/* Selects remaining bodies, removes them, and recovers their strains; more: whether others remain */
 PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {

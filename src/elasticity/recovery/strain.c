@@ -1,7 +1,7 @@
-/* How far bodies of a small-strain law are strained and turned */
+/* Strain and rotation of bodies with a small-strain law */
 #include "recoveryimpl.h"
 
-/* Largest principal strain, by its size, and the angle of the infinitesimal rotation of a displacement gradient */
+/* Principal strain of largest magnitude, and angle of the infinitesimal rotation, from a displacement gradient */
 static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
 {
   const PetscReal e[6] = {H[0], H[4], H[8], 0.5 * (H[1] + H[3]), 0.5 * (H[5] + H[7]), 0.5 * (H[2] + H[6])};
@@ -64,7 +64,7 @@ PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* energy, energy x strain, volume, volume x rotation of each body */
+  PetscReal         *sums; /* of each body: energy, energy x strain, volume, volume x rotation */
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
