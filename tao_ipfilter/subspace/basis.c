@@ -11,6 +11,7 @@ PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)
   PetscFunctionBegin;
   b->n   = 0;
   b->max = max;
+  b->generation++;
   PetscCall(PetscCalloc4(max, &b->p, max, &b->q, max * max, &b->gram, max * max, &b->factor));
   PetscFunctionReturn(0);
 }
@@ -157,13 +158,14 @@ static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Factors the Gram matrix, without the directions that depend on others */
+/* Factors the Gram matrix of other directions than before, without those that depend on others */
 static PetscErrorCode BasisFactor(IPBasis *b)
 {
   PetscBool   *keep;
   PetscBLASInt n, ld, info;
 
   PetscFunctionBegin;
+  b->generation++;
   if (!b->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(b->n, &keep));
   PetscCall(BasisFindIndependent(b, keep));

@@ -9,6 +9,7 @@ PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
   if (kept->pc) PetscCall(PCSetReusePreconditioner(kept->pc, PETSC_FALSE));
   PetscCall(PCDestroy(&kept->pc));
   PetscCall(IPBasisDestroy(&kept->basis));
+  PetscCall(IPReducedDestroy(&kept->reduced));
   kept->K_id = 0;
   kept->held = PETSC_FALSE;
   PetscFunctionReturn(0);
