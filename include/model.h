@@ -17,9 +17,7 @@
   SHAPE(BALL, Ball, "ball")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
-typedef enum {
-  BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH
-} BodyShape;
+typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 #undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
 

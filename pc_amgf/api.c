@@ -328,8 +328,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, prints a
-             warning on the standard error stream; `PETSC_TRUE`: no warning
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
+             it on the standard error stream; `PETSC_TRUE`: it does not
 
   Level: intermediate
 
@@ -370,7 +370,7 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a
   diagonal entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has
   failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the
-  AMG was built; the cost of a solve with an outdated AMG is known after the solve, so the AMG is rebuilt at the next
+  AMG was built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
   changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`

@@ -160,8 +160,9 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   Level: intermediate
 
   Note:
-  Such bodies would have no contact rows and penetrate each other. The error message names the pair, the depth and the
-  option that increases the search depth. The check costs one more search for pairs whose bounding boxes overlap.
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
+  what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
+  they do not.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/

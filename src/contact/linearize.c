@@ -57,34 +57,33 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A over the part of the nonmortar face that a mortar
   face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
   area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It
-  is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A is the derivative at fixed overlap
-  and fixed normals. With -contact_normals facet the facet's normal is used instead of n_A. Averaged normals vary
-  smoothly when faces slide; facet normals transmit a uniform pressure exactly over curved faces with matching meshes.
+  is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
+  fixed. With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
+  slide, but facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
 
   Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that
-  face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A is the derivative with y's position on the facet and the
-  normal fixed. m_A is the same mass, so that multipliers are pressures here too. A vertex that lies outside the mortar
-  face by more than a twentieth of a facet has no row.
+  face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and
+  m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
+  has no row.
 
-  Faces of order 2 are divided into facets at their nodes. Smooth mortar pairs then have curved patches, also on planes,
-  that follow the deformed face; vertices of other pairs move with the mean displacement of the faces around them. J
-  distributes forces so that a uniform pressure gives the same nodal loads as on the quadratic face.
+  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that follow
+  what the faces bend; the vertices of others move with the mean displacement of the faces about them. J spreads forces
+  so that a uniform pressure is the same load as on the quadratic face.
 
-  Where the faces touch, J is the exact derivative of the gap on planes, and on curved faces with -contact_normals
-  facet. Otherwise its error is of the order of the angle between neighbouring facets.
+  Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on
+  planes, and on curved faces with -contact_normals facet.
 
-  Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on smooth surfaces: patches through the
-  deformed vertices whose normals there are the mean normals of the surrounding facets. The surface is continued by
-  reflection where a face ends on a symmetry plane (`ContactSetDisplacements()`). The mortar gap is then measured along
-  the normal of each nonmortar facet, that of a vertex along the normal of the mortar surface. lin->derivative is the
-  exact derivative of the gap, including the rotation of the normals; a row depends on vertices up to two facets away. J
-  is the derivative of the mean gap of a row times its currently covered area, with patches that keep their shape and
-  rotate with their facets. So its forces are distributed as for plane facets, no force reduces a gap by reducing the
-  covered area, and forces and moments on both bodies are in equilibrium to rounding. lin->derivative is used only to
-  predict the gap.
+  Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand
+  for: patches through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as
+  in a mirror where a face ends on a plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then
+  measured along the normal of each nonmortar facet, that of a vertex along the normal of the mortar surface.
+  lin->derivative is the gap's derivative to rounding, the normals' turning with u included; it reaches two facets far.
+  J is the derivative with patches that keep their shape and turn with their facets, of the mean gap of a row times the
+  area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and they
+  balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
 
-  Rows differ between linearizations; lin->vertex and lin->pair identify them. A displacement that is not finite is an
-  error.
+  Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite
+  is an error.
 
   References:
 . * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,

@@ -110,10 +110,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  If the matrix is that of the last call and unchanged since (by its `PetscObjectState`), bodies with a constant tangent
-  are not assembled again, unless they share nodes with a body that is. If every body's tangent is constant, the matrix
-  and its state stay unchanged. Any other matrix is assembled completely, and so is one of a type without
-  `MatZeroRows()` (sbaij).
+  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with
+  a constant tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's
+  tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
+  type without `MatZeroRows()` (sbaij).
 
   An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so the matrix contains no NaN.
 

@@ -16,8 +16,8 @@
   Level: beginner
 
   Notes:
-  The energy is `PETSC_INFINITY` on every rank if a quadrature point with a finite strain law is inverted (det F <= 0),
-  so that a line search reduces its step.
+  The energy is `PETSC_INFINITY` on every rank where a point of a cell at which a finite strain law is evaluated is
+  turned inside out (det F <= 0), so a line search that asks for a decrease steps back.
 
 .seealso: `ElasticityForce()`, `ElasticityTangent()`
 @*/
@@ -62,8 +62,8 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   Level: beginner
 
   Notes:
-  Where the energy is infinite the force is undefined: the rows of the nodes of every inverted cell are set to infinity,
-  so the norm of the vector is infinite on every rank.
+  Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
+  `PETSC_INFINITY` or more, and so the norm of the vector is infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/

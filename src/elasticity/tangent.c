@@ -135,8 +135,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   Level: beginner
 
   Notes:
-  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They need as
-  much memory as six solution vectors, and PCHYPRE copies them even if it does not use them.
+  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
+  much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

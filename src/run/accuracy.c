@@ -19,13 +19,8 @@
   0.5 /* fraction of its share at which the solver aims, since it leaves up to 1.3 times its tolerance, and a second
          run costs more than a Newton step */
 
-/* Values of -accuracy_of; force includes the energy, pressure includes both, displacement includes the energy */
-typedef enum {
-  ACCURACY_ENERGY,
-  ACCURACY_FORCE,
-  ACCURACY_PRESSURE,
-  ACCURACY_DISPLACEMENT
-} AccuracyTarget;
+/* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
+typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C

@@ -126,8 +126,8 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
   Level: intermediate
 
   Notes:
-  After this call energy, force, stress and error estimate use the elastic strain (total minus thermal strain). Only
-  laws of small strain have thermal expansion, and their tangent does not depend on temperature.
+  Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
+  small strain, which alone expand, does not depend on it.
 
 .seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
 @*/

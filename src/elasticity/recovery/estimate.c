@@ -133,13 +133,13 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   Notes:
   For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
   stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
-  second derivative at u. The true stress is replaced by a stress recovered from the cells around each vertex,
-  separately for each body.
+  second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
+  the border of a body.
 
-  For smooth solutions (manufactured ones, Lame's sphere) the ratio of estimated to true norm is 0.9 to 1.3 with at
-  least 8 cells across the body, and converges to 1 under refinement. For an element that locks, |e| is too small, but
-  |e|/sqrt(2 E) is still large, because the computed energy E is too small too. Errors of the solver, the loads and the
-  geometry are not included. In bodies with a single layer of cells the estimate is inaccurate.
+  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
+  body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
+  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies
+  of one layer of cells the estimate is rough.
 
   If a cell is inverted the estimate is infinite.
 

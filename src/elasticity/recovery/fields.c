@@ -52,10 +52,10 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   Level: intermediate
 
   Notes:
-  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, separately
-  for each body; the material law gives the stress. The error is of second order up to the surface; that of the cells'
-  own stress is of first order. A node shared by bodies has the mean of their stresses. A node with inverted material
-  has `PETSC_INFINITY`.
+  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
+  body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first
+  order. Where bodies share a node it has the mean of theirs. A node at which the material is turned inside out has
+  `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
 @*/

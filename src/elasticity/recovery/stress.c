@@ -23,8 +23,8 @@ static PetscReal StressVonMises(const PetscReal s[6])
   Level: intermediate
 
   Notes:
-  The stress is the one that is conjugate to the element's strain: in a cell of `ELEMENT_BBAR` its pressure follows from
-  the mean dilatation. An inverted cell has `PETSC_INFINITY`.
+  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
+  dilatation. A cell turned inside out has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/
