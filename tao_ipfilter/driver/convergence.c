@@ -162,11 +162,11 @@ PetscBool IPConstraintsMet(Tao tao)
 
   Notes:
   Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
-  better can be expected. A test of the caller's may call it.
+  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where no further
+  progress is possible. The caller's own test may call this function.
 
-  Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
-  `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
+  Independently of the test, the solve ends if a residual or the objective is not a number, if steps are as small as
+  rounding errors, and at the limits of `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()`.
 
 .seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`,
           `TaoIPFilterGetReason()`
