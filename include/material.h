@@ -34,7 +34,8 @@ typedef struct {
     axes[2][3]; /* G12 G23 G13 [force/length^2]; first axis, and a second vector in the plane of axes 1 and 2; 0: x, y
                    */
   PetscReal
-    expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
+    expansion[3];    /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
+  PetscReal density; /* mass per undeformed volume; 0: none was given. Used by dynamics alone */
   PetscReal own[MATERIAL_OWN];
 } Material;
 

@@ -97,13 +97,24 @@ typedef struct {
   PetscReal        own[BODY_OWN]; /* parameters of a shape that have no names here */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
+  PetscReal        velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
 } SceneBody;
 
-/* A load program: the factor at the end of each load step, linear in between, 0 before the first */
+/* A load program: the factor at the end of each load step, linear in between */
 typedef struct {
   char      *name;
+  PetscReal  start;  /* factor before the first load step: 0 but in dynamics */
   PetscReal *factor; /* nsteps values */
 } SceneRamp;
+
+/* Inertia: a load step is a time step */
+typedef struct {
+  PetscReal      time_step, end_time; /* [time]; time_step 0: a static analysis */
+  DynamicsScheme scheme;
+  MassType       mass;
+  PetscReal      spectral_radius; /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
+  PetscReal      damping_mass;    /* forces by mass times velocity [1/time] */
+} SceneDynamics;
 
 typedef enum {
   DISPLACEMENT_FACE, /* or all of a rigid body */
@@ -259,6 +270,7 @@ typedef struct _n_Scene {
   SceneRefinement  *refinements;
   PetscInt          nprobes;
   SceneProbe       *probes;
+  SceneDynamics     dynamics;
   PetscInt          nsteps; /* load steps, at least 1 */
   PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for everything that names no ramp */
   SceneRamp        *ramps;
@@ -271,7 +283,19 @@ typedef struct _n_Scene {
   SceneOption *options;
 } * Scene;
 
-/* Factor of a ramp at a time: load step k ends at time k, from 1 */
+/* Whether bodies have inertia */
+static inline PetscBool SceneIsDynamic(Scene scene)
+{
+  return (PetscBool)(scene->dynamics.time_step > 0.0);
+}
+
+/* Load step k ends at k times this */
+static inline PetscReal SceneTimeStep(Scene scene)
+{
+  return SceneIsDynamic(scene) ? scene->dynamics.time_step : 1.0;
+}
+
+/* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
 /* Of the body that a face belongs to */
 PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);

@@ -62,9 +62,21 @@ typedef struct {
   PetscReal   balance; /* size of the residual over the sum of the sizes of all these forces */
 } BodyReport;
 
+/* Dynamics. Work since the start by the trapezoidal rule over all solves */
+typedef struct {
+  const char *name;
+  PetscReal   kinetic_energy;        /* [force length] */
+  PetscReal   total_energy;          /* kinetic and elastic [force length] */
+  PetscReal   damping_work;          /* taken up by damping [force length] */
+  PetscReal   numerical_dissipation; /* work of the loads and kinetic energy at the start that is neither in the total
+                                        energy nor taken up by the contacts or by damping [force length] */
+  PetscReal   momentum[3];           /* of all bodies [force time] */
+  PetscReal   angular_momentum[3];   /* about the origin, at the deformed places [force length time] */
+} MotionReport;
+
 typedef struct {
   PetscInt  step;
-  PetscReal time; /* load step k ends at time k */
+  PetscReal time; /* load step k ends at time k, in dynamics at k times the time step */
   PetscReal load;
   PetscInt  constraints;
   PetscInt  filter_dofs;
@@ -126,6 +138,8 @@ typedef struct {
   FaceReport    *faces;
   PetscInt       nbodies;
   BodyReport    *bodies;
+  PetscInt       nmotions; /* 1 in dynamics, else 0 */
+  MotionReport  *motions;
   PetscReal      dissipated;        /* work of friction, all pairs, since the start [force length] */
   PetscReal      balance;           /* largest of the bodies' */
   PetscReal      weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */

@@ -286,7 +286,7 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
    proximal.c */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
+  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of that of an elastic body of this size */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;

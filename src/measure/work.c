@@ -2,17 +2,19 @@
    */
 #include "measureimpl.h"
 
-/* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
-static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
+/* Adds a force times the way between: this part of what is now, NULL: none, and the rest of what was before. What is
+   now will have been before */
+static PetscErrorCode WorkAddForce(Vec way, PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
-  Vec         forces[2] = {*before, *now};
-  PetscScalar product;
+  const PetscReal parts[2]  = {1.0 - part, part};
+  Vec             forces[2] = {*before, *now};
+  PetscScalar     product;
 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
     PetscCall(VecDot(forces[k], way, &product));
-    *work += 0.5 * PetscRealPart(product);
+    *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
   *before = *now;
@@ -74,13 +76,14 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(VecWAXPY(way, -1.0, path->u, u));
-  PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
+  PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
-  PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(
+    WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
   PetscCall(VecDestroy(&way));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history.shear && !sim->temperatures.n)
+  if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

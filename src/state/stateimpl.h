@@ -5,7 +5,7 @@
 #define STATEIMPL_H
 
 #include <step.h>
-#include "src/constraints/constraintsimpl.h"
+#include "src/dynamics/dynamicsimpl.h"
 
 /* solution.c: what a solve left behind, beside the displacement */
 typedef struct {
@@ -124,6 +124,7 @@ struct _n_Simulation {
   Springs      springs;
   RigidBodies  rigid;
   Ties         ties;
+  Dynamics     dynamics;
   Mat          follows; /* slope of the pressures that follow their faces, of followers.c; NULL before there is one
                            [force/length] */
   VertexPlaces places;
@@ -174,6 +175,16 @@ static inline Constraints SimulationConstraints(Simulation sim)
 {
   return (Constraints){SimulationBodies(sim), &sim->prescribed, &sim->springs, &sim->rigid, &sim->ties, &sim->follows};
 }
+
+static inline PetscBool SimulationIsDynamic(Simulation sim)
+{
+  return (PetscBool)(sim->dynamics.mass != NULL);
+}
+
+/* inertia.c: of a load step that ends at this time */
+PETSC_INTERN PetscErrorCode InertiaBegin(Simulation, PetscReal time, PetscBool *changed);
+PETSC_INTERN PetscErrorCode InertiaGetForce(Simulation, Vec u, Vec *force);
+PETSC_INTERN PetscErrorCode InertiaAdvance(Simulation, PetscReal time, Vec u);
 
 /* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);

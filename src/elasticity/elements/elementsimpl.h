@@ -159,6 +159,8 @@ typedef struct {
   PetscInt         assemblies; /* into any tangent */
   PetscBool        expands;
   PetscReal        expansion[9]; /* thermal, a tensor [1/temperature] */
+  PetscReal        density;      /* [mass/length^3] */
+  PetscBool        rigid;
 } Body;
 
 /* The last tangent assembled, as it was left: a matrix of another id or state is assembled completely */
@@ -184,6 +186,8 @@ struct _n_Elasticity {
   Mat              between;     /* of springs between unknowns; NULL: there are none [force/length] */
   PetscReal       *temperature; /* 4 a cell; NULL: none is set */
   AssembledTangent assembled;
+  PetscReal        inertia, viscosity; /* of tangents: factor of the mass, 0: none; more than 1 of the stiffness */
+  PetscBool        consistent, *light; /* mass; local nodes that have none, NULL: all have theirs */
 };
 
 /* locals.c: local values of a displacement (NULL: zero), and the coordinates */

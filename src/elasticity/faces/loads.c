@@ -17,7 +17,7 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
 
 /* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals
    of the squared shape functions */
-static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
 

@@ -12,11 +12,11 @@ static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const
   PetscFunctionReturn(0);
 }
 
-/* Of this time in a program of so many load steps; what is no number is complained of */
-PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps,
+/* Of this time in a program that ends at `end`; what is no number is complained of */
+PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscReal end,
   PetscReal *value)
 {
-  Expression e = {.at = text, .names = "ts", .values = {time, time / (PetscReal)nsteps}};
+  Expression e = {.at = text, .names = "ts", .values = {time, time / end}};
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);

@@ -49,6 +49,8 @@ PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const ch
   PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
+/* Begins the complaint, if there is one, with the line of this key */
+PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 /* A file's name, relative to the folder of the scene */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
@@ -75,14 +77,13 @@ PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], Petsc
 
 /* expression.c: a number that follows time; whether one that follows the place, which SceneEvaluatePlace() evaluates,
    makes sense */
-PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time,
-  PetscInt nsteps, PetscReal *);
+PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscReal end,
+  PetscReal *);
 PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
-/* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one
-   or the other below the key */
-PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[],
-  PetscBool *found);
+/* table.c: factors of a ramp at the ends of load steps, in dynamics also at the start, from an expression or a table of
+   times and values; found: there is one or the other below the key */
+PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], Scene, SceneRamp *, PetscBool *found);
 
 /*
    The table of keys, which sections/keytable.c has. A row is read into an entry, which is a struct of model.h, at so

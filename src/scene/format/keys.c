@@ -139,6 +139,18 @@ static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
   return 0;
 }
 
+PetscErrorCode SceneKeysAddLine(SceneKeys keys, const char key[])
+{
+  const size_t line = SceneKeysGetLine(keys, key);
+  char         complaint[sizeof(keys->complaint)];
+
+  PetscFunctionBegin;
+  if (!line || !keys->complaint[0]) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(complaint, keys->complaint, sizeof(complaint)));
+  (void)snprintf(keys->complaint, sizeof(keys->complaint), "line %zu: %.900s", line, complaint);
+  PetscFunctionReturn(0);
+}
+
 /* What other programs, or other people, call a key */
 static const char *const synonyms[][2] = {
   {"e", "young"},
@@ -179,6 +191,11 @@ static const char *const synonyms[][2] = {
   {"gravity", "body_forces"},
   {"neumann", "tractions"},
   {"increments", "steps"},
+  {"rho", "density"},
+  {"dt", "time_step"},
+  {"step", "time_step"},
+  {"duration", "end_time"},
+  {"velocity", "initial_velocity"},
 };
 
 /* The names of the keys that may stand where an unknown one does: those that share what it is below, so many letters;
