@@ -358,9 +358,8 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 + pc  - the preconditioner
 - lag - n > 0: at every n-th changed operator; -1: never again; 0: automatically
 
-  Options Database Keys:
-+ -pc_amgf_amg_lag <auto>      - the lag; `auto` is 0; the cycle `bfb` has the default 1
-- -pc_amgf_amg_lag_ratio <1.5> - growth that calls for a rebuild, with automatic lag; at least 1
+  Options Database Key:
+. -pc_amgf_amg_lag <auto> - the lag; `auto` is 0; the cycle `bfb` has the default 1
 
   Level: intermediate
 

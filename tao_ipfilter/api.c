@@ -20,7 +20,7 @@ static PetscErrorCode CopyVec(Vec v, Vec *slot)
   PetscFunctionReturn(0);
 }
 
-/* Weights must be positive, on every rank */
+/* Checks that all weights are positive, on every rank */
 static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
 {
   PetscReal least;
@@ -150,7 +150,7 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
   PetscFunctionReturn(0);
 }
 
-/* Attaches the implementations to the object, or detaches them */
+/* Composes the implementations with the Tao, or removes them */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
   PetscObject o = (PetscObject)tao;

@@ -1,7 +1,7 @@
-/* The Tao type: its page and its creation. */
+/* The Tao type: its manual page and its creation. */
 #include "ipfilterimpl.h"
 
-/* KSPCG with PCAMGF, convergence on the true residual's norm */
+/* Creates the Krylov solver: CG with PCAMGF, convergence by the norm of the true residual */
 static PetscErrorCode CreateKSP(Tao tao)
 {
   PC pc;
@@ -41,16 +41,10 @@ static PetscErrorCode DestroyType(Tao tao)
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
                                                               `TaoSetTolerances()` sets it; 0: machine precision
 . -tao_ipfilter_tol <1e-8>                                  - the same by another name
-. -tao_ipfilter_acceptable_tol <1e-6>                       - KKT error accepted where no further progress is made
-. -tao_ipfilter_acceptable_it <15>                          - iterates in a row within the acceptable tolerance that end
-                                                              the solve
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,gradient,none)   - constants that follow the units, those of IPOPT after a
                                                               scaling
                                                               by the gradients at the start, or those as they stand
-. -tao_ipfilter_gradient_max <100>                          - gradient: entry of the gradients at the start above
-                                                              which the
-                                                              objective and constraints are scaled down to it; 0: none
 . -tao_ipfilter_dual_inf_tol <-1>                           - limit of the stationarity residual's entries at
                                                               convergence,
                                                               in the caller's units; negative: 1 with gradient, else
@@ -59,11 +53,6 @@ static PetscErrorCode DestroyType(Tao tao)
                                                               none
 . -tao_ipfilter_compl_inf_tol <-1>                          - the same of slacks times multipliers; negative: 1e-4, or
                                                               none
-. -tao_ipfilter_row_ratio <100>                             - constraints whose gradient exceeds this many times the
-                                                              smallest at the start are scaled down to that; 0: none
-. -tao_ipfilter_unbounded_factor <1e10>                     - fall of the objective, against its first size, that
-                                                              counts as
-                                                              unbounded
 . -tao_ipfilter_monitor                                     - a line an iteration, in IPOPT's columns
 . -tao_ipfilter_start <warm> (cold,predict,warm)            - slacks and multipliers to start from: constants,
                                                               predicted by
@@ -72,72 +61,13 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
 . -tao_ipfilter_slack_init <1>                              - cold start: slacks
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
-. -tao_ipfilter_predict_mu <0.3>                            - predicted start: mu as a fraction of mean length x mean
-                                                              pressure, with bounds alone of a step without them x the
-                                                              gradient there
-. -tao_ipfilter_predict_forcing <0.1>                       - predicted start: forces out of balance, as a fraction of
-                                                              those the constraints transmit
-. -tao_ipfilter_warm_mu <0.03>                              - warm start: least mu as a fraction of the mean product
-                                                              length
-                                                              x pressure
-. -tao_ipfilter_bound_push <0.01>                           - distance of the start from its bounds, relative to the
-                                                              bound's or
-                                                              the unknown's size, or to the distance between the bounds
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
-. -tao_ipfilter_kappa_epsilon <10>                          - monotone: mu is reduced once the errors of the barrier
-                                                              problem are below kappa_epsilon mu
-. -tao_ipfilter_kappa_dual <0.1>                            - relative measure: imbalance of forces at which mu may be
-                                                              reduced
-. -tao_ipfilter_kappa_mu <0.2>                              - monotone: linear reduction of mu
-. -tao_ipfilter_theta_mu <1.5>                              - monotone: superlinear reduction, mu^theta_mu
 . -tao_ipfilter_mu_reductions_first <10>                    - monotone: limit of the reductions at the first iteration
-. -tao_ipfilter_mu_reductions <1>                           - monotone: limit of the reductions at later iterations
-. -tao_ipfilter_kappa_progress <0.9999>                     - mehrotra: reduction of the KKT error against the worst
-                                                              of the
-                                                              last four, or mu turns monotone
-. -tao_ipfilter_tau_min <0.99>                              - least fraction to the boundary
-. -tao_ipfilter_kappa_sigma <1e10>                          - multipliers are kept within this factor of mu/s
-. -tao_ipfilter_gamma_theta <1e-5>                          - filter: sufficient reduction of the constraint violation
-                                                              theta
 . -tao_ipfilter_gamma_phi <1e-8>                            - filter: sufficient reduction of the barrier function phi
 . -tao_ipfilter_eta_phi <1e-8>                              - Armijo's constant
-. -tao_ipfilter_delta_switch <1>                            - constant of the switching condition
-. -tao_ipfilter_s_theta <1.1>                               - exponent of the violation in it
-. -tao_ipfilter_s_phi <2.3>                                 - exponent of the descent in it
-. -tao_ipfilter_gamma_alpha <0.05>                          - safety factor of the smallest step
-. -tao_ipfilter_theta_min_fact <1e-4>                       - violation below which Armijo may decide, as a fraction
-                                                              of the
-                                                              first
-. -tao_ipfilter_theta_max_fact <1e4>                        - largest violation accepted, as a multiple of the first
-. -tao_ipfilter_obj_max_inc <1e5>                           - largest rise of phi accepted for less violation, against
-                                                              its
-                                                              size; 0.01 where hardly any violation is left
 . -tao_ipfilter_max_soc <4>                                 - limit of second-order corrections a step
-. -tao_ipfilter_kappa_soc <0.99>                            - reduction of the violation that a correction must give
-                                                              to be
-                                                              continued
-. -tao_ipfilter_kappa_curvature <1e-11>                     - curvature d^T W d that a direction must have, as a
-                                                              fraction
-                                                              of d^T d
-. -tao_ipfilter_delta_first <1e-4>                          - first multiple of M_u that is added to the Hessian where a
-                                                              direction has less, in its unit
-. -tao_ipfilter_delta_max <1e20>                            - largest one
-. -tao_ipfilter_delta_grow_first <100>                      - its growth before one has worked
-. -tao_ipfilter_delta_grow <8>                              - its growth later
-. -tao_ipfilter_delta_shrink <0.333>                        - its decrease from one step to the next
-. -tao_ipfilter_delta_equality <1e-8>                       - regularization of dependent equality constraints, in
-                                                              units of
-                                                              J_E H^-1 J_E^T
+. -tao_ipfilter_delta_max <1e20>                            - largest multiple of M_u that is added to the Hessian
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)         - Krylov tolerance from the KKT error, or the KSP's own
-. -tao_ipfilter_forcing_max <0.1>                           - adaptive: linear residual as a fraction of the forces in
-                                                              balance, while mu falls
-. -tao_ipfilter_forcing_reduce <0.7>                        - adaptive: and as a fraction of the last stationarity
-                                                              residual
-. -tao_ipfilter_forcing_last <0.5>                          - adaptive: as a fraction of the tolerance, in the step that
-                                                              would finish
-. -tao_ipfilter_filter_threshold <1e-12>                    - columns of J above this fraction of its largest entry
-                                                              belong
-                                                              to the filter subspace
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
                                                               H_ii for some i; 0: always
 . -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for linear constraints that

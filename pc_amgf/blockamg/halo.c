@@ -1,4 +1,4 @@
-/* Values of unknowns of other ranks, in floats: fetched from their owners, or added to what those have */
+/* Exchange of values of other ranks' unknowns, in floats: fetched from their owners, or added there */
 #include "blockamgimpl.h"
 
 /*
@@ -43,7 +43,7 @@ PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, con
 }
 
 /*
-  BlockHaloFetch_Private - ghosts of x get their owners' values
+   BlockHaloFetch_Private - sets the ghosts of x to their owners' values
 */
 PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {
@@ -55,7 +55,7 @@ PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *l
 }
 
 /*
-  BlockHaloAdd_Private - owners add what the ghosts of x have
+   BlockHaloAdd_Private - adds the ghosts of x to their owners' values
 */
 PetscErrorCode BlockHaloAdd_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {

@@ -1,4 +1,4 @@
-/* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
+/* Registers PCAMGF and TAOIPFILTER when the plugin is loaded */
 #include "pc_amgf/amgfimpl.h"
 
 static PetscBool initialized = PETSC_FALSE;

@@ -1,4 +1,4 @@
-/* Which release of the plugin runs, and what it was compiled with */
+/* Version of the plugin, and how it was compiled */
 #include "pc_amgf/amgfimpl.h"
 
 /*@C

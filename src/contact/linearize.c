@@ -3,7 +3,7 @@
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
 
-/* The surfaces and normals of a pair at the displacement of their vertices, local */
+/* Deforms the surfaces and normals of a pair; local: displacement of the vertices */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
 {
   ContactRows     *rows  = &contact->rows;
@@ -19,7 +19,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* The surfaces and normals at displacement u */
+/* Deforms the surfaces and normals of all pairs */
 PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
   Vec local, mean = NULL;
@@ -39,22 +39,6 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactViewFromOptions(Contact contact)
-{
-  PetscViewer       viewer;
-  PetscViewerFormat format;
-  PetscBool         wanted;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsCreateViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
-  if (!wanted) PetscFunctionReturn(0);
-  PetscCall(PetscViewerPushFormat(viewer, format));
-  PetscCall(ContactView(contact, viewer));
-  PetscCall(PetscViewerPopFormat(viewer));
-  PetscCall(PetscViewerDestroy(&viewer));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
@@ -66,9 +50,6 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
 
   Output Parameter:
 . lin - the linearized gap; may have no rows at all
-
-  Options Database Key:
-. -contact_view - prints the pairs, the search distances and the number of rows
 
   Level: beginner
 
@@ -130,7 +111,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN */
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
   PetscCall(ContactDeform(contact, u));
@@ -153,7 +134,6 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(ContactViewFromOptions(contact));
   PetscFunctionReturn(0);
 }
 

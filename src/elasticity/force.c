@@ -1,4 +1,4 @@
-/* Energy and internal force by loops over the cells; no matrix */
+/* Energy and internal force by loops over the cells, without a matrix */
 #include "elasticityimpl.h"
 
 /*@
@@ -26,7 +26,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal          sums[2] = {0, 0}; /* energy, number of cells turned inside out */
+  PetscReal          sums[2] = {0, 0}; /* energy; number of inverted cells */
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(ELASTICITY_Force, u, 0, 0, 0));
@@ -36,7 +36,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
     PetscReal stored;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    stored = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    stored = cell.body->element->energy(cell.body->basis, cell.material, cell.X, cell.U);
     if (stored >= PETSC_INFINITY) sums[1] += 1;
     else sums[0] += stored;
   }
@@ -87,7 +87,7 @@ PetscErrorCode ElasticityForce(Elasticity e, Vec u, Vec force)
     PetscBool valid;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    valid = cell.body->element->force(cell.body->basis, &cell.body->material, cell.X, cell.U, F);
+    valid = cell.body->element->force(cell.body->basis, cell.material, cell.X, cell.U, F);
     for (int a = 0; a < cell.n; ++a) {
       for (int i = 0; i < 3; ++i) fl[3 * cell.nodes[a] + i] += valid ? F[i][a] : PETSC_INFINITY;
     }

@@ -17,9 +17,9 @@ PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
   motion           = report->motions;
   motion->name     = "dynamics";
   PetscCall(MassMeasure(&constraints, d, u, &motion->kinetic_energy, motion->momentum, motion->angular_momentum));
-  motion->total_energy = motion->kinetic_energy + report->energy;
-  motion->damping_work = d->damped;
-  motion->numerical_dissipation =
-    d->kinetic + report->work - motion->total_energy - report->contact_work - motion->damping_work;
+  motion->total_energy          = motion->kinetic_energy + report->energy;
+  motion->damping_work          = d->damped;
+  motion->numerical_dissipation = d->kinetic + report->work - motion->total_energy - report->contact_work -
+                                  motion->damping_work - report->plastic_work;
   PetscFunctionReturn(0);
 }

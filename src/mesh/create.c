@@ -1,8 +1,9 @@
-/* MeshCreate: level 0, distribution, refinement, layout of the unknowns */
+/* MeshCreate(): level 0, distribution, refinement, layout of the unknowns */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* Level 0 is refined before it is distributed while it has fewer cells a rank: coarser partitions are badly balanced */
+/* level 0 is refined before distribution while it has fewer cells per rank, because coarse partitions are badly
+   balanced */
 #define MESH_MIN_CELLS_PER_RANK 32
 
 static PetscClassId  MESH_CLASSID;
@@ -58,8 +59,8 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
-/* The numbers of cells and vertices, refined so many times, against the ranks and PETSc's integers; ncells: at level
-   0 */
+/* Checks the numbers of cells and vertices after refinement against the number of ranks and PETSc's integers;
+   ncells: at level 0 */
 static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine,
   PetscInt64 *ncells)
 {
@@ -87,8 +88,8 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   PetscFunctionReturn(0);
 }
 
-/* Level 0. Many cells of a file are partitioned before the DMPlex is built; a small mesh of shapes, or one that
-   PETSc's partitioners shall partition, is not. Frees the bodies' grids */
+/* Creates level 0. Large meshes from files are partitioned before the DMPlex is built; meshes of shapes, or meshes
+   that a PETSc partitioner is to divide, are not. Frees the bodies' grids */
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
   PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {
@@ -114,7 +115,7 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscFunctionReturn(0);
 }
 
-/* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
+/* Refines uniformly; if there is local refinement, it follows before the mesh is distributed */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine,
   const MeshLocalRefinement *local, DM *dm)
 {

@@ -1,4 +1,4 @@
-/* The page of a run: share/report/report.py writes it, from the files and the summary that the run leaves. */
+/* The HTML page of a run: share/report/report.py writes it from the files and the summary of the run. */
 #define _POSIX_C_SOURCE 200809L /* posix_spawn(), readlink() */
 #include "src/output/outputimpl.h"
 #include <fcntl.h>
@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #if !defined(CONTACT_PYTHON)
-  #define CONTACT_PYTHON "python3" /* the makefile sets the one that it found */
+  #define CONTACT_PYTHON "python3" /* the makefile sets the interpreter that it found */
 #endif
 
 extern char **environ;
@@ -31,8 +31,7 @@ static PetscBool PageFindScript(char script[], size_t length)
   return PETSC_FALSE;
 }
 
-/* Runs the script and returns 0 if it ended well. The last line that it prints on the error stream goes into the
-   sentence, as far as there is room */
+/* Runs the script; returns 0 if it succeeded. The last line of its error output is copied to the sentence */
 static int PageRun(const char *const words[], char sentence[], size_t length)
 {
   posix_spawn_file_actions_t actions;

@@ -1,4 +1,4 @@
-/* Chooses tolerances and mesh for a requested accuracy, and no more than that. */
+/* Chooses tolerances and mesh for a requested accuracy. */
 #include <accuracy.h>
 #include <math.h>
 
@@ -323,7 +323,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
 
-    level->energy[s] = step->energy;
+    level->energy[s] = step->energy + step->plastic_work;
     level->amg_applications += step->amg_applications;
     largest = PetscMax(largest, step->energy);
     PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));

@@ -88,7 +88,7 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 
    Input Parameters:
 +  sim     - the simulation, before SimulationSetFromOptions()
--  monitor - the answer, unless the option -load_monitor says otherwise
+-  monitor - the answer
 
    Level: intermediate
 @*/
@@ -134,7 +134,6 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
                                 coarser mesh ended with; default true
 .  -load_max_cuts <5>         - how often a load step that fails is halved
-.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
 .  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 .  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
@@ -159,9 +158,6 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
     "SimulationStep", sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
     "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
-  PetscCall(PetscOptionsBool("-load_monitor",
-    "Print why a load step is cut, and the change of the gap with each contact update", "SimulationStep", sim->monitor,
-    &sim->monitor, NULL));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
     sim->progress.every, &sim->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",

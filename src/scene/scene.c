@@ -1,4 +1,4 @@
-/* The life of a scene */
+/* Creation and destruction of a scene */
 #include "sceneimpl.h"
 #include <string.h>
 
@@ -17,7 +17,7 @@ static PetscErrorCode SceneDefaultName(const char file[], char **name)
   PetscFunctionReturn(0);
 }
 
-/* The command line wins over the file */
+/* Applies command line options, which override the file */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt  nsteps = scene->nsteps, bounds = scene->displacement_bounds;
@@ -45,7 +45,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
-/* Lists in the order of the table; what follows from them where it is needed next */
+/* Reads the lists in the order of the table; quantities derived from a list are computed before they are needed */
 static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 {
   PetscFunctionBegin;

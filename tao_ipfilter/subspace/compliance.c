@@ -1,5 +1,5 @@
-/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when rows are
-   requested. On the first rank only, which has all of W. */
+/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed on demand. All
+   data are on the first rank. */
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
@@ -16,7 +16,8 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether a factor of K has no negative pivot. Cholesky factorizations report no error at one: they keep L D L^T. */
+/* Whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D L^T,
+   without an error. */
 static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
 {
   PetscInt negative;
@@ -27,8 +28,8 @@ static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky of K_WW by MUMPS, or by PETSc, which counts pivots in its SBAIJ format alone; *definite is false where K_WW
-   is not positive definite */
+/* Cholesky factorization of K_WW by MUMPS, or by PETSc in SBAIJ format, which counts pivots. *definite: false if
+   K_WW is not positive definite */
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
@@ -58,7 +59,7 @@ static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Of sequential K_WW and J_W, of which J_W is kept; *definite is false where K_WW is not positive definite */
+/* Sets up for sequential K_WW and J_W; J_W is referenced. *definite: false if K_WW is not positive definite */
 PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, Mat J, PetscBool *definite)
 {
   PetscFunctionBegin;
@@ -85,7 +86,7 @@ PetscErrorCode IPComplianceSolve(IPCompliance *c, const PetscReal b[], PetscReal
   PetscFunctionReturn(0);
 }
 
-/* y = J_W x, or where J is transposed y = J_W^T x */
+/* y = J_W x, or y = J_W^T x if transposed */
 PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscBool transposed, const PetscReal x[], PetscReal y[])
 {
   Vec vx, vy;
@@ -100,7 +101,7 @@ PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscBool transposed, const
   PetscFunctionReturn(0);
 }
 
-/* The columns of the given rows, appended to those that there are */
+/* Computes the columns of the given rows and appends them */
 static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   Mat          B, X;
@@ -133,7 +134,7 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Computes the columns of the given rows that are missing */
+/* Computes those columns of the given rows that are missing */
 PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   const PetscInt chunk = 64;

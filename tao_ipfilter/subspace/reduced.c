@@ -1,23 +1,26 @@
 /*
-   The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w +
-   P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
-   as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
+   The contact problem on the subspace span{e_i : i in W} + span(P):
+
+     min 1/2 v^T K v + g^T v,   J v + c >= 0,   v = E w + P y.
+
+   Its data have the size of the constraints. They are gathered on the first rank, which solves it. K_WW is factored
+   once as long as W and K stay, with companions where it is singular. Each norm term adds two rows.
 */
 #include "subspaceimpl.h"
 
-/* A matrix of rows of A, its columns those of W, on the first rank; half: A has its upper triangle only */
+/* Collects selected rows of A on the first rank, with the columns of W. half: A stores its upper triangle only */
 typedef struct {
   PetscInt        nrows, M;
-  const PetscInt *rows, *place; /* rows of A that this rank owns, and where they stand in the result of M rows */
+  const PetscInt *rows, *place; /* local rows of A, and their row numbers in the result, which has M rows */
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* explicit zeros are kept: one entry may be zero and its transpose not, and orderings
-                                need a symmetric pattern */
+  PetscBool       symmetric; /* keep explicit zeros: ordering codes need a symmetric pattern, and one of two
+                                transposed entries may be zero */
 } ReducedGather;
 
-/* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
-   diagonal lack nothing. */
+/* Appends the entries of one row at *n; i = NULL: only counts them. For a matrix stored as upper triangle the lower
+   part is added; diagonal blocks are complete. */
 static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt i[], PetscInt j[],
   PetscScalar v[], PetscCount *n)
 {
@@ -43,7 +46,7 @@ static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r
   PetscFunctionReturn(0);
 }
 
-/* The part of the first rank, which is all of a matrix whose rows it owns; NULL on the others */
+/* The first rank's part, which is the whole matrix as all its rows are there; NULL on the others */
 static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
 {
   Mat diagonal;
@@ -83,7 +86,7 @@ static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* K_WW of what this rank owns of W, `own`, and of all ranks, w */
+/* Gathers K_WW; own: local part of W; w: all of W */
 static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
 {
   ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
@@ -120,7 +123,7 @@ static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], 
   PetscFunctionReturn(0);
 }
 
-/* The rows of both, one below the other */
+/* Stacks the rows of two matrices */
 static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
 {
   const Mat parts[2] = {upper, lower};
@@ -150,7 +153,7 @@ static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
   PetscFunctionReturn(0);
 }
 
-/* J_W, and T_W below it where there are norm terms */
+/* Gathers J_W, with T_W below it if there are norm terms */
 static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
   PetscBool first, Mat *S)
 {
@@ -198,7 +201,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* Entries of W, constraints and norm terms of vectors of all ranks */
+/* Creates scatters to the first rank for W, for the constraints and for the norm terms */
 static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, const IPTerms *terms, IS w)
 {
   IS places;
@@ -228,7 +231,7 @@ static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* What the first rank has found, on all of them; an error of it is one of all ranks */
+/* Broadcasts the first rank's result; an error there is raised on all ranks */
 static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {
   PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
@@ -242,7 +245,7 @@ static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, Pets
   PetscFunctionReturn(0);
 }
 
-/* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
+/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite */
 static PetscErrorCode ReducedFactorFirst(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
@@ -272,7 +275,8 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* Adds one more coordinate of y: its forces on W are its column of Q, and its energies with those before it */
+/* Appends a coordinate of y. Its column of Q holds its forces on W; energies: its products with the earlier
+   coordinates */
 static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
 {
   IPReducedSystem *s = &r->system;
@@ -309,7 +313,8 @@ static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
+/* Gathers the data that stay valid as long as K, J, the terms and W do. *definite: false if K_WW is not positive
+   definite */
 PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
   Vec c, const IPBasis *basis, PetscBool *definite)
 {
@@ -350,7 +355,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscFunctionReturn(0);
 }
 
-/* Entries of v on the first rank's array a of n */
+/* Gathers the entries of v into the array a of length n on the first rank */
 static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, PetscInt n, PetscReal a[])
 {
   const PetscScalar *values;
@@ -364,7 +369,7 @@ static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, Pets
   PetscFunctionReturn(0);
 }
 
-/* The other way round; what is not in a stays */
+/* Scatters the array a of the first rank to entries of v; other entries are unchanged */
 static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscReal a[], Vec on_first, Vec v)
 {
   PetscScalar *values;
@@ -378,7 +383,8 @@ static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscR
   PetscFunctionReturn(0);
 }
 
-/* Limits, coefficients and dead directions of the norm terms; scale: of the rows of c_I, NULL: 1 */
+/* Sets limits, coefficients and immovable directions of the norm terms. scale: scale factors of the rows of c_I;
+   NULL: 1 */
 PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 {
   const Vec  given[2] = {terms->limit, terms->coefficient};
@@ -413,7 +419,7 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Starts with the rows active whose entry is positive; with norm terms from these forces */
+/* Initial active set: the rows whose guess is positive; force: initial forces of the norm terms */
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
   IPReducedSystem *s    = &r->system;
@@ -435,7 +441,8 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   PetscFunctionReturn(0);
 }
 
-/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value */
+/* Centres the problem at a point with gradient g, P^T g = pg, constraints c and values of the norm terms; v is
+   relative to it */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -459,7 +466,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
-/* Takes in the directions of the basis that are missing, with P^T g of all of them */
+/* Adds the missing directions of the basis, and pg = P^T g of all of them */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
   IPReducedSystem *s        = &r->system;
@@ -482,8 +489,8 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the
-   directions' energy */
+/* E = Q_W^T K_WW^-1 Q_W on all ranks, columns of the basis' maximal length: the part of the directions' energy that
+   W takes up */
 PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
   const IPReducedSystem *s      = &r->system;
@@ -501,7 +508,7 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Forgets the directions; the active set stays */
+/* Removes the directions; the active set stays */
 PetscErrorCode IPReducedForget(IPReduced *r)
 {
   PetscFunctionBegin;
@@ -539,8 +546,8 @@ static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
-   there are any. r->nactive, r->nsteps: of this solve; r->met: whether the laws are met as far as was asked. */
+/* Solves the problem. y: on all ranks; w goes to the entries W of v; force: lambda; terms: forces of the norm terms.
+   r->nactive and r->nsteps are set; r->met: whether the laws hold to the requested tolerance */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;

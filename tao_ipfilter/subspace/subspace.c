@@ -1,7 +1,7 @@
 /*
-   The space of the filtered subspace method within one solve, which method.c and newton.c lead: V =
-   span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
-   of the preconditioner B of K alone to what the problem on V leaves of the residual.
+   The search space within one solve, used by method.c and newton.c: V = span{e_i : i in W} + span(P), and the contact
+   problem on V about a centre. A new direction is the preconditioner B of K applied to the residual that the problem on
+   V leaves.
 */
 #include "subspaceimpl.h"
 
@@ -17,7 +17,7 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers that the caller has given, or without them those of a penalty as stiff as the objective is */
+/* Initial slacks and multipliers: those given by the caller, else those of a penalty as stiff as the objective */
 static PetscErrorCode FilteredStartPairs(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -37,7 +37,7 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The initial active rows: those whose multipliers exceed the slacks */
+/* Initial active set: rows with multiplier larger than slack */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -56,8 +56,8 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and
-   these constraints, with all directions there are */
+/* Centres the reduced problem at `centre` with this gradient and these constraints, for all directions. x: the point
+   itself, needed by norm terms only */
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -79,7 +79,7 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem's solution, v from the centre, and the forces of the constraints there */
+/* Solves the reduced problem: v relative to the centre, force: of the constraints */
 PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -97,7 +97,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionReturn(0);
 }
 
-/* Multipliers force / M, and the slacks that the constraints have */
+/* Sets multipliers force / M, and slacks equal to the constraints */
 PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -118,7 +118,7 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* d = B r for a residual that is zero on W; *definite is false where B is not */
+/* d = B r for a residual r that is zero on W. *definite: false if r^T B r is not positive */
 static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,9 +139,9 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
 }
 
 /*
-   Reduces the number of directions. All but the last are compressed to the part of their span that W couples to most,
-   as it is most useful for other constraints and gaps. The reduced problem must be centred again at its solution, so
-   that the solution stays exact
+   Reduces the number of directions. All but the newest are compressed to the combinations that W couples to most,
+   because these help with other constraints and gaps. The reduced problem must then be centred at its solution to stay
+   exact.
 */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
@@ -158,8 +158,8 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program,
-   where it is negative, too: with the constraints in it it may not be */
+/* Whether K is singular up to rounding along a preconditioned residual d. In a quadratic program also if K is
+   negative along d, since K plus constraints may be positive. */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -179,7 +179,8 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscFunctionReturn(0);
 }
 
-/* d = B r. If K alone is singular, B includes the constraints; that is checked once a solve, and if B fails */
+/* d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per solve,
+   and whenever B fails. */
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -195,7 +196,7 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error still falls: by half in so many steps */
+/* Whether the KKT error was halved within the last `patience` steps */
 PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
 {
   f->nfutile++;
@@ -206,7 +207,7 @@ PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience
   return (PetscBool)(f->nfutile <= patience);
 }
 
-/* Whether the Krylov method's limit allows another direction */
+/* Whether the iteration limit of the Krylov method allows another direction */
 PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 {
   PetscInt limit;
@@ -217,7 +218,7 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
   PetscFunctionReturn(0);
 }
 
-/* A direction from the residual r, zero on W; there is room for it */
+/* Adds a direction from the residual r, zero on W; there must be room */
 PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -256,8 +257,8 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
-   what belongs to this solve only. *possible is false if K_WW is not positive definite */
+/* Sets up for the present Hessian; active rows are guessed from slacks and multipliers. The first call in a solve
+   also creates the solve's own data. *possible: false if K_WW is not positive definite */
 PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -42,7 +42,7 @@ PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
     CellState  cell;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (cell.body->element->cauchy(cell.body->basis, &cell.body->material, cell.X, cell.U, s)) s[6] = StressVonMises(s);
+    if (cell.body->element->cauchy(cell.body->basis, cell.material, cell.X, cell.U, s)) s[6] = StressVonMises(s);
     else {
       for (int k = 0; k < 7; ++k) s[k] = PETSC_INFINITY;
     }
