@@ -15,9 +15,7 @@
   ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* no locking in bending or near nu = 1/2; small strain */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
-typedef enum {
-  ELEMENT_TYPES(ELEMENT_TYPE)
-} ElementType;
+typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) } ElementType;
 #undef ELEMENT_TYPE
 PETSC_EXTERN const char *const ElementTypes[];
 

@@ -15,9 +15,7 @@
   LAW(RIGID, Rigid, "rigid")                        /* no strain: every displacement of the body is prescribed */
 
 #define MATERIAL_TYPE(name, law, text) MATERIAL_##name,
-typedef enum {
-  MATERIAL_LAWS(MATERIAL_TYPE)
-} MaterialType;
+typedef enum { MATERIAL_LAWS(MATERIAL_TYPE) } MaterialType;
 #undef MATERIAL_TYPE
 PETSC_EXTERN const char *const MaterialTypes[];
 

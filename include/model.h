@@ -17,9 +17,7 @@
   SHAPE(BALL, Ball, "ball")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
-typedef enum {
-  BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH
-} BodyShape;
+typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 #undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
 
@@ -62,10 +60,13 @@ typedef struct {
   PetscInt    layer_even;    /* number of equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
-/* One volume of a Gmsh file */
+/* One volume of a mesh file */
 typedef struct {
-  char *file;   /* path of the file */
-  char *volume; /* physical name */
+  char     *file;       /* with its folder */
+  char     *volume;     /* physical name */
+  PetscReal scale;      /* factor of its coordinates; 0 stands for 1 */
+  char     *converted;  /* the temporary Gmsh file that a file of another format, or with a scale, became; else NULL */
+  int       descriptor; /* of that file, for the first body that has it, on the first rank; 0: none */
 } SceneGmsh;
 
 /* A part of a face: its facets at refinement level 0 whose centroids lie in a box */

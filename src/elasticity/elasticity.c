@@ -111,10 +111,8 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 . nbodies   - number of bodies
 . materials - materials[b] belongs to the cells whose "body" label is b
 - elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as
-              Poisson's ratio
-              nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain;
-              `NULL` for
-              full integration everywhere
+              Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of
+              small strain; `NULL` for full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
@@ -184,8 +182,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
 
   Notes:
   The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
-  tangent is
-  assembled completely.
+  tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/

@@ -140,11 +140,9 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
                                 linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
-                                TAOIPFILTER: the
-                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc
-                                solvers have
-                                the prefix penalty_. The faces penetrate by about pressure times the bodies'
-                                flexibility over this
+                                TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row.
+                                Its PETSc solvers have the prefix penalty_. The faces penetrate by about pressure times
+                                the bodies' flexibility over this
 
    Level: beginner
 

@@ -1,5 +1,6 @@
 /* Creation and destruction of a scene */
 #include "sceneimpl.h"
+#include "src/mesh/gmsh/gmshimpl.h"
 #include <string.h>
 
 #define SCENE_CONTACT_UPDATES 20
@@ -55,7 +56,10 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
     else if (list->entries)
       PetscCall(
         SceneReadList(keys, scene, list, (PetscInt *)((char *)scene + list->count), (char *)scene + list->entries));
-    if (!strcmp(list->name, "bodies")) PetscCall(SceneScaleRigid(scene));
+    if (!strcmp(list->name, "bodies")) {
+      PetscCall(SceneScaleRigid(scene));
+      PetscCall(GmshConvert(keys->comm, scene->nbodies, scene->bodies));
+    }
   }
   PetscFunctionReturn(0);
 }
@@ -144,6 +148,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
       PetscCall(PetscFree(s->bodies[b].subfaces[f].of));
     }
     PetscCall(PetscFree(s->bodies[b].subfaces));
+    PetscCall(GmshRemoveConverted(&s->bodies[b]));
     PetscCall(PetscFree(s->bodies[b].gmsh.file));
     PetscCall(PetscFree(s->bodies[b].gmsh.volume));
   }

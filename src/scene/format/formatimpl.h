@@ -111,11 +111,7 @@ typedef enum {
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum {
-  SCENE_ANY,
-  SCENE_ABOVE_0,
-  SCENE_FROM_0
-} SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
 
 /* A value with a syntax of its own */
 typedef struct {
