@@ -35,7 +35,7 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
   const CheckpointPairField *field = &CheckpointPairFields[kind];
 
   PetscFunctionBegin;
-  *kept = (PetscBool)(!field->friction || SceneContactPairRubs(pair));
+  *kept = (PetscBool)(!field->friction || SceneContactPairHasFriction(pair));
   PetscCall(PetscSNPrintf(name, length, "%s_%s", field->name, pair->name));
   PetscFunctionReturn(0);
 }

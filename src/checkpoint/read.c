@@ -323,7 +323,7 @@ static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt
 
 static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
 {
-  PetscBool rubs = PETSC_FALSE, yields = PETSC_FALSE;
+  PetscBool frictional = PETSC_FALSE, yields = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < r->scene->nbodies; ++b)
@@ -332,11 +332,12 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
     PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
     PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, checkpoint));
   }
-  for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
+  for (PetscInt p = 0; p < r->scene->npairs; ++p)
+    frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
-  if (rubs) PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
+  if (frictional) PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
   for (PetscInt p = 0; p < r->scene->npairs; ++p) {
     for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
       char      name[128];

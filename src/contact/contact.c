@@ -137,12 +137,12 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
     PetscCall(PetscStrallocpy(ContactPairName(&pairs[p]), &c->pairs[p].name));
-    c->pairs[p].gap    = pairs[p].gap;
-    c->pairs[p].given  = pairs[p].distance;
-    c->pairs[p].smooth = pairs[p].smooth;
-    c->pairs[p].rubs   = SceneContactPairRubs(&pairs[p]);
-    c->pairs[p].sticks = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
-    c->rubs            = (PetscBool)(c->rubs || c->pairs[p].rubs);
+    c->pairs[p].gap        = pairs[p].gap;
+    c->pairs[p].given      = pairs[p].distance;
+    c->pairs[p].smooth     = pairs[p].smooth;
+    c->pairs[p].frictional = SceneContactPairHasFriction(&pairs[p]);
+    c->pairs[p].sticks     = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
+    c->frictional          = (PetscBool)(c->frictional || c->pairs[p].frictional);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
@@ -205,7 +205,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
+  PetscCheck(!contact->frictional || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
     "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
     "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {

@@ -158,7 +158,7 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal force
   return turns;
 }
 
-static PetscErrorCode PairWarnOfSwing(Simulation sim, PetscInt p)
+static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
   PetscReal               forces[2] = {0.0, 0.0};
@@ -201,7 +201,7 @@ PetscErrorCode PairMeshWarn(Simulation sim)
   PetscFunctionBegin;
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscCall(PairWarnOfCoarseness(sim, p));
-    PetscCall(PairWarnOfSwing(sim, p));
+    PetscCall(PairWarnOfRotation(sim, p));
   }
   PetscFunctionReturn(0);
 }

@@ -541,7 +541,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
-    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
+    if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
     else PetscCall(SupportAddPair(&support, pair));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)

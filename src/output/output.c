@@ -115,7 +115,7 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   for (PetscInt p = 0; p < report->npairs; ++p)
-    output->friction = (PetscBool)(output->friction || report->pairs[p].rubs);
+    output->friction = (PetscBool)(output->friction || report->pairs[p].frictional);
   if (report->npairs < 2) PetscFunctionReturn(0);
   output->npairs = report->npairs;
   PetscCall(PetscMalloc1(output->npairs, &output->pairnames));

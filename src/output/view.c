@@ -33,12 +33,12 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 /* Prints, if there is friction, the work of the loads since the start, where it went, and the imbalance of each step */
 static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
 {
-  const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
-  PetscBool         rubs = PETSC_FALSE;
+  const StepReport *last       = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
+  PetscBool         frictional = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; last && p < last->npairs; ++p) rubs = (PetscBool)(rubs || last->pairs[p].rubs);
-  if (!rubs) PetscFunctionReturn(0);
+  for (PetscInt p = 0; last && p < last->npairs; ++p) frictional = (PetscBool)(frictional || last->pairs[p].frictional);
+  if (!frictional) PetscFunctionReturn(0);
   PetscCall(ViewSteps(report, TABLE_BALANCE, 1, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);

@@ -91,7 +91,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs",
     scene->npairs));
-  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
   PetscCall(EffectSet(report, EFFECT_FRICTION, (PetscBool)(rubbing > 0),
     "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
   PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1),

@@ -54,7 +54,7 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
 }
 
 /* Prints a line. With -accuracy there is no estimate, since a finer mesh may follow */
-static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char inside[])
+static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
   const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, nsteps);
   char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
@@ -93,7 +93,7 @@ static PetscErrorCode ProgressReach(Simulation sim)
   if (end) sim->progress.begun = now;
   if (!due || sim->path.time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
   if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
-  PetscCall(ProgressSay(sim, now, inside));
+  PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
 
@@ -109,7 +109,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   if (!due) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e, %.0e ends it",
     iteration, (double)error, (double)goal));
-  PetscCall(ProgressSay(sim, now, inside));
+  PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
 

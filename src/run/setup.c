@@ -59,7 +59,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
   for (PetscInt p = 0; p < scene->npairs; ++p)
-    PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
+    PetscCheck(sim->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
       "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
   PetscCall(ContactHistoryCreate(sim->dm, scene, &sim->history));
   PetscFunctionReturn(0);

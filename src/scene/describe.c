@@ -418,7 +418,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   if (scene->npairs)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations",
       scene->contact_updates));
-  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
     scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));

@@ -107,10 +107,10 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
-    SceneRequire(!SceneContactPairRubs(here) || !scene->displacement_bounds,
+    SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds,
       "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
     for (PetscInt q = 0; q < scene->npressures; ++q)
-      SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows,
+      SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows,
         "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
         "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
         "be dead, or the pair without friction",
