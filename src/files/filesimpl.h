@@ -49,4 +49,12 @@ PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt 
 PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
 PETSC_INTERN PetscErrorCode DatasetWriteIndices(IS, PetscViewer);
 
+/* script.c: the program's own Python scripts, on one rank. Run returns 0 if the script ended well; the last line that
+   it prints on the error stream is the sentence */
+#if !defined(CONTACT_PYTHON)
+  #define CONTACT_PYTHON "python3" /* the makefile sets the one that it found */
+#endif
+PETSC_INTERN PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t room);
+PETSC_INTERN int       ScriptRun(const char *const words[], char sentence[], size_t length);
+
 #endif

@@ -11,6 +11,7 @@ PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)
   PetscFunctionBegin;
   b->n   = 0;
   b->max = max;
+  b->generation++;
   PetscCall(PetscCalloc4(max, &b->p, max, &b->q, max * max, &b->gram, max * max, &b->factor));
   PetscFunctionReturn(0);
 }
@@ -75,9 +76,8 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first
-   projection removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive
-   along it */
+/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first projection
+   removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive along it */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
   const PetscInt  n   = b->n;
@@ -158,13 +158,14 @@ static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Factors the Gram matrix, without the directions that depend on others */
+/* Factors the Gram matrix of other directions than before, without those that depend on others */
 static PetscErrorCode BasisFactor(IPBasis *b)
 {
   PetscBool   *keep;
   PetscBLASInt n, ld, info;
 
   PetscFunctionBegin;
+  b->generation++;
   if (!b->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(b->n, &keep));
   PetscCall(BasisFindIndependent(b, keep));

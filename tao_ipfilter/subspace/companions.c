@@ -41,7 +41,7 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
     b[i] = (r - 0.5) * PetscSqrtReal(PetscAbsScalar(b[i]));
     alone += PetscSqr(r - 0.5);
   }
-  PetscCall(IPComplianceSolve(compliance, b, x));
+  PetscCall(IPComplianceSolve(compliance, 1, b, x));
   for (PetscInt i = 0; i < compliance->n; i++) worth += PetscRealPart(b[i]) * x[i];
   PetscCall(VecRestoreArray(load, &b));
   PetscCall(PetscFree(x));

@@ -48,13 +48,51 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* Chooses W: the constraints' unknowns and their neighbours, or without neighbours if these are too many or K may be
-   indefinite on them. thin: whether the constraints involve some but few enough unknowns */
-static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
+/* The unknowns of the constraints with their neighbours, and those of the solves before with the same K, so that W and
+   its factors stay where contact moves on. Without the neighbours if they are too many, or K may be indefinite there */
+static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  const IS      filter = ip->cond.filter;
+  PetscBool     same   = PETSC_FALSE;
+  PetscInt      n      = 1;
+  IS            rest, all;
+
+  PetscFunctionBegin;
+  if (!IPFilteredOf(tao)->newton && !ip->terms.n) PetscCall(IPReducedIsOf(before, ip->hess.H, &same));
+  if (same) {
+    PetscCall(ISDifference(filter, before->W, &rest));
+    PetscCall(ISGetSize(rest, &n));
+    PetscCall(ISDestroy(&rest));
+  }
+  if (!n) {
+    PetscCall(PetscObjectReference((PetscObject)before->W));
+    *W = before->W;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSubspaceGrow(tao, ip->hess.H, filter, W));
+  PetscCall(ISGetSize(*W, &n));
+  if (n > most || IPFilteredOf(tao)->newton || ip->terms.n) {
+    PetscCall(ISDestroy(W));
+    PetscCall(PetscObjectReference((PetscObject)filter));
+    *W = filter;
+  } else if (same) {
+    PetscCall(ISExpand(*W, before->W, &all));
+    PetscCall(ISSort(all));
+    PetscCall(ISGetSize(all, &n));
+    if (n <= most) PetscCall(ISDestroy(W));
+    if (n <= most) *W = all;
+    else PetscCall(ISDestroy(&all));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Takes W. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all */
+static PetscErrorCode FilteredTakeW(Tao tao, const IPReduced *before, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
-  PetscInt        n, touched, grown;
+  PetscInt        n, touched;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -62,15 +100,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCall(ISGetSize(ip->cond.filter, &touched));
   *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
-  if (!*thin) PetscFunctionReturn(0);
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &IPFilteredOf(tao)->W));
-  PetscCall(ISGetSize(IPFilteredOf(tao)->W, &grown));
-  if (grown > fraction * n || IPFilteredOf(tao)->newton || ip->terms.n) {
-    PetscCall(PetscObjectReference((PetscObject)ip->cond.filter));
-    PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-    IPFilteredOf(tao)->W = ip->cond.filter;
-  }
+  if (*thin) PetscCall(FilteredChooseW(tao, before, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
@@ -227,7 +258,7 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
-                       (!IPFilteredOf(tao)->reduced.met ||
+                       (!IPFilteredOf(tao)->reduced->met ||
                          PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual)));
   if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -330,14 +361,14 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
-  PetscCall(FilteredTakeW(tao, begun));
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(FilteredTakeW(tao, &kept->reduced, begun));
   if (!*begun) {
     PetscCall(FilteredForget(tao));
     PetscFunctionReturn(0);
   }
-  PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
-  if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, kept, begun));
   if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
   ip->method.multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));

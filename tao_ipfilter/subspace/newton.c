@@ -263,7 +263,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
     if (k || tao->niter) {
       PetscCall(NewtonEvaluateHessian(tao));
       PetscCall(IPSubspaceStateUpdate(tao, kept, found));
-      if (*found) PetscCall(IPFilteredSetUp(tao, &kept->basis, found));
+      if (*found) PetscCall(IPFilteredSetUp(tao, kept, found));
     }
     if (*found) PetscCall(NewtonSolveModel(tao, kept, target, d, force, found));
     if (*found) break;

@@ -8,7 +8,8 @@
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
-  PetscCall(IPReducedDestroy(&f->reduced));
+  if (f->reduced) PetscCall(IPReducedRelease(f->reduced));
+  f->reduced = NULL;
   PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));
   PetscCall(VecDestroy(&f->gradient));
@@ -50,7 +51,7 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(&IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
+  PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
@@ -72,8 +73,8 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscCall(VecCopy(c, f->c));
   if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, value, f->pg));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(IPReducedCenter(f->reduced, f->gradient, f->c, value, f->pg));
+  PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(VecDestroy(&value));
   PetscFunctionReturn(0);
@@ -88,11 +89,11 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
+  PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
   ip->rec.nreduced++;
-  ip->rec.npivots += f->reduced.nsteps;
+  ip->rec.npivots += f->reduced->nsteps;
   if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
   PetscFunctionReturn(0);
 }
@@ -151,10 +152,10 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(&f->reduced, basis, E));
+  PetscCall(IPReducedCoupling(f->reduced, basis, E));
   PetscCall(IPBasisCompress(basis, best, last, E));
   PetscCall(PetscFree(E));
-  PetscCall(IPReducedForget(&f->reduced));
+  PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
 }
 
@@ -239,7 +240,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   if (!*extended) PetscFunctionReturn(0);
   PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -257,19 +258,20 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Sets up for the present Hessian; active rows are guessed from slacks and multipliers. The first call in a solve
-   also creates the solve's own data. *possible: false if K_WW is not positive definite */
-PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
+/* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
+   what belongs to this solve only. *possible is false if K_WW is not positive definite */
+PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
 
   PetscFunctionBegin;
-  if (!f->centre) PetscCall(FilteredCreate(tao, basis));
+  if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
+  f->reduced = &kept->reduced;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
-    ip->at.c, basis, possible));
-  if (*possible) PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
+  PetscCall(IPReducedSetUp(f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
+    ip->at.c, &kept->basis, possible));
+  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);

@@ -10,15 +10,15 @@
 /* Directions P of the filtered subspace, oldest first; zero on the constraints' unknowns W */
 typedef struct {
   PetscInt   n, max;
-  Vec       *p, *q;         /* p_j and K p_j; NULL if not yet needed */
-  PetscReal *gram, *factor; /* P^T K P (columns of length max), and its Cholesky factor (lower triangle) */
+  Vec       *p, *q;         /* p_j, and K p_j; NULL where not yet needed */
+  PetscReal *gram, *factor; /* P^T K P, columns of length max, and its Cholesky factor, the lower triangle */
+  PetscInt   generation;    /* increases when directions change; not when one is appended */
 } IPBasis;
 
 /* C = J_W K_WW^-1 J_W^T, on the first rank */
 typedef struct {
   PetscInt   m, n;
   Mat        F, J; /* K_WW factored; J_W */
-  Vec        b, x; /* work vectors on W without own arrays */
   PetscInt   ncolumns, maxcolumns;
   PetscInt  *column; /* column of C that belongs to a row; negative: not computed yet */
   PetscReal *C;      /* the columns */
@@ -73,9 +73,15 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
-/* The contact problem on the subspace; n and m are zero on all but the first rank */
+/* The contact problem on the subspace; n and m are zero on all but the first rank. The space (K_WW and Z) is kept
+   between solves, the constraints are not */
 typedef struct {
   PetscBool        first;
+  PetscObjectId    K_id; /* K and W that the space belongs to */
+  PetscObjectState K_state;
+  IS               W;
+  Mat              KWW;          /* with the companions' springs */
+  PetscInt         generation;   /* that of the basis when Z was computed */
   PetscInt         n, m, nterms; /* sizes of W, constraints, norm terms */
   VecScatter       to_W, to_rows, to_terms;
   Vec              on_W, on_rows, on_terms;
@@ -85,7 +91,7 @@ typedef struct {
   IPCompanions     companions; /* their displacements are the first coordinates of y */
   IPReducedSystem  system;
   IPActiveSet      set;
-  PetscReal       *Q, *g, *x, *z; /* Q_W; gradient and K_WW^-1 g at the centre; work */
+  PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient and K_WW^-1 g at the centre; work */
   PetscInt         nsteps, nactive;
   PetscBool        met; /* the last solution satisfies the laws to the requested tolerance */
 } IPReduced;
@@ -100,17 +106,18 @@ typedef struct {
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
+  IPReduced        reduced;
 } IPSubspaceState;
 
 /* State of the filtered subspace method within a solve */
 typedef struct {
-  PetscBool      newton; /* Newton's method is used, because the objective is not quadratic */
-  PetscContainer kept;   /* an IPSubspaceState */
-  IS             W;      /* unknowns that V contains completely: those of the constraints, and neighbours */
-  IPReduced      reduced;
-  Vec            centre, gradient, c; /* centre of the reduced problem, and grad f and c_I there */
-  PetscReal      f;                   /* f at the centre */
-  PetscReal     *pg, *y;              /* P^T grad f at the centre; coefficients of the directions */
+  PetscBool      newton;  /* by Newton's method, as the objective is not quadratic */
+  PetscContainer kept;    /* an IPSubspaceState */
+  IS             W;       /* the unknowns that V has all of: those of the constraints, and their neighbours */
+  IPReduced     *reduced; /* that of kept; NULL: not set up */
+  Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
+  PetscReal      f;                   /* and f there */
+  PetscReal     *pg, *y;              /* P^T grad f there; coefficients of the directions */
   PetscInt       ncentred;            /* steps in a row without a new direction */
   PetscInt       nfutile;             /* steps since the KKT error was last halved */
   PetscReal      halved;              /* KKT error when it was last halved */
@@ -128,10 +135,12 @@ PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
 PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
 
 /* compliance.c */
-PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, Mat J, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
-PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, const PetscReal[], PetscReal[]);
-PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscBool transposed, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
+PETSC_INTERN PetscErrorCode IPComplianceSpread(IPCompliance *, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceColumns(IPCompliance *, PetscInt n, const PetscInt rows[]);
 
 /* companions.c */
@@ -146,14 +155,16 @@ PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, cons
   PetscBool *solved);
 
 /* reduced.c */
+PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *same);
 PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K, Mat J, const IPTerms *, IS W, Vec x,
   Vec c, const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
 PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
-PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
 
@@ -166,7 +177,7 @@ PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, Pe
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, const IPBasis *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);

@@ -25,12 +25,12 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscInt       dim;
 
   PetscFunctionBegin;
-  if (file->name) PetscCall(PetscStrcmp(file->name, body->gmsh.file, &same));
+  if (file->name) PetscCall(PetscStrcmp(file->name, GmshPath(body), &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(GmshFileClose(file));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
+  if (rank == 0) ierr = GmshReadFile(GmshPath(body), &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a complete Gmsh mesh: %s", body->name,
     body->gmsh.file, error.message);
@@ -38,7 +38,7 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
   PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT,
     "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
-  file->name = body->gmsh.file;
+  file->name = GmshPath(body);
   PetscFunctionReturn(0);
 }
 

@@ -92,6 +92,15 @@ PETSC_INTERN PetscErrorCode GmshMeshDestroy(GmshMesh *);
 PETSC_INTERN PetscBool      GmshMeshHasTag(const GmshMesh *, const GmshElement *, PetscInt tag);
 PETSC_INTERN PetscErrorCode GmshMeshFindNode(const GmshMesh *, PetscInt number, PetscInt *place);
 
+/* convert.c: files of other formats become temporary Gmsh files, which all bodies of a file share. Collective */
+PETSC_INTERN PetscErrorCode GmshConvert(MPI_Comm, PetscInt nbodies, SceneBody bodies[]);
+PETSC_INTERN PetscErrorCode GmshRemoveConverted(SceneBody *);
+/* The Gmsh file that holds a body */
+static inline const char *GmshPath(const SceneBody *body)
+{
+  return body->gmsh.converted ? body->gmsh.converted : body->gmsh.file;
+}
+
 /* names.c, collective. Names in the order of the file, like those of surfaces from MeshGetFaceNames(); tags may be
    NULL */
 PETSC_INTERN PetscErrorCode GmshGetPhysicalNames(MPI_Comm, const SceneBody *, PetscInt dim, PetscInt *n, char ***names,

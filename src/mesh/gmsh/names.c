@@ -53,8 +53,8 @@ static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim,
   PetscBool exists, gmsh;
 
   PetscFunctionBegin;
-  PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
-  stream = exists ? fopen(body->gmsh.file, "r") : NULL;
+  PetscCall(PetscTestFile(GmshPath(body), 'r', &exists));
+  stream = exists ? fopen(GmshPath(body), "r") : NULL;
   PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "there is no readable mesh file \"%s\"", body->gmsh.file);
   gmsh = GmshIsGmsh(stream);
   if (gmsh) PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));

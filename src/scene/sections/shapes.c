@@ -10,6 +10,7 @@ static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direc
 static const ShapeKey gmsh_keys[] = {
   SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
   SHAPE_KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
+  SHAPE_KEY("scale", KEY_REALS, 1, gmsh.scale, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
