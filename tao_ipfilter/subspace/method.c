@@ -49,8 +49,8 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 }
 
 /* Chooses W: the unknowns of the constraints, their neighbours, and W of earlier solves with the same K. So W and its
-   factors need not change when the contact area moves. Without the neighbours if there are too many of them, or if K may
-   be indefinite there */
+   factors need not change when the contact area moves. Without the neighbours if there are too many of them, or if K
+   may be indefinite there */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
