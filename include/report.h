@@ -36,6 +36,14 @@ typedef struct {
   PetscReal   moment[3];   /* [force length] */
 } FaceReport;
 
+/* A rigid body: where the centre of its rotation is, or its middle where the scene has none, and the rotation vector
+   since the start, whole turns included */
+typedef struct {
+  const char *name;
+  PetscReal   position[3]; /* [length] */
+  PetscReal   rotation[3]; /* [degrees] */
+} RigidReport;
+
 /* A load program at the end of a load step */
 typedef struct {
   const char *name;
@@ -101,6 +109,7 @@ typedef struct {
                              update against those of the state; of the worst pair */
   PetscReal slip_change;  /* largest difference of the linearized slip and the slip of the state where there is
                              pressure [length] */
+  PetscReal straightened; /* what the last solve's rotations of rigid bodies were off, linearized [length] */
   PetscReal untruth;      /* largest of gap_change, slip_change and the error from the turning of the normals [length]
                              */
   PetscBool gap_untrue;   /* that error exceeds the tolerance: the limit on contact updates came first */
@@ -126,6 +135,8 @@ typedef struct {
   FaceReport    *faces;
   PetscInt       nbodies;
   BodyReport    *bodies;
+  PetscInt       nrigid_bodies; /* of the scene */
+  RigidReport   *rigid_bodies;
   PetscReal      dissipated;        /* work of friction, all pairs, since the start [force length] */
   PetscReal      balance;           /* largest of the bodies' */
   PetscReal      weak_spring_force; /* sum of the sizes of the forces at the vertices [force] */

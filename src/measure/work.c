@@ -2,8 +2,8 @@
    */
 #include "measureimpl.h"
 
-/* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
-static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
+/* Adds the mean of a force before and now, NULL: none, each times its way between; what is now will have been before */
+static PetscErrorCode WorkAddForce(Vec way[2], Vec *before, Vec *now, PetscReal *work)
 {
   Vec         forces[2] = {*before, *now};
   PetscScalar product;
@@ -11,7 +11,7 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
-    PetscCall(VecDot(forces[k], way, &product));
+    PetscCall(VecDot(forces[k], way[k], &product));
     *work += 0.5 * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
@@ -58,14 +58,14 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
-  LoadPath       *path = &sim->path;
+  const Bodies    bodies = SimulationBodies(sim);
+  LoadPath       *path   = &sim->path;
   const PetscReal work = path->work, taken = path->contact_work;
-  Vec             outside, reaction, way;
+  Vec             outside, reaction, way[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
   PetscCall(VecDuplicate(u, &reaction));
-  PetscCall(VecDuplicate(u, &way));
   PetscCall(VecCopy(unbalanced, outside));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
@@ -73,11 +73,11 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
-  PetscCall(VecWAXPY(way, -1.0, path->u, u));
+  PetscCall(ArcsGetWays(&bodies, path->u, u, way));
   PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
-  PetscCall(VecDestroy(&way));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
   if (sim->history.shear && !sim->temperatures.n)

@@ -27,6 +27,11 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
     PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
     PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
   }
+  if (last && last->nrigid_bodies) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_RIGID, &SchemaRigid, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_RIGID, &SchemaRigid, last->nrigid_bodies, last->rigid_bodies, viewer));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -43,7 +43,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (rescued) nsolves = 0;
   } while (again || rescued);
   PetscCall(WeakSpringsTest(p, u, report));
-  PetscCall(RigidTest(&constraints, u, report));
+  PetscCall(RigidTest(&constraints, (PetscBool)(!p->J || p->sim->scene->contact_updates > 1), u, report));
+  report->straightened = 0.0;
+  if (report->converged) PetscCall(TiesStraighten(&constraints, u, &report->straightened));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -66,6 +68,28 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   *is_true           = (PetscBool)(report->untruth <= sim->tolerances.gap_change * size);
   report->gap_untrue = (PetscBool)((sim->scene->contact_updates > 1 ? report->untruth : report->gap_change) >
                                    PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
+  PetscFunctionReturn(0);
+}
+
+/* Without contact. Rigid bodies that turn freely are linearized again until their rotation is finite */
+static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
+{
+  const PetscInt most = 50;
+  PetscReal      size;
+  PetscBool      again = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; !k || again; ++k) {
+    if (k || foreseen) PetscCall(StepProblemTurn(p, u));
+    PetscCall(AttemptSolve(p, (PetscBool)(foreseen || k), u, report, sol));
+    PetscCall(VecNorm(u, NORM_INFINITY, &size));
+    again = (PetscBool)(report->converged &&
+                        report->straightened > PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12) * size);
+    if (k < most || !again) continue;
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "rigid bodies that turn freely come to no rest: use smaller load steps"));
+    again = PETSC_FALSE;
+  }
   PetscFunctionReturn(0);
 }
 
@@ -149,6 +173,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
 
   PetscFunctionBegin;
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
+  PetscCall(StepProblemTurn(p, u_linearized));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
     if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->linearization));
@@ -236,9 +261,23 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Between displacements there is none of rigid bodies that turn */
+static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
+{
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscReal         change;
+
+  PetscFunctionBegin;
+  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  PetscCall(StepProblemTurn(p, u));
+  PetscCall(TiesFollow(&p->sim->ties, u));
+  PetscCall(TiesStraighten(&constraints, u, &change));
+  PetscFunctionReturn(0);
+}
+
 /* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
-static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpdateSecants *secants, Vec u,
-  Vec u_linearized, StepReport *report, ContactLinearization *at_u)
+static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants, Vec u, Vec u_linearized,
+  StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution;
@@ -251,6 +290,7 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpda
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
   if (!at_solution) {
     PetscCall(ContactLinearizationDestroy(at_u));
+    PetscCall(AttemptMakeRigid(p, u_linearized));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
   }
   sim->linearization = *at_u;
@@ -478,7 +518,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (sim->contact) {
     PetscCall(AttemptBegin(sim, time, foreseen, u));
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
-  } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
+  } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {

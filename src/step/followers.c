@@ -18,10 +18,12 @@ static PetscBool FollowersAny(Scene scene)
 /* load: dead loads and those that follow, at u; slope: NULL, or of the latter */
 static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
 {
-  Simulation sim = p->sim;
+  Simulation        sim         = p->sim;
+  const Constraints constraints = SimulationConstraints(sim);
 
   PetscFunctionBegin;
   PetscCall(DeadLoadsGet(&sim->loads, p->time, load));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, *load));
   if (!*load) {
     PetscCall(VecDuplicate(u, load));
     PetscCall(VecZeroEntries(*load));
@@ -61,6 +63,14 @@ PetscErrorCode FollowersBegin(StepProblem *p)
   PetscCall(VecDuplicate(p->base, &p->followed));
   PetscCall(VecCopy(p->base, p->followed));
   PetscCall(FollowersLinearize(p));
+  PetscFunctionReturn(0);
+}
+
+/* The dead loads have changed */
+PetscErrorCode FollowersTurn(StepProblem *p)
+{
+  PetscFunctionBegin;
+  if (p->followed) PetscCall(FollowersLinearize(p));
   PetscFunctionReturn(0);
 }
 

@@ -1,40 +1,37 @@
 /* The optimization problem of one load step: what both models of the energy share. */
 #include "stepimpl.h"
 
+/* Where bodies turn freely, the base and the loads are those about u */
+static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
+{
+  Simulation        sim         = p->sim;
+  const Constraints constraints = SimulationConstraints(sim);
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(sim->path.u, p->base));
+  PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
+  PetscCall(TiesTurn(&constraints, p->time, sim->path.u, u, anew));
+  PetscCall(TiesFollow(&sim->ties, p->base));
+  PetscCall(VecDestroy(&p->load));
+  PetscCall(DeadLoadsGet(&sim->loads, p->time, &p->load));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
+  PetscFunctionReturn(0);
+}
+
 /*
    Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does
    not hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble
    theirs.
 */
-PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
+static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
+  Simulation        sim         = p->sim;
   const Constraints constraints = SimulationConstraints(sim);
   PetscScalar       work        = 0.0;
-  PetscBool         linear;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(p, sizeof(*p)));
-  p->sim  = sim;
-  p->time = time;
-  PetscCall(PetscObjectReference((PetscObject)sim->K));
-  p->K = sim->K;
-  PetscCall(VecDuplicate(sim->path.u, &p->base));
-  PetscCall(VecDuplicate(sim->path.u, &p->w));
-  PetscCall(VecCopy(sim->path.u, p->base));
-  PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
-  PetscCall(TiesMove(&constraints, time));
-  PetscCall(TiesFollow(&sim->ties, p->base));
-  PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
-  PetscCall(TemperaturesApply(&sim->temperatures, time));
-  PetscCall(FollowersBegin(p));
-  PetscCall(ProximalBegin(p));
-  if (!sim->quadratic) PetscFunctionReturn(0);
-
-  PetscCall(VecDuplicate(sim->path.u, &p->force));
-  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (anew) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -45,6 +42,45 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   p->energy -= PetscRealPart(work);
   PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
+{
+  PetscBool linear, anew;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(p, sizeof(*p)));
+  p->sim  = sim;
+  p->time = time;
+  PetscCall(PetscObjectReference((PetscObject)sim->K));
+  p->K = sim->K;
+  PetscCall(VecDuplicate(sim->path.u, &p->base));
+  PetscCall(VecDuplicate(sim->path.u, &p->w));
+  PetscCall(StepProblemSetBase(p, sim->path.u, &anew));
+  PetscCall(TemperaturesApply(&sim->temperatures, time));
+  PetscCall(FollowersBegin(p));
+  PetscCall(ProximalBegin(p));
+  if (!sim->quadratic) PetscFunctionReturn(0);
+
+  PetscCall(VecDuplicate(sim->path.u, &p->force));
+  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || !linear)));
+  PetscFunctionReturn(0);
+}
+
+/* Rigid bodies that turn freely are linearized about u */
+PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
+{
+  PetscBool anew;
+
+  PetscFunctionBegin;
+  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  PetscCall(StepProblemSetBase(p, u, &anew));
+  PetscCall(FollowersTurn(p));
+  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, anew));
+  PetscCall(ProximalTurn(p, u));
   PetscFunctionReturn(0);
 }
 
@@ -65,7 +101,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecSet(mask, 1.0));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
   PetscCall(MatDiagonalScale(p->J, NULL, mask));
-  PetscCall(FrictionSetUp(p, lin, mask));
+  PetscCall(FrictionSetUp(p, lin, u_linearized, mask));
   PetscCall(VecDestroy(&mask));
   PetscFunctionReturn(0);
 }
