@@ -43,6 +43,10 @@ PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, Petsc
 /* Collective. How deep vertices of either face of each pair are in the other body at a displacement,
    and what that is known to [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
+/* Collective. How deep vertices of a pair are that went through the other face from u0 to u1, and how deep contact is
+   searched for [length] */
+PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
+  PetscReal *reach);
 /* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
    search reaches */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);

@@ -246,6 +246,31 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
   PetscFunctionReturn(0);
 }
 
+/* Faces that went right through one another since the last state have no contact at u, and never had any on the way.
+   That takes motions of at least the depth that is searched */
+static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *report)
+{
+  PetscReal moved, reach, depth;
+  Vec       du;
+  char      sentence[256];
+
+  PetscFunctionBegin;
+  if (!report->converged) PetscFunctionReturn(0);
+  PetscCall(AttemptMotion(sim->path.u, u, &du, &moved));
+  PetscCall(VecDestroy(&du));
+  for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
+    const SceneContactPair *pair = &sim->scene->pairs[p];
+
+    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path.u, u, &depth, &reach));
+    if (depth <= reach) continue;
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
+      pair->name, pair->mortar, pair->nonmortar, (double)depth));
+    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Once a run */
 static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 {
@@ -518,6 +543,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (sim->contact) {
     PetscCall(AttemptBegin(sim, time, foreseen, u));
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
+    PetscCall(AttemptFindPassed(sim, u, report));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));
