@@ -35,7 +35,7 @@ static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt 
   }
 }
 
-/* Global rows of the first component of the nodes that this rank owns */
+/* First global row of each node that this rank owns */
 static PetscErrorCode RigidGetNodes(const Constraints *c, const RigidBody *body, IS *nodes)
 {
   PetscFunctionBegin;
@@ -56,7 +56,8 @@ static PetscErrorCode RigidMeasure(const Constraints *c, PetscInt rstart, const 
   PetscFunctionReturn(0);
 }
 
-/* The row with the largest component across those that carry motions already, unit[]; which becomes the next of them */
+/* Finds the row whose motions have the largest component orthogonal to those of the carrying rows, unit[]; it
+   becomes the next carrying row */
 static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
 {
@@ -96,7 +97,7 @@ static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, co
   PetscFunctionReturn(0);
 }
 
-/* inverse of a n x n matrix, by Gauss-Jordan elimination with pivoting by rows */
+/* Inverse of an n x n matrix by Gauss-Jordan elimination with row pivoting */
 static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
 {
   for (PetscInt i = 0; i < 36; ++i) inverse[i / 6][i % 6] = i / 6 == i % 6 ? 1.0 : 0.0;
@@ -129,7 +130,7 @@ static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
   }
 }
 
-/* Rows of R: those that carry the motions have a 1, which is put there exactly */
+/* Sets the rows of R; carrying rows are exact unit rows */
 static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
   PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
 {
@@ -499,7 +500,7 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
   PetscFunctionReturn(0);
 }
 
-/* Springs on rigid bodies, the only stiffness that their own rows have: of the motions by C, u = C x */
+/* Adds springs on rigid bodies, whose own rows have no other stiffness; C: u = C x */
 static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness)
 {
   PetscInt n;

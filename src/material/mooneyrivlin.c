@@ -12,7 +12,7 @@
 */
 #include "materialimpl.h"
 
-/* The two neo-Hookean laws, of F and of cof F */
+/* Moduli of the two neo-Hookean laws, of F and of cof F */
 static void MooneyRivlinSplit(const MaterialModuli *m, MaterialModuli *first, MaterialModuli *second)
 {
   *first  = (MaterialModuli){.mu = m->mu * (1 - m->share), .bulk = m->bulk};

@@ -1,6 +1,6 @@
 /*
-   A body of no strain, whose displacements are all prescribed: no energy and no stress. Its tangent gives the rows of
-   the matrix, which then hold nothing but their diagonal, the scale of the young modulus that it was given.
+   Rigid bodies: all displacements are prescribed; energy and stress are zero. The tangent provides the matrix rows, of
+   which only the diagonal is kept; its size comes from the assigned Young's modulus.
 */
 #include "materialimpl.h"
 

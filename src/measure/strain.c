@@ -1,7 +1,7 @@
-/* Bodies of a small-strain law that are strained or turned far beyond its range: a warning. */
+/* Warns of bodies with a small-strain law that are strained or rotated far beyond its range. */
 #include "measureimpl.h"
 
-#define STRAIN_LIMIT   0.25 /* principal strain, mean over the body's strain energy */
+#define STRAIN_LIMIT   0.25 /* principal strain, averaged over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
 
 /* Bodies that may be warned of yet */

@@ -1,5 +1,4 @@
-/* Work of the external forces, of dead loads and of reactions at prescribed displacements, and of the contact forces.
-   */
+/* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
 
 /* Adds the mean of a force before and now, NULL: none, each times its way between; what is now will have been before */
@@ -20,14 +19,15 @@ static PetscErrorCode WorkAddForce(Vec way[2], Vec *before, Vec *now, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Of a solve in which the loads have done this work, and the contacts have taken up that much of it */
+/* Updates the energy balance by a solve in which the loads did `work` and contact took up `taken` */
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
 {
-  const PetscReal at_rest = 1e-2; /* of the energy: a step that turns over less than that is measured by it */
-  const PetscReal stored  = report->energy - path->energy;
+  const PetscReal at_rest = 1e-2; /* relative to the energy: the imbalance of a step with less turnover is related to
+                                     this */
+  const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
-  path->energy = report->energy;
+  path->energy += stored;
   path->unbalanced += PetscAbsReal(work - stored - taken);
   path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
   report->normal_work = report->contact_work - report->dissipated;
@@ -36,7 +36,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   PetscFunctionReturn(0);
 }
 
-/* At the end of a load step, once a run */
+/* Warns at the end of a load step, once per run */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
   const PetscReal allowed = 1e-2;
@@ -52,9 +52,9 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 }
 
 /*
-   Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the
-   prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
-   where pairs rub, which end in WorkAdd(), NULL: none
+   Adds the work from the last state to u. unbalanced: internal - contact - dead forces, i.e. reactions in prescribed
+   rows; rigid: forces on rigid bodies driven by forces, NULL: none; contact: contact forces if there is friction
+   (consumed here), NULL: none
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {

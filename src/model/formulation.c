@@ -1,4 +1,4 @@
-/* Names of the formulations, as scenes and options write them */
+/* Names of the formulations in scenes and options */
 #include <formulation.h>
 
 #define ELEMENT_NAME(name, element, text) text,

@@ -1,4 +1,4 @@
-/* The load program: factors of ramps at a time. */
+/* The load program: factors of ramps at a given time. */
 #include <model.h>
 
 /*@C
@@ -20,8 +20,9 @@
 @*/
 PetscErrorCode SceneGetFactor(Scene scene, PetscInt ramp, PetscReal time, PetscReal *factor)
 {
-  const PetscReal *end  = scene->ramps[ramp].factor;
-  const PetscInt   step = PetscMin(scene->nsteps - 1, (PetscInt)PetscFloorReal(time)); /* before this end */
+  const PetscReal *end = scene->ramps[ramp].factor;
+  /* index of the load step that contains the time */
+  const PetscInt step = PetscMin(scene->nsteps - 1, (PetscInt)PetscFloorReal(time));
 
   PetscFunctionBegin;
   if (time >= (PetscReal)scene->nsteps) *factor = end[scene->nsteps - 1];

@@ -1,4 +1,4 @@
-/* A scene as the YAML that SceneLoad() reads */
+/* Prints a scene as YAML that SceneLoad() reads */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -14,7 +14,7 @@ static PetscErrorCode SceneViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
   PetscFunctionReturn(0);
 }
 
-/* In double quotes: a value may hold what YAML takes for its own */
+/* Prints an option in double quotes, because its value may contain YAML syntax */
 static PetscErrorCode SceneViewOption(Scene scene, PetscViewer viewer, PetscInt o)
 {
   PetscFunctionBegin;
@@ -39,7 +39,7 @@ static PetscErrorCode SceneViewNumbered(Scene scene, PetscViewer viewer, const c
   PetscFunctionReturn(0);
 }
 
-/* A list of the top level by its name */
+/* Prints a list of the top level by its name */
 static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const char name[])
 {
   const SceneList *list = SceneFindList(name);

@@ -1,8 +1,10 @@
-/* The true energy of the bodies as objective: infinite where an element is turned inside out. */
+/* Objective of a load step with nonlinear bodies: strain energy minus work of the loads. It is infinite where an
+   element is inverted. */
 #include "stepimpl.h"
 #include <math.h>
 
-/* The bodies' displacements of an iterate, in p->w where those of tied faces follow others */
+/* u: the bodies' displacements for an iterate of the optimizer. With ties u = p->w, where tied nodes follow the
+   nodes that they depend on. */
 static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
 {
   PetscFunctionBegin;
@@ -36,7 +38,7 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
 PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
 {
   StepProblem *p      = (StepProblem *)ctx;
-  PetscReal    energy = 0.0; /* which the objective has */
+  PetscReal    energy = 0.0; /* unused: EnergyObjective() has added the energies */
   Vec          u;
 
   PetscFunctionBegin;

@@ -1,16 +1,16 @@
 /*
-   Friction of the pairs that have it: forces tau along the tangents of each row, of the slip since the last state of
-   equilibrium,
+   Coulomb friction. The friction force tau of a contact row is a 2-vector along its tangents. It depends on the slip
+   since the last state of equilibrium:
 
-     |tau| <= b,   tau = -b slip/|slip| where there is slip,   b = min(limit, coefficient x force of the row),
+     |tau| <= b,   tau = -b slip/|slip| if slip != 0,   b = min(limit, coefficient x normal force of the row).
 
-   as norm terms of the optimization problem. What is remembered between solves stands in the frame of space: tangents
-   are those of one linearization.
+   The optimizer treats these laws as norm terms. Forces are stored between solves in global coordinates, since the
+   tangents belong to one linearization.
 */
 #include "stepimpl.h"
 
-/* What sticks has a coefficient beyond any that is measured: with an infinite one a vertex may neither stick nor lift
-   off, where it would carry no pressure but a tangential force */
+/* Sets limit and coefficient of each row. `stick: true` uses a coefficient of 1,000: with an infinite one the force
+   bound of a vertex at zero pressure would be undetermined. */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
   const PetscReal    sticks = 1e3;
@@ -76,7 +76,7 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
   PetscFunctionReturn(0);
 }
 
-/* Tells the optimizer; scale: of the forces that are remembered, 0 where they are none to begin with */
+/* Passes the friction laws to the optimizer, and as a start the stored forces times scale */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
   ContactLinearization  lin = p->sim->linearization;
@@ -104,7 +104,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscFunctionReturn(0);
 }
 
-/* Forces and slip at a solution; the forces are remembered */
+/* Stores friction forces and slips of a solution in sol, and the forces in the contact history */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->linearization;

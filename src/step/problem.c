@@ -1,4 +1,4 @@
-/* The optimization problem of one load step: what both models of the energy share. */
+/* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
 #include "stepimpl.h"
 
 /* Where bodies turn freely, the base and the loads are those about u */
@@ -19,9 +19,9 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
 }
 
 /*
-   Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does
-   not hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble
-   theirs.
+   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
+   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
+   energy the callbacks assemble the tangent at each iterate.
 */
 static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
@@ -84,7 +84,8 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* g + J_full (u - u_linearized) = [g + J_full (base - u_linearized)] + J (u - base), J without prescribed columns */
+/* Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + J (u - base) with
+   p->g = g + J_full (base - u_linearized). J is J_full without prescribed columns. */
 PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, Vec u_linearized)
 {
   Vec mask;
@@ -106,8 +107,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscFunctionReturn(0);
 }
 
-/* |u - base| <= increment, or no bound at all where that is infinite; prescribed rows are held by the problem itself
-   and need none */
+/* Sets bounds |u - base| <= increment; an infinite increment gives infinite bounds. Prescribed rows get no bounds. */
 PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 {
   PetscFunctionBegin;
@@ -155,7 +155,7 @@ PetscErrorCode StepProblemConstraint(Tao tao, Vec u, Vec c, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* A matrix that is assembled and does not change: its object state tells the optimizer so */
+/* Callback for a constant matrix. It changes nothing, so the optimizer sees an unchanged object state. */
 PetscErrorCode StepProblemConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
 {
   PetscFunctionBegin;

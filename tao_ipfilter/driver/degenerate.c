@@ -1,7 +1,8 @@
-/* Signs that a solution has no bounded multipliers. The KKT error is measured by them and then means nothing. */
+/* Detects solutions without bounded multipliers. The KKT error, which is measured with the multipliers, is
+   meaningless there. */
 #include "driverimpl.h"
 
-/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
+/* r += |J|^T |M multiplier|; weights NULL: M = 1 */
 static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
 {
   const PetscScalar *z;
@@ -31,7 +32,7 @@ static PetscErrorCode DegenerateAddForces(Tao tao, IPSpace space, Mat J, Vec mul
   PetscFunctionReturn(0);
 }
 
-/* Largest sum of the sizes of the constraints' forces at an unknown */
+/* Largest sum over the constraints of the magnitudes of their forces on one unknown */
 static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -55,11 +56,12 @@ static PetscErrorCode DegenerateForce(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Ratio of the sizes of the constraints' forces to the gradient that they balance together. If it is large, the forces
-   cancel one another: no bounded multipliers need exist, and errors measured by multipliers mean nothing */
+/* times: ratio of the magnitudes of the constraints' forces to the gradient that they balance together. If it is
+   large, the forces cancel each other: bounded multipliers may not exist, and errors measured with multipliers are
+   meaningless */
 PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
 {
-  const PetscReal vanishing = 1e-3; /* of the first gradient */
+  const PetscReal vanishing = 1e-3; /* relative to the first gradient */
   PetscReal       force, gradient;
 
   PetscFunctionBegin;
@@ -70,7 +72,7 @@ PetscErrorCode IPDegenerateCancellation(Tao tao, PetscReal *times)
   PetscFunctionReturn(0);
 }
 
-/* Forces of the multipliers with the constraints' gradients of the starting point */
+/* Largest force of the present multipliers with the constraint gradients of the starting point */
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -85,14 +87,14 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* Size of the objective, now and at the start, that what is left to gain is held against */
+/* Magnitude of the objective, the larger of the present and the first value: the scale for what is left to gain */
 PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 {
   return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first.f)), ip->first.gradient * ip->first.x);
 }
 
-/* Whether the last step changes the objective by a trace of its size: where multipliers do not exist, that alone tells
-   that the point is the end, and not one on the way there */
+/* stands: whether the last step changed the objective by a negligible part of its magnitude. If multipliers do not
+   exist, only this shows that the iteration has reached the solution */
 static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -106,12 +108,12 @@ static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
 }
 
 /* Whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
-   vanish, so that their multipliers grow without limit. The stationarity residual is small compared with them */
+   vanish, so that their multipliers grow without limit, and the stationarity residual is small relative to them */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const IPKKT    *k    = &ip->kkt;
-  const PetscReal huge = 1e6; /* times the gradient */
+  const PetscReal huge = 1e6; /* relative to the gradient */
   PetscReal       force, gradient;
 
   PetscFunctionBegin;

@@ -1,15 +1,15 @@
 /*
-   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
-   slacks vanish before mu does. Then all inequality constraints are relaxed to c_I + r >= 0, with r a hundredth of
-   the tolerance times their size (Waechter and Biegler 2006, section 3.5, relax all problems from the start, and by
-   more).
+   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0, have no central path that leads to their
+   solutions; slacks vanish before mu does. All inequality constraints are then relaxed to c_I + r >= 0, where r is a
+   hundredth of the tolerance times their size. (Waechter and Biegler 2006, section 3.5, relax all problems from the
+   start, and by more.)
 */
 #include "stepimpl.h"
 
-#define IP_RELAX_FIRST 1e-2 /* of the tolerance */
-#define IP_RELAX_LARGE 1e4  /* a multiplier this many times that which balances the gradient is large */
+#define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
+#define IP_RELAX_LARGE 1e4  /* a multiplier is large if it exceeds the one that balances the gradient by this factor */
 
-/* Moves slacks by r, and puts pairs back on the central path, because multipliers of vanishing slacks are useless */
+/* Adds r to the slacks and moves pairs to the central path, because multipliers of vanishing slacks are useless */
 static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -24,15 +24,15 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
   PetscFunctionReturn(0);
 }
 
-/* Whether the least slack is as small as rounding */
+/* Whether the smallest slack is as small as rounding */
 static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->relax.least_slack <= IP_LEAST_SLACK * ip->scale.length);
 }
 
-/* The same, or its multiplier on the central path of a mu that does not fall is so much larger than what balances the
-   objective's gradient that no slack of a constraint with an interior would be so small. Far from feasible points
-   that happens on the way. Without scales nothing says what balances. */
+/* Whether a slack has vanished: it is as small as rounding; or its multiplier on the central path, at a mu that no
+   longer falls, is far larger than what balances the objective's gradient, which does not happen if there is an
+   interior. Far from feasible points this can happen temporarily. Without scales the balance is unknown. */
 static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
 {
   const PetscReal met = 1e-4;
@@ -42,8 +42,8 @@ static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
                      (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
 }
 
-/* Relaxes the constraints by a fraction of the tolerance times their size, which is taken when they are relaxed
-   first. mu becomes no more than what the width that they have now admits at large multipliers. */
+/* Relaxes the constraints by a fraction of the tolerance times their size, which is measured at the first
+   relaxation. mu is limited so that the multipliers fit the new width. */
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -67,7 +67,7 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes the constraints where a slack has vanished for some steps in a row though the KKT error has not */
+/* Relaxes the constraints if a slack has vanished for several steps although the KKT error has not */
 PetscErrorCode IPRelax(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -80,7 +80,7 @@ PetscErrorCode IPRelax(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The same where there is no next step, as soon as a slack has vanished, and once more by the tolerance itself */
+/* Relaxes, if no next step was found, as soon as a slack has vanished; a second time by the full tolerance */
 PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* Expressions of a scene file: evaluated, checked, and complained of. */
+/* Expressions of a scene file: evaluation, checks, error messages. */
 #include "formatimpl.h"
 #include "src/model/modelimpl.h"
 
@@ -12,7 +12,7 @@ static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const
   PetscFunctionReturn(0);
 }
 
-/* Of this time in a program of so many load steps; what is no number is complained of */
+/* Evaluates text at a time of a load program with nsteps steps; records an error if it is not a number */
 PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps,
   PetscReal *value)
 {
@@ -26,7 +26,7 @@ PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[]
   PetscFunctionReturn(0);
 }
 
-/* Complains of what makes no sense; whether it is finite is known where it is used */
+/* Records an error if the expression has a syntax error; whether it is finite is checked where it is used */
 PetscErrorCode SceneCheckExpression(SceneKeys keys, const char key[], const char text[])
 {
   Expression e = {.at = text, .names = "xyz"};

@@ -1,4 +1,4 @@
-/* Load programs by expressions and by tables of times and values */
+/* Load programs given by expressions, or by tables of times and values */
 #include "formatimpl.h"
 
 static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
@@ -16,7 +16,7 @@ static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const 
   PetscFunctionReturn(0);
 }
 
-/* Linear in between; before the first time and after the last the value there */
+/* Linear interpolation; constant before the first and after the last time */
 static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const PetscReal values[], PetscReal time)
 {
   PetscInt i = 0;

@@ -1,4 +1,4 @@
-/* bodies: shape, material and element of each */
+/* bodies: shape, material and element of each body */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -41,7 +41,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscFunctionReturn(0);
 }
 
-/* Gives a rigid body a stiffness, so that its rows of the matrix are as large as those of the others */
+/* Gives a rigid body a stiffness, so that its matrix rows have the size of other rows */
 PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;

@@ -1,6 +1,6 @@
 /*
-   The table of keys: all that a scene file may say, list by list. Reading, the check of single values, showing,
-   freeing, -scene_keys and the tables of share/scenes/README.md follow it. What values must be to one another stands
+   The table of keys: everything that a scene file may contain, list by list. Reading, checks of single values,
+   printing, freeing, -scene_keys and the tables in share/scenes/README.md use it. Conditions between values are checked
    in the other files here, and in validate.c.
 */
 #include "sectionsimpl.h"
@@ -75,7 +75,8 @@ static const SceneKey body_rows[] = {
     "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
-    "strain), `mooney_rivlin`, `orthotropic` (small strain), `rigid`; or a material by name. Its constants follow "
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or a material "
+    "by name. Its constants follow "
     "below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
@@ -240,7 +241,7 @@ static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY
 
 #define OF_SCENE(n, list) .count = offsetof(struct _n_Scene, n), .entries = offsetof(struct _n_Scene, list)
 
-/* As they are shown. Lists that others hold the entries of come after them */
+/* In the order of printing. Lists whose entries are shared come after the owners */
 const SceneList SceneLists[] = {
   {.name = "", .rows = top_rows},
   {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE,
@@ -273,7 +274,7 @@ const SceneList SceneLists[] = {
   {.name = NULL},
 };
 
-/* By its name; NULL: there is none */
+/* Finds a list by its name; NULL: none */
 const SceneList *SceneFindList(const char name[])
 {
   const SceneList *list = SceneLists;

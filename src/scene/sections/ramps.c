@@ -1,7 +1,7 @@
-/* load and ramps: the program of the load itself and of what follows a program of its own */
+/* load and ramps: histories of the load, and of quantities with a ramp of their own */
 #include "sectionsimpl.h"
 
-/* Equal parts of a rise from 0 to 1 */
+/* Sets a linear rise from 0 to 1 */
 static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
 {
   PetscFunctionBegin;
@@ -10,7 +10,7 @@ static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
   PetscFunctionReturn(0);
 }
 
-/* The load itself is ramp 0, and sets the number of steps */
+/* Reads the load, which is ramp 0 and sets the number of steps */
 static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp)
 {
   const char *steps, *factors;
@@ -88,7 +88,7 @@ PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* The same programs in so many steps of equal time. Displacement bounds begin no earlier than they did */
+/* Resamples all ramps at nsteps equal time steps. Displacement bounds start no earlier than before */
 PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
 {
   const PetscReal stretch = (PetscReal)nsteps / (PetscReal)scene->nsteps;
