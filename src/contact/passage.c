@@ -148,7 +148,7 @@ static void PassageWiden(const ContactCandidates facets[2], ContactTree *tree)
   }
 }
 
-/* Of the vertices of one side; places before: x0, now: those of the surface. facets: of the other side. deepest grows */
+/* Places of the vertices of one side are x0 before, those of the surface now. facets: of the other side. deepest grows */
 static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal x0[], const ContactCandidates facets[2],
   PetscReal inside, PetscReal *deepest)
 {
