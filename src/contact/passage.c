@@ -148,7 +148,7 @@ static void PassageWiden(const ContactCandidates facets[2], ContactTree *tree)
   }
 }
 
-/* Places of the vertices of one side are x0 before, those of the surface now. facets: of the other side. deepest grows */
+/* Vertices of one side move from x0 to where the surface is. facets: of the other side. deepest grows */
 static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal x0[], const ContactCandidates facets[2],
   PetscReal inside, PetscReal *deepest)
 {
