@@ -54,6 +54,7 @@ typedef struct {
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
   MaterialHardening hardening; /* j2 */
+  PetscReal         density;   /* mass per undeformed volume; 0: not given. Used in dynamics only */
   PetscReal         own[MATERIAL_OWN];
 } Material;
 

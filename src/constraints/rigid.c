@@ -527,7 +527,7 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
    elastic does, to the centre of proximal.c */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
+  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
   const PetscReal    none  = 1e-6; /* of it: elastic bodies that are tied to the rigid one hold the motion */
   const PetscScalar *d;
   PetscScalar       *held;

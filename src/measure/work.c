@@ -1,17 +1,19 @@
 /* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
 
-/* Adds the mean of a force before and now, NULL: none, each times its way between; what is now will have been before */
-static PetscErrorCode WorkAddForce(Vec way[2], Vec *before, Vec *now, PetscReal *work)
+/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (way of each) to work; `now` becomes
+   `before` then */
+static PetscErrorCode WorkAddForce(Vec way[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
-  Vec         forces[2] = {*before, *now};
-  PetscScalar product;
+  const PetscReal parts[2]  = {1.0 - part, part};
+  Vec             forces[2] = {*before, *now};
+  PetscScalar     product;
 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
     PetscCall(VecDot(forces[k], way[k], &product));
-    *work += 0.5 * PetscRealPart(product);
+    *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
   *before = *now;
@@ -74,13 +76,14 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(ArcsGetWays(&bodies, path->u, u, way));
-  PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
+  PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
-  PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(
+    WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history.shear && !sim->temperatures.n)
+  if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

@@ -18,11 +18,7 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   PetscFunctionReturn(0);
 }
 
-/*
-   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
-   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
-   energy the callbacks assemble the tangent at each iterate.
-*/
+/* Energy, gradient and, if anew, the tangent of the quadratic model at the base */
 static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
   Simulation        sim         = p->sim;
@@ -40,14 +36,20 @@ static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
     PetscCall(VecAXPY(p->force, -1.0, p->load));
   }
   p->energy -= PetscRealPart(work);
+  PetscCall(SchemeAddForce(&sim->dynamics, p->base, &p->energy, p->force));
   PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);
 }
 
+/*
+   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
+   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
+   energy the callbacks assemble the tangent at each iterate.
+*/
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
-  PetscBool linear, anew;
+  PetscBool linear, anew, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
@@ -61,12 +63,13 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(TemperaturesApply(&sim->temperatures, time));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
+  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path.u, &p->force));
   PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || !linear)));
+  PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || changed || !linear)));
   PetscFunctionReturn(0);
 }
 
@@ -79,7 +82,7 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   if (!p->sim->rigid.turns) PetscFunctionReturn(0);
   PetscCall(StepProblemSetBase(p, u, &anew));
   PetscCall(FollowersTurn(p));
-  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, anew));
+  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || SimulationIsDynamic(p->sim))));
   PetscCall(ProximalTurn(p, u));
   PetscFunctionReturn(0);
 }
