@@ -33,4 +33,18 @@ typedef enum {
 } StepModel;
 PETSC_EXTERN const char *const StepModels[];
 
+/* How time is integrated */
+typedef enum {
+  SCHEME_GENERALIZED_ALPHA, /* second order, with dissipation of high frequencies as asked for */
+  SCHEME_IMPACT             /* trapezoidal rule with implicit contact forces */
+} DynamicsScheme;
+PETSC_EXTERN const char *const DynamicsSchemes[];
+
+typedef enum {
+  MASS_REDISTRIBUTED, /* lumped; nodes in contact pairs have none: it goes to the other nodes of their cells */
+  MASS_LUMPED,
+  MASS_CONSISTENT
+} MassType;
+PETSC_EXTERN const char *const MassTypes[];
+
 #endif

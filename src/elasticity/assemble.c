@@ -83,6 +83,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
       (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, rest, K);
     }
+    CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
     PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));

@@ -149,7 +149,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
     PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
-    e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
+    e->bodies[b].rigid = (PetscBool)(materials[b].type == MATERIAL_RIGID);
+    e->bodies[b].type  = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
       "Body %" PetscInt_FMT
@@ -248,6 +249,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
+  PetscCall(PetscFree((*e)->light));
   PetscCall(PetscFree((*e)->firstpoint));
   PetscCall(PetscFree((*e)->history));
   PetscCall(VecDestroy(&(*e)->springs));

@@ -238,6 +238,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
     PetscCall(PetscFree(s->report.steps[i].ramps));
+    PetscCall(PetscFree(s->report.steps[i].motions));
     PetscCall(PetscFree(s->report.steps[i].probes));
     PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
@@ -267,6 +268,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
   PetscCall(TiesDestroy(&s->ties));
+  PetscCall(DynamicsDestroy(&s->dynamics));
   PetscCall(MatDestroy(&s->follows));
   PetscCall(RigidDestroy(&s->rigid));
   PetscCall(VertexPlacesDestroy(&s->places));

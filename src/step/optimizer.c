@@ -49,6 +49,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoSetObjective(*tao, EnergyObjective, p));
     PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, EnergyObjectiveAndGradient, p));
     PetscCall(TaoSetHessian(*tao, p->K, p->K, EnergyHessian, p));
+    if (!SimulationIsDynamic(sim)) PetscCall(TaoMonitorSet(*tao, EnergyTestFlow, p, NULL));
   }
   if (p->J) {
     PetscCall(VecDuplicate(p->g, &c));
@@ -88,7 +89,8 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale, slack, pressure, any));
+  PetscCall(
+    ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale / StepProblemShare(p), slack, pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
   PetscCall(VecDestroy(&pressure));
@@ -104,7 +106,7 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
 {
   Simulation sim = p->sim;
   PetscReal  f = 0.0, scale = 0.0;
-  PetscBool  moved = resume;
+  PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
@@ -171,7 +173,8 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   char *unbounded;
 
   PetscFunctionBegin;
-  if (!p->lower) PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (!p->lower && !SimulationIsDynamic(p->sim))
+    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (p->unheld) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
@@ -179,6 +182,20 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   if (p->friction.T) PetscCall(OptimizerSuspectFriction(report));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *report)
+{
+  char reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "no equilibrium exists at time %g: body \"%s\" flows plastically, for the load is beyond the collapse load; the "
+    "last "
+    "equilibrium is at time %g",
+    (double)p->time, p->flowing, (double)p->sim->path.time));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 
@@ -194,7 +211,8 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
-  if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
+  if (reason < 0 && p->flowing) PetscCall(OptimizerReportFlow(p, report));
+  else if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
@@ -218,6 +236,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP,
     "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
+  PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactHistoryStore(&p->sim->history, lin, sol, slack ? slack : sol->gap,

@@ -17,7 +17,7 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
 
 /* The same; for tetrahedra with 10 nodes, whose corner integrals are negative, distributed in proportion to int
    N_a^2 */
-static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
 
