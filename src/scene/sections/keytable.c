@@ -95,11 +95,11 @@ static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMateria
   {NULL}};
 
 static const SceneKey face_rows[] = {
-  TEXT("of", NULL, SceneSubface, of, REQUIRED, "", "the face of which this is a part, or a part listed before"),
-  OWN("lower", NULL, SceneSubface, lower, OPTIONAL, SceneOwnLower, "L", "no bound",
-    "lower corner of a box: the part consists of the facets with their centroid in the box; `-inf`: no bound"),
-  OWN("upper", NULL, SceneSubface, upper, OPTIONAL, SceneOwnUpper, "L", "no bound",
-    "upper corner of the box; `inf`: no bound"),
+  TEXT("of", NULL, SceneSubface, of, REQUIRED, "", "a face, or a part listed before"),
+  REALS("lower", NULL, 3, SceneSubface, lower, OPTIONAL, UNBOUNDED, "L", "no bound",
+    "lower corner of the box that the facets' centroids are in; `-inf` bounds nothing"),
+  REALS("upper", NULL, 3, SceneSubface, upper, OPTIONAL, UNBOUNDED, "L", "no bound",
+    "upper corner of that box; `inf` bounds nothing"),
   {NULL}};
 
 static const SceneKey displacement_rows[] = {
@@ -162,9 +162,8 @@ static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForc
 static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTemperature, body,
                                               "all bodies with thermal expansion",
                                               "a body whose material has an `expansion`"),
-  OWN("value", NULL, SceneTemperature, value, REQUIRED, SceneOwnTemperature, "temperature", "",
-    "temperature above the stress-free temperature, at load factor 1: a number, or an expression of the "
-    "undeformed coordinates `x`, `y`, `z`"),
+  ONE("value", NULL, EXPRESSION, SceneTemperature, value, REQUIRED, NULL, NULL, "temperature", "",
+    "above that without stress, at factor 1: a number, or an expression of the undeformed place `x`, `y`, `z`"),
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey contact_rows[] = {
