@@ -276,7 +276,7 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *repor
 }
 
 /* Once a run */
-static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
+static PetscErrorCode AttemptWarnDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
 
