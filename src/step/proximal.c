@@ -76,7 +76,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   Mat             K;
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld &&
+  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld && !p->flowing &&
                        !p->sim->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));

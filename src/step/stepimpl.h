@@ -72,6 +72,8 @@ typedef struct {
                                      load step */
   PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
   PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
+  PetscInt             nflows;       /* iterates that show plastic flow */
+  const char          *flowing;      /* the body that it shows in, so that there is no equilibrium; NULL: none */
   Vec                  w, Kw;
 
   StepFriction friction;
@@ -119,6 +121,7 @@ PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *,
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
+PETSC_INTERN PetscErrorCode EnergyTestFlow(Tao, void *); /* a monitor */
 
 /* PETSC_INFINITY is a finite floating point number, so PetscIsInfOrNanReal() does not detect it */
 static inline PetscBool EnergyIsFinite(PetscReal energy)
