@@ -50,6 +50,16 @@ PetscErrorCode ProximalBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
+/* The base has changed; about u */
+PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
+{
+  PetscFunctionBegin;
+  if (!p->centre) PetscFunctionReturn(0);
+  PetscCall(VecCopy(p->base, p->centre));
+  PetscCall(ProximalCentre(p, u));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProximalEnd(StepProblem *p)
 {
   PetscFunctionBegin;
