@@ -19,7 +19,7 @@ programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard a
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo demo-published check stress scene-stress clean help dependencies print-contact-libs FORCE
+.PHONY: all complex demo demo-published check check-all stress scene-stress clean help dependencies print-contact-libs FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -87,6 +87,10 @@ demo-published: dependencies
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
 
+# Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are for
+check-all: dependencies
+	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check LONG=1
+
 # STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which need IPOPT; else parts and
 # options of tests/stress/run.py
 stress: $(or $(filter nlp grid control,$(STRESS)),scene-stress)
@@ -114,8 +118,9 @@ help:
 	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'
 	@echo 'make demo            installs what is missing, builds, solves a problem whose exact answer is known, and compares'
 	@echo 'make demo-published  the same with the two-block problem of the publication'
-	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
+	@echo 'make check           installs what is missing, builds, and tests every feature; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
+	@echo 'make check-all       the same and the long tests: finer meshes, published figures, more numbers of ranks'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
 	@echo '                       STRESS=nlp: 490 nonlinear programs, and 500 drawn at random, beside IPOPT, 15 minutes, in tests/stress/nlp.md, nlp_random.md'
 	@echo '                       STRESS=grid: obstacle problems to 1000 x 1000 unknowns beside TRON and IPOPT, an hour, in tests/stress/grid.md'

@@ -60,6 +60,11 @@ PETSC_EXTERN PetscErrorCode ElasticitySetTemperature(Elasticity, const PetscReal
 /* Lumped mass: integral of each node's shape function; if one is negative, the scaled integral of its square. One
    value for each of the 3 components [length^3] */
 PETSC_EXTERN PetscErrorCode ElasticityLumpedMass(Elasticity, Vec *);
+/* Mass of the bodies in dynamics: what it is made of, its matrix, and its part of tangents to come */
+PETSC_EXTERN PetscErrorCode ElasticitySetMass(Elasticity, const PetscReal density[], PetscBool consistent, Vec light);
+PETSC_EXTERN PetscErrorCode ElasticityCreateMass(Elasticity, Mat *);
+PETSC_EXTERN PetscErrorCode ElasticitySetInertia(Elasticity, PetscReal inertia, PetscReal viscosity,
+  PetscBool *changed);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values per local cell [force/length^2] */
 /* For each body with a small-strain law: largest principal strain, and rotation */
 PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][2]);

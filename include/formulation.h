@@ -15,9 +15,7 @@
   ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* no locking in bending or near nu = 1/2; small strain */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
-typedef enum {
-  ELEMENT_TYPES(ELEMENT_TYPE)
-} ElementType;
+typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) } ElementType;
 #undef ELEMENT_TYPE
 PETSC_EXTERN const char *const ElementTypes[];
 
@@ -34,5 +32,19 @@ typedef enum {
   MODEL_QUADRATIC /* its quadratic model about the last state; the tangent is assembled once per load step */
 } StepModel;
 PETSC_EXTERN const char *const StepModels[];
+
+/* How time is integrated */
+typedef enum {
+  SCHEME_GENERALIZED_ALPHA, /* second order, with dissipation of high frequencies as asked for */
+  SCHEME_IMPACT             /* trapezoidal rule with implicit contact forces */
+} DynamicsScheme;
+PETSC_EXTERN const char *const DynamicsSchemes[];
+
+typedef enum {
+  MASS_REDISTRIBUTED, /* lumped; nodes in contact pairs have none: it goes to the other nodes of their cells */
+  MASS_LUMPED,
+  MASS_CONSISTENT
+} MassType;
+PETSC_EXTERN const char *const MassTypes[];
 
 #endif

@@ -15,9 +15,7 @@
   LAW(RIGID, Rigid, "rigid")                        /* no strain: every displacement of the body is prescribed */
 
 #define MATERIAL_TYPE(name, law, text) MATERIAL_##name,
-typedef enum {
-  MATERIAL_LAWS(MATERIAL_TYPE)
-} MaterialType;
+typedef enum { MATERIAL_LAWS(MATERIAL_TYPE) } MaterialType;
 #undef MATERIAL_TYPE
 PETSC_EXTERN const char *const MaterialTypes[];
 
@@ -56,6 +54,7 @@ typedef struct {
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
   MaterialHardening hardening; /* j2 */
+  PetscReal         density;   /* mass per undeformed volume; 0: not given. Used in dynamics only */
   PetscReal         own[MATERIAL_OWN];
 } Material;
 

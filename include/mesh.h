@@ -1,11 +1,10 @@
 /*
    Meshes: one DMPlex of hexahedra and tetrahedra for all bodies (disjoint components), distributed and refined.
 
-   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement
-   components per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its
-   vertices, those of a body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the
-   reference geometry.
+   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its facets
+   and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components
+   per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a
+   body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
 #define MESH_H

@@ -17,9 +17,7 @@
   SHAPE(BALL, Ball, "ball")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
-typedef enum {
-  BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH
-} BodyShape;
+typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 #undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
 
@@ -101,13 +99,24 @@ typedef struct {
   PetscReal        own[BODY_OWN]; /* parameters of shapes without a named member here */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
+  PetscReal        velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
 } SceneBody;
 
-/* A load history (ramp): the factor at the end of each load step, linear in between, 0 at the start */
+/* A load history (ramp): the factor at the end of each load step, linear in between */
 typedef struct {
   char      *name;
+  PetscReal  start;  /* factor before the first load step: 0 but in dynamics */
   PetscReal *factor; /* nsteps values */
 } SceneRamp;
+
+/* Inertia: a load step is a time step */
+typedef struct {
+  PetscReal      time_step, end_time; /* [time]; time_step 0: a static analysis */
+  DynamicsScheme scheme;
+  MassType       mass;
+  PetscReal      spectral_radius; /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
+  PetscReal      damping_mass;    /* forces by mass times velocity [1/time] */
+} SceneDynamics;
 
 typedef enum {
   DISPLACEMENT_FACE, /* a face, or a whole rigid body */
@@ -263,6 +272,7 @@ typedef struct _n_Scene {
   SceneRefinement  *refinements;
   PetscInt          nprobes;
   SceneProbe       *probes;
+  SceneDynamics     dynamics;
   PetscInt          nsteps; /* load steps, at least 1 */
   PetscInt          nramps; /* at least 1: ramp 0 is the load, for everything that names no ramp */
   SceneRamp        *ramps;
@@ -276,7 +286,19 @@ typedef struct _n_Scene {
   SceneOption *options;
 } * Scene;
 
-/* Factor of a ramp at a time: load step k ends at time k, from 1 */
+/* Whether bodies have inertia */
+static inline PetscBool SceneIsDynamic(Scene scene)
+{
+  return (PetscBool)(scene->dynamics.time_step > 0.0);
+}
+
+/* Load step k ends at k times this */
+static inline PetscReal SceneTimeStep(Scene scene)
+{
+  return SceneIsDynamic(scene) ? scene->dynamics.time_step : 1.0;
+}
+
+/* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
 /* The material of the body that a face belongs to */
 PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);

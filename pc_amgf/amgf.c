@@ -54,8 +54,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -pc_amgf_filter_ranks <0>        - how many ranks the direct solver has, unless its type is given; 0: one for every
                                       10,000 rows
 .  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options
-                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says
-                                      that it is the cheaper
+                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says that it is the cheaper
 -  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
 
    Level: intermediate

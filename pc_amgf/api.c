@@ -328,9 +328,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns
-             of it on the standard error stream;
-             `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
+             it on the standard error stream; `PETSC_TRUE`: it does not
 
   Level: intermediate
 
@@ -368,12 +367,10 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
-  reduction
-  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry
-  of the operator outside the subspace has
-  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns
-  the preconditioner, compared with its first solve after the AMG was
-  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
+  reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a
+  diagonal entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has
+  failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the
+  AMG was built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
   changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`

@@ -319,11 +319,10 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory;
-  the AMG by the entries of the operator. Call it before the
-  first `PCSetUp()`, and again when more is known: a change from the AMG to the factorization comes with the next
-  `PCSetUp()`. There is no way back while the
-  pattern of the operator stays. Operators of more than 500,000 unknowns keep the AMG.
+  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the
+  AMG by the entries of the operator. Call it before the first `PCSetUp()`, and again when more is known: a change from
+  the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the pattern of the operator
+  stays. Operators of more than 500,000 unknowns keep the AMG.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/

@@ -5,8 +5,7 @@
   BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
 
   Input Parameters:
-+ layout - of the level's unknowns
-. ghosts - unknowns of other ranks
++ layout - of the level's unknowns . ghosts - unknowns of other ranks
 - level  - with the places of its unknowns
 */
 PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],

@@ -40,9 +40,8 @@ static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int 
 }
 
 /*
-  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown
-  without a
-  place, and the best of its neighbours
+  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown without
+  a place, and the best of its neighbours
 */
 PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
 {

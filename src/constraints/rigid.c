@@ -287,7 +287,7 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
    entries */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = 1e-3; /* relative to the stiffness of an elastic body of this size */
+  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;

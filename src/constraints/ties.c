@@ -243,8 +243,9 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
   PetscFunctionReturn(0);
 }
 
-/* tied = C^T K C, with all diagonal entries allocated: those of dependent rows are not in the product */
-static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
+/* tied = C^T K C, with all diagonal entries allocated: those of dependent rows are not in the product. inert: rigid
+   bodies have entries in K */
+static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagonal, Mat *tied)
 {
   PetscBool aij;
   Mat       places, K = ties->K;
@@ -252,7 +253,7 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
-  PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  PetscCall(MatPtAP(K, ties->elastic && !inert ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
   if (!aij) PetscCall(MatDestroy(&K));
   PetscCall(TiesCreateDiagonal(diagonal, 0.0, &places));
   PetscCall(MatAXPY(*tied, 1.0, places, DIFFERENT_NONZERO_PATTERN));
@@ -278,7 +279,7 @@ PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
   if (*c->follows) PetscCall(MatAXPY(ties->K, -1.0, *c->follows, SAME_NONZERO_PATTERN));
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
-  PetscCall(TiesMultiply(ties, diagonal, &tied));
+  PetscCall(TiesMultiply(ties, SceneIsDynamic(c->bodies.scene), diagonal, &tied));
   PetscCall(CouplingsAddStiffness(c->springs, ties->C, tied));
   if (c->rigid->R) PetscCall(RigidAddStiffness(c, ties->C, diagonal, tied));
   PetscCall(TiesClearRows(c, diagonal, tied));

@@ -111,8 +111,7 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
 
   Notes:
   A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error,
-  and so
-  is a negative search distance.
+  and so is a negative search distance.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -233,8 +232,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 
   Note:
   Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth
-  surface goes on as in a
-  mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+  surface goes on as in a mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
 
 .seealso: `ContactCreate()`, `ContactLinearize()`
 @*/

@@ -160,10 +160,9 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth
-  and what widens
-  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do
-  not.
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
+  what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
+  they do not.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/

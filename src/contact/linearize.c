@@ -56,48 +56,34 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   Notes:
   The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A over the part of the nonmortar face that a mortar
   face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
-  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face.
-  It is
-  positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
-  fixed.
-  With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
-  slide, but
-  facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
+  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It
+  is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
+  fixed. With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
+  slide, but facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
 
-  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets
-  that face
-  it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and m_A
-  is the
-  same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet, has no
-  row.
+  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that
+  face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and
+  m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
+  has no row.
 
-  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that
-  follow what the faces bend; the vertices of
-  others move with the mean displacement of the faces about them. J spreads forces so that a uniform pressure is the
-  same load as on the quadratic
-  face.
+  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that follow
+  what the faces bend; the vertices of others move with the mean displacement of the faces about them. J spreads forces
+  so that a uniform pressure is the same load as on the quadratic face.
 
   Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on
-  planes,
-  and on curved faces with -contact_normals facet.
+  planes, and on curved faces with -contact_normals facet.
 
   Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand
-  for: patches
-  through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as in a mirror
-  where a face ends on a
-  plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then measured along the normal of each
-  nonmortar facet, that of a
-  vertex along the normal of the mortar surface. lin->derivative is the gap's derivative to rounding, the normals'
-  turning with u included;
-  it reaches two facets far. J is the derivative with patches that keep their shape and turn with their facets, of the
-  mean gap of a row times
-  the area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and
-  they balance on both
-  bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
+  for: patches through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as
+  in a mirror where a face ends on a plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then
+  measured along the normal of each nonmortar facet, that of a vertex along the normal of the mortar surface.
+  lin->derivative is the gap's derivative to rounding, the normals' turning with u included; it reaches two facets far.
+  J is the derivative with patches that keep their shape and turn with their facets, of the mean gap of a row times the
+  area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and they
+  balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite
-  is an
-  error.
+  is an error.
 
   References:
 . * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,

@@ -83,6 +83,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
       (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, rest, K);
     }
+    CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
     PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
@@ -110,12 +111,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies
-  with a constant
-  tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's tangent
-  is constant,
-  nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without
-  `MatZeroRows()` (sbaij).
+  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with
+  a constant tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's
+  tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
+  type without `MatZeroRows()` (sbaij).
 
   A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
 

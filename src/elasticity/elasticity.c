@@ -111,10 +111,8 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 . nbodies   - number of bodies
 . materials - materials[b] belongs to the cells whose "body" label is b
 - elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as
-              Poisson's ratio
-              nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain;
-              `NULL` for
-              full integration everywhere
+              Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of
+              small strain; `NULL` for full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
@@ -151,7 +149,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
     PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
-    e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
+    e->bodies[b].rigid = (PetscBool)(materials[b].type == MATERIAL_RIGID);
+    e->bodies[b].type  = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
       "Body %" PetscInt_FMT
@@ -183,8 +182,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
 
   Notes:
   The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
-  tangent is
-  assembled completely.
+  tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/
@@ -251,6 +249,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
+  PetscCall(PetscFree((*e)->light));
   PetscCall(PetscFree((*e)->firstpoint));
   PetscCall(PetscFree((*e)->history));
   PetscCall(VecDestroy(&(*e)->springs));

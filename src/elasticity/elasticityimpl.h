@@ -15,6 +15,9 @@ PETSC_INTERN PetscErrorCode ElasticitySetUpHistory(Elasticity);
 /* preallocate.c: allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
 
+/* mass.c: what a cell adds to the tangent in dynamics */
+PETSC_INTERN void CellAddInertia(Elasticity, const CellState *, PetscScalar K[]);
+
 /* tangent.c, assemble.c: only public functions */
 
 #endif

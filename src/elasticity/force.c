@@ -17,8 +17,7 @@
 
   Notes:
   The energy is `PETSC_INFINITY` on every rank where a point of a cell at which a finite strain law is evaluated is
-  turned inside
-  out (det F <= 0), so a line search that asks for a decrease steps back.
+  turned inside out (det F <= 0), so a line search that asks for a decrease steps back.
 
 .seealso: `ElasticityForce()`, `ElasticityTangent()`
 @*/
@@ -64,8 +63,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Notes:
   Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
-  `PETSC_INFINITY`
-  or more, and so the norm of the vector is infinite on every rank.
+  `PETSC_INFINITY` or more, and so the norm of the vector is infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/

@@ -136,8 +136,7 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 
   Notes:
   The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
-  much memory as six solutions, and PCHYPRE copies
-  them whether or not it makes use of them.
+  much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

@@ -317,6 +317,7 @@ static const MaterialConstant constants[] = {
   J2_NUMBER("saturation_rate", rate, NULL),
   {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, NULL, 0, 0},
   {"yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0},
+  MATERIAL_DENSITY,
   {NULL},
 };
 

@@ -20,6 +20,10 @@ MATERIAL_LAWS(MATERIAL_LAW)
   { \
     "poisson", 1, offsetof(Material, poisson), PETSC_TRUE, "Poisson's ratio", "nu", -1, 0.5 \
   }
+#define MATERIAL_DENSITY \
+  { \
+    "density", 1, offsetof(Material, density), PETSC_FALSE, NULL, "rho", 0, 0 \
+  }
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
 

@@ -164,6 +164,7 @@ static const MaterialConstant constants[] = {
   {"first_axis", 3, offsetof(Material, axes[0]), PETSC_FALSE, NULL, NULL, 0, 0},
   {"second_axis", 3, offsetof(Material, axes[1]), PETSC_FALSE, NULL, NULL, 0, 0},
   {"expansion", 3, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0},
+  MATERIAL_DENSITY,
   {NULL},
 };
 

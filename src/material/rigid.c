@@ -43,7 +43,7 @@ static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], Pe
   (void)pressure, (void)H, (void)A;
 }
 
-static const MaterialConstant none[] = {{NULL}};
+static const MaterialConstant constants[] = {MATERIAL_DENSITY, {NULL}};
 
 const MaterialLaw MaterialLawRigid = {
   .constant   = PETSC_TRUE,
@@ -54,6 +54,6 @@ const MaterialLaw MaterialLawRigid = {
   .cauchy     = MaterialCauchy_Rigid,
   .dilatation = MaterialDilatation_Rigid,
   .curvature  = MaterialCurvature_Rigid,
-  .constants  = none,
+  .constants  = constants,
   .moduli     = MaterialModuliIsotropic,
 };

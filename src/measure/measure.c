@@ -109,6 +109,17 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* Contact forces that a time step has beside those of its end */
+static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
+{
+  const PetscReal more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPY(force, -more, contact));
+  PetscCall(VecAXPY(inertia, more, contact));
+  PetscFunctionReturn(0);
+}
+
 /* The plastic work, which is then no part of the energy, and the largest plastic strains */
 static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 {
@@ -130,13 +141,13 @@ static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 /*
    Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
    residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
-   error
+   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis
 */
-PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
   StepReport *report)
 {
   const Constraints constraints = SimulationConstraints(sim);
-  Vec               force, ties, rigid, contact = NULL, weighted = NULL;
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL, dead = load;
   PetscReal         size, residual, rounding;
   PetscBool         moves; /* the bodies only move as a whole, without stress */
 
@@ -150,7 +161,9 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
   moves = (PetscBool)(size <= rounding);
-  if (load) PetscCall(VecAXPY(force, -1.0, load));
+  if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
+  if (inertia) dead = inertia; /* with it */
+  if (dead) PetscCall(VecAXPY(force, -1.0, dead));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
@@ -162,13 +175,15 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
     PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
-    if (!sim->history.shear) PetscCall(VecDestroy(&contact));
+    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
+    if (!sim->history.shear && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
+  if (inertia) PetscCall(MotionMeasure(sim, u, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, load, ties, rounding, report));
+  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));

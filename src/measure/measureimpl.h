@@ -72,8 +72,11 @@ PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
 
 /* measure.c */
-PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, Vec u, const ContactSolution *,
-  StepReport *);
+PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, Vec inertia, Vec u,
+  const ContactSolution *, StepReport *);
+
+/* motion.c */
+PETSC_INTERN PetscErrorCode MotionMeasure(Simulation, Vec u, StepReport *);
 
 /* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);

@@ -162,9 +162,7 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 /* Sends each point's values from its rank to all */
 static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
 {
-  enum {
-    values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal)
-  };
+  enum { values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal) };
   PetscReal *all;
 
   PetscFunctionBegin;

@@ -1,18 +1,19 @@
 /* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
 
-/* Adds (mean of the force before and now; NULL: zero) . (displacement increment) to work; `now` then becomes
-   `before` */
-static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
+/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (displacement increment) to work; `now` becomes
+   `before` then */
+static PetscErrorCode WorkAddForce(Vec way, PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
-  Vec         forces[2] = {*before, *now};
-  PetscScalar product;
+  const PetscReal parts[2]  = {1.0 - part, part};
+  Vec             forces[2] = {*before, *now};
+  PetscScalar     product;
 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
     PetscCall(VecDot(forces[k], way, &product));
-    *work += 0.5 * PetscRealPart(product);
+    *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
   *before = *now;
@@ -75,13 +76,14 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(VecWAXPY(way, -1.0, path->u, u));
-  PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
+  PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
-  PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(
+    WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
   PetscCall(VecDestroy(&way));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history.shear && !sim->temperatures.n)
+  if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

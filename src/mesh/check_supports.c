@@ -617,6 +617,6 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
   }
-  PetscCall(SupportFindUnheld(dm, scene, NULL));
+  if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnheld(dm, scene, NULL));
   PetscFunctionReturn(0);
 }

@@ -199,18 +199,13 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 
   Notes:
   The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on
-  rank 0,
-  or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh files
-  before any rank makes a `DMPLEX` of them; refinement
-  is parallel. Refined
-  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body
-  from a Gmsh file
-  of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its
-  vertices.
+  rank 0, or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh
+  files before any rank makes a `DMPLEX` of them; refinement is parallel. Refined vertices of a curved body lie on its
+  true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file of second order follow
+  its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
   Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order
-  open, 0, has order 1 of
-  hexahedra and order 2 of tetrahedra.
+  open, 0, has order 1 of hexahedra and order 2 of tetrahedra.
 
   It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is
   inverted or flat.
@@ -244,11 +239,9 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
 
   Notes:
   Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the
-  mesh is distributed; neighbours of
-  finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer
-  cells
-  are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is
-  curved.
+  mesh is distributed; neighbours of finer cells are refined with them until they differ by one refinement. Vertices
+  that hang between coarser and finer cells are nodes as others are: `MeshGetHanging()` tells whose mean they are, and
+  they lie there, also where the body is curved.
 
 .seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
 @*/

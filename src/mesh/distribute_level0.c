@@ -14,13 +14,7 @@ typedef struct {
   PetscReal *reals;
 } DistributePart;
 
-enum {
-  DEAL_CELLS,
-  DEAL_VERTICES,
-  DEAL_FACETS,
-  DEAL_CURVE,
-  DEAL_SIZES
-};
+enum { DEAL_CELLS, DEAL_VERTICES, DEAL_FACETS, DEAL_CURVE, DEAL_SIZES };
 
 /* Data of the distribution on the first rank. Cells and vertices are numbered through all bodies */
 typedef struct {

@@ -209,9 +209,8 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
 
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them:
-   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress,
-   the three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with
-   gauss_stress.
+   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the
+   three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with gauss_stress.
 
    The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
    The points of each line of the scene's probes are added to <basename>_<line>.csv.

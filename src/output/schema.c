@@ -111,6 +111,18 @@ static const ReportField body_fields[] = {
 };
 static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_fields};
 
+static const ReportField motion_fields[] = {
+  FIELD(MotionReport, name, FIELD_TEXT, ""),
+  FIELD(MotionReport, kinetic_energy, FIELD_REAL, "force length"),
+  FIELD(MotionReport, total_energy, FIELD_REAL, "force length"),
+  FIELD(MotionReport, damping_work, FIELD_REAL, "force length"),
+  FIELD(MotionReport, numerical_dissipation, FIELD_REAL, "force length"),
+  FIELD(MotionReport, momentum, FIELD_VECTOR, "force time"),
+  FIELD(MotionReport, angular_momentum, FIELD_VECTOR, "force length time"),
+  END,
+};
+static const ReportRecord SchemaMotions = {sizeof(MotionReport), PETSC_TRUE, motion_fields};
+
 static const ReportField step_fields[] = {
   FIELD(StepReport, step, FIELD_INT, "", .columns = {COLUMN(TABLE_EVERY, "step", "", 5)}),
   FIELD(StepReport, time, FIELD_REAL, ""),
@@ -182,6 +194,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
+  FIELD(StepReport, motions, FIELD_LIST, "", .count = offsetof(StepReport, nmotions), .record = &SchemaMotions),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
   FIELD(StepReport, weak_spring_force, FIELD_REAL, "force"),
   FIELD(StepReport, probes, FIELD_LIST, "", .count = offsetof(StepReport, nprobes), .record = &SchemaProbes),

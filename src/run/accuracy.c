@@ -21,12 +21,7 @@
          than a Newton step */
 
 /* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
-typedef enum {
-  ACCURACY_ENERGY,
-  ACCURACY_FORCE,
-  ACCURACY_PRESSURE,
-  ACCURACY_DISPLACEMENT
-} AccuracyTarget;
+typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C

@@ -140,11 +140,9 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
                                 linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
-                                TAOIPFILTER: the
-                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc
-                                solvers have
-                                the prefix penalty_. The faces penetrate by about pressure times the bodies'
-                                flexibility over this
+                                TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row.
+                                Its PETSc solvers have the prefix penalty_. The faces penetrate by about pressure times
+                                the bodies' flexibility over this
 
    Level: beginner
 
@@ -240,6 +238,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
     PetscCall(PetscFree(s->report.steps[i].ramps));
+    PetscCall(PetscFree(s->report.steps[i].motions));
     PetscCall(PetscFree(s->report.steps[i].probes));
     PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
@@ -269,6 +268,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
   PetscCall(TiesDestroy(&s->ties));
+  PetscCall(DynamicsDestroy(&s->dynamics));
   PetscCall(MatDestroy(&s->follows));
   PetscCall(RigidDestroy(&s->rigid));
   PetscCall(VertexPlacesDestroy(&s->places));

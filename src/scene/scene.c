@@ -108,6 +108,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(PetscNew(&s));
   keys->top          = SceneLists[0].rows;
   s->contact_updates = SCENE_CONTACT_UPDATES;
+  PetscCall(SceneReadDynamics(keys, s, SceneFindList("dynamics")));
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));

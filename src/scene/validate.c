@@ -86,6 +86,9 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
     SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY,
       "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file,
       pressure->name);
+    SceneRequire(!pressure->follows || !SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_IMPACT,
+      "%s: pressure \"%s\" follows its face, which goes with scheme generalized_alpha of dynamics, and not with impact",
+      file, pressure->name);
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     if (!SceneIsWholeBody(scene->tractions[t].face))

@@ -24,16 +24,21 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
   PetscFunctionReturn(0);
 }
 
-/* u: the path extrapolated to a time, with the prescribed displacements of that time */
+/* u: the path extrapolated to a time, in dynamics with its accelerations, with the prescribed displacements of that
+   time */
 PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 {
   PetscReal ratio = 0.0;
 
   PetscFunctionBegin;
-  PetscCall(PathRatio(sim, time, &ratio));
-  PetscCall(VecCopy(sim->path.u, u));
-  PetscCall(VecAXPY(u, ratio, sim->path.u));
-  PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
+  if (SimulationIsDynamic(sim)) {
+    PetscCall(SchemePredict(&sim->dynamics, (time - sim->path.time) * SceneTimeStep(sim->scene), sim->path.u, u));
+  } else {
+    PetscCall(PathRatio(sim, time, &ratio));
+    PetscCall(VecCopy(sim->path.u, u));
+    PetscCall(VecAXPY(u, ratio, sim->path.u));
+    PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
+  }
   PetscCall(PrescribedApply(&sim->prescribed, time, u));
   PetscCall(TiesFollow(&sim->ties, u));
   PetscFunctionReturn(0);
@@ -47,7 +52,7 @@ PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scal
 
   PetscFunctionBegin;
   *scale = 1.0;
-  if (sim->scene->nramps > 1) PetscFunctionReturn(0);
+  if (sim->scene->nramps > 1 || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
   PetscCall(SceneGetFactor(sim->scene, 0, sim->path.time, &now));
   PetscCall(SceneGetFactor(sim->scene, 0, time, &next));
   if (now != 0.0 && next / now > 0.0) *scale = next / now;

@@ -5,7 +5,7 @@
 #define STATEIMPL_H
 
 #include <step.h>
-#include "src/constraints/constraintsimpl.h"
+#include "src/dynamics/dynamicsimpl.h"
 
 /* solution.c: the solution at the contact rows of one solve */
 typedef struct {
@@ -126,6 +126,7 @@ struct _n_Simulation {
   Springs      springs;
   RigidBodies  rigid;
   Ties         ties;
+  Dynamics     dynamics;
   Mat          follows; /* derivative of the follower loads (followers.c); NULL until needed [force/length] */
   VertexPlaces places;
   PetscBool    quadratic; /* load steps are quadratic programs: every body is linear, or the scene asks for it */
@@ -176,6 +177,16 @@ static inline Constraints SimulationConstraints(Simulation sim)
 {
   return (Constraints){SimulationBodies(sim), &sim->prescribed, &sim->springs, &sim->rigid, &sim->ties, &sim->follows};
 }
+
+static inline PetscBool SimulationIsDynamic(Simulation sim)
+{
+  return (PetscBool)(sim->dynamics.mass != NULL);
+}
+
+/* inertia.c: of a load step that ends at this time */
+PETSC_INTERN PetscErrorCode InertiaBegin(Simulation, PetscReal time, PetscBool *changed);
+PETSC_INTERN PetscErrorCode InertiaGetForce(Simulation, Vec u, Vec *force);
+PETSC_INTERN PetscErrorCode InertiaAdvance(Simulation, PetscReal time, Vec u);
 
 /* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);

@@ -460,7 +460,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   ContactSolution      sol  = {.gap = NULL};
   ContactLinearization good = sim->linearization, at_u = NULL;
   PetscBool            foreseen;
-  Vec                  u;
+  Vec                  u, inertia;
 
   PetscFunctionBegin;
   if (sim->contact && !sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
@@ -480,8 +480,11 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {
+    PetscCall(InertiaGetForce(sim, u, &inertia));
     PetscCall(ElasticityCommit(sim->elasticity, u));
-    PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
+    PetscCall(InertiaAdvance(sim, time, u));
+    PetscCall(MeasureState(p.sim, p.time, p.load, inertia, u, &sol, report));
+    PetscCall(VecDestroy(&inertia));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));

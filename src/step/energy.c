@@ -30,6 +30,7 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
   if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
+  if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->sim->dynamics, u, f, NULL));
   if (EnergyIsFinite(*f)) PetscCall(FollowersSubtract(p, u, f, NULL));
   *f = EnergyIsFinite(*f) ? *f - PetscRealPart(work) : INFINITY;
   PetscFunctionReturn(0);
@@ -53,6 +54,7 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, G));
+  PetscCall(SchemeAddForce(&p->sim->dynamics, u, &energy, G));
   PetscCall(TiesGather(&p->sim->ties, G));
   PetscCall(ProximalAdd(p, u, &energy, G));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, G));

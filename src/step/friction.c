@@ -13,8 +13,8 @@
    bound of a vertex at zero pressure would be undetermined. */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
-  const PetscReal    sticks = 1e3;
-  Scene              scene  = p->sim->scene;
+  const PetscReal    sticks = 1e3, share = StepProblemShare(p);
+  Scene              scene = p->sim->scene;
   const PetscScalar *mass;
   PetscScalar       *limit, *coefficient;
 
@@ -27,7 +27,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     PetscReal               mu   = 0.0;
 
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
-    limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
+    limit[r] = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) / share : PETSC_INFINITY;
     coefficient[r] = mu >= PETSC_INFINITY && limit[r] >= PETSC_INFINITY ? sticks : mu;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
@@ -91,7 +91,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
     for (PetscInt a = 0; a < 2; ++a) {
       const PetscReal *t = &lin->tangent[6 * r + 3 * a];
 
-      f[2 * r + a] = scale * (t[0] * kept[0] + t[1] * kept[1] + t[2] * kept[2]);
+      f[2 * r + a] = scale / StepProblemShare(p) * (t[0] * kept[0] + t[1] * kept[1] + t[2] * kept[2]);
     }
   }
   PetscCall(VecRestoreArrayWrite(force, &f));
@@ -113,15 +113,15 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(TaoIPFilterGetNormTermForces(tao, &force));
   PetscCall(VecDuplicate(force, &sol->shear));
   PetscCall(VecDuplicate(force, &sol->slip));
-  PetscCall(VecCopy(force, sol->shear));
+  PetscCall(VecAXPBY(sol->shear, StepProblemShare(p), 0.0, force));
   PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
-  PetscCall(VecGetArrayRead(force, &f));
+  PetscCall(VecGetArrayRead(sol->shear, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     for (PetscInt c = 0; c < 3; ++c)
       m->shear[3 * ContactHistoryIndex(m, lin, r) + c] =
         PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
   }
-  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCall(VecRestoreArrayRead(sol->shear, &f));
   PetscFunctionReturn(0);
 }

@@ -122,6 +122,10 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   PetscCall(LinearGetKSP(p->sim, &ksp));
   PetscCall(ReportGetCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
+  if (SimulationIsDynamic(p->sim) && !resume) {
+    PetscCall(PathContinue(p->sim, p->time, u));
+    resume = PETSC_TRUE;
+  }
   if (resume) PetscCall(VecWAXPY(p->w, -1.0, u, p->base));
   PetscCall(LinearSolvePatiently(p->sim, ksp, resume, p->force, p->w, &its));
   PetscCall(PetscTime(&t1));

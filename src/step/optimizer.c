@@ -88,7 +88,8 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale, slack, pressure, any));
+  PetscCall(
+    ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale / StepProblemShare(p), slack, pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
   PetscCall(VecDestroy(&pressure));
@@ -104,7 +105,7 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
 {
   Simulation sim = p->sim;
   PetscReal  f = 0.0, scale = 0.0;
-  PetscBool  moved = resume;
+  PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
@@ -171,7 +172,8 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   char *unbounded;
 
   PetscFunctionBegin;
-  if (!p->lower) PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (!p->lower && !SimulationIsDynamic(p->sim))
+    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (p->unheld) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
@@ -218,6 +220,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP,
     "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
+  PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactHistoryStore(&p->sim->history, lin, sol, slack ? slack : sol->gap,

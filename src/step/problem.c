@@ -10,7 +10,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
   const Constraints constraints = SimulationConstraints(sim);
   PetscScalar       work        = 0.0;
-  PetscBool         linear;
+  PetscBool         linear, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
@@ -28,13 +28,14 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(TemperaturesApply(&sim->temperatures, time));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
+  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path.u, &p->force));
   PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (!linear || changed) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -43,6 +44,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
     PetscCall(VecAXPY(p->force, -1.0, p->load));
   }
   p->energy -= PetscRealPart(work);
+  PetscCall(SchemeAddForce(&sim->dynamics, p->base, &p->energy, p->force));
   PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);

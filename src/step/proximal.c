@@ -42,7 +42,7 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 PetscErrorCode ProximalBegin(StepProblem *p)
 {
   PetscFunctionBegin;
-  if (!p->sim->rigid.n) PetscFunctionReturn(0);
+  if (!p->sim->rigid.n || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
   PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
   p->held = p->sim->rigid.held;
   PetscCall(VecDuplicate(p->base, &p->centre));
@@ -77,7 +77,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
   PetscFunctionBegin;
   *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld &&
-                       !p->sim->interrupted && EnergyIsFinite(p->energy));
+                       !p->sim->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));

@@ -10,7 +10,7 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
 
   PetscFunctionBegin;
   report->step    = step + 1;
-  report->time    = (PetscReal)(step + 1);
+  report->time    = (PetscReal)(step + 1) * SceneTimeStep(scene);
   report->gap_min = report->gap_true = report->error_estimate = report->imbalance = NAN;
 
   report->load   = scene->ramps[0].factor[step];

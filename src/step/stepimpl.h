@@ -77,6 +77,12 @@ typedef struct {
   StepFriction friction;
 } StepProblem;
 
+/* Of the multipliers that are contact forces */
+static inline PetscReal StepProblemShare(const StepProblem *p)
+{
+  return SchemeShare(&p->sim->scene->dynamics);
+}
+
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);

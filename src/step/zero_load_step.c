@@ -14,6 +14,8 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   Vec       u;
 
   PetscFunctionBegin;
+  *due = PETSC_FALSE;
+  if (SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
   if (p->load) PetscCall(VecNorm(p->load, NORM_INFINITY, &load));
   PetscCall(TemperaturesGetLargest(&p->sim->temperatures, &temperature));
   PetscCall(VecNorm(p->sim->path.u, NORM_INFINITY, &before));

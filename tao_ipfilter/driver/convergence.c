@@ -162,10 +162,8 @@ PetscBool IPConstraintsMet(Tao tao)
 
   Notes:
   Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-  constraints within
-  the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing better can be
-  expected. A test of the
-  caller's may call it.
+  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
+  better can be expected. A test of the caller's may call it.
 
   Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
   `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.

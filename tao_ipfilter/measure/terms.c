@@ -341,21 +341,18 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   Level: intermediate
 
   Notes:
-  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()`
-  gives it; `PETSC_INFINITY` is no limit,
-  as a coefficient one with any force of the constraint whatever. With coefficients there are as many terms as
-  constraints.
+  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives
+  it; `PETSC_INFINITY` is no limit, as a coefficient one with any force of the constraint whatever. With coefficients
+  there are as many terms as constraints.
 
   With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law,
-  which is none: the solution x, y, tau has
-  grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For
-  large coefficients there may be none, or several.
+  which is none: the solution x, y, tau has grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where
+  v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
 
-  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace
-  method, whose reduced problem, of the size of what T and the constraints touch,
-  holds all that is not smooth; where the objective is not quadratic by Newton's method on it. Residuals of the laws
-  are part of the KKT error: the largest length by which a projection to |tau_i| <= b_i is missed, over the resistance
-  of what T_i moves.
+  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method,
+  whose reduced problem, of the size of what T and the constraints touch, holds all that is not smooth; where the
+  objective is not quadratic by Newton's method on it. Residuals of the laws are part of the KKT error: the largest
+  length by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 

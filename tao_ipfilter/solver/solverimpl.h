@@ -16,12 +16,7 @@
 typedef struct _n_TAO_IPFILTER TAO_IPFILTER;
 
 /* Layouts of work vectors: unknowns, inequality and equality constraints */
-typedef enum {
-  IP_UNKNOWNS,
-  IP_INEQUALITIES,
-  IP_EQUALITIES,
-  IP_NSPACES
-} IPSpace;
+typedef enum { IP_UNKNOWNS, IP_INEQUALITIES, IP_EQUALITIES, IP_NSPACES } IPSpace;
 
 /* quasinewton.c: the limited-memory approximation B of the Hessian */
 typedef struct {
@@ -350,39 +345,14 @@ typedef struct {
   PetscBool          multipliers; /* the present multipliers were computed by the method */
 } IPMethod;
 
-typedef enum {
-  IP_START_COLD,
-  IP_START_PREDICT,
-  IP_START_WARM
-} IPStart;
-typedef enum {
-  IP_BARRIER_MONOTONE,
-  IP_BARRIER_MEHROTRA
-} IPBarrierRule;
-typedef enum {
-  IP_KKT_RELATIVE,
-  IP_KKT_MASS
-} IPKKTMeasure;
-typedef enum {
-  IP_FORCING_ADAPTIVE,
-  IP_FORCING_FIXED
-} IPForcing;
-typedef enum {
-  IP_SCALING_PROBLEM,
-  IP_SCALING_GRADIENT,
-  IP_SCALING_NONE
-} IPScaling;
-typedef enum {
-  IP_EQUALITY_AUTO,
-  IP_EQUALITY_AUGMENTED,
-  IP_EQUALITY_CONDENSED
-} IPEqualityMethod;
+typedef enum { IP_START_COLD, IP_START_PREDICT, IP_START_WARM } IPStart;
+typedef enum { IP_BARRIER_MONOTONE, IP_BARRIER_MEHROTRA } IPBarrierRule;
+typedef enum { IP_KKT_RELATIVE, IP_KKT_MASS } IPKKTMeasure;
+typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
+typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
+typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
 
-typedef enum {
-  IP_SUBSPACE_FALSE,
-  IP_SUBSPACE_TRUE,
-  IP_SUBSPACE_AUTO
-} IPSubspaceUse;
+typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
 
 /* Constants. Names follow Waechter and Biegler (2006); most values are IPOPT's */
 #define IP_ACCEPTABLE_TOL   1e-6  /* KKT error that is acceptable if no further progress is made, */

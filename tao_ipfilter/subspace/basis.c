@@ -76,9 +76,8 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first
-   projection removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive
-   along it */
+/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first projection
+   removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive along it */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
   const PetscInt  n   = b->n;

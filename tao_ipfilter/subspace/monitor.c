@@ -1,9 +1,8 @@
 /* Monitor of the filtered subspace method: one line per iteration. */
 #include "subspaceimpl.h"
 
-/* Prints a line per reduced problem: iteration, objective, infeasibilities, ||d||, applications of the
-   preconditioner so far, directions, active sets tried, active constraints. Newton's method prints the columns of
-   the driver. */
+/* Prints a line per reduced problem: iteration, objective, infeasibilities, ||d||, applications of the preconditioner
+   so far, directions, active sets tried, active constraints. Newton's method prints the columns of the driver. */
 PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;

@@ -350,10 +350,9 @@ PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 
   Notes:
   With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
-  that Hessian,
-  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by
-  this call. Directions are multiplied anew where
-  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
+  that Hessian, whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on
+  another one by this call. Directions are multiplied anew where the values of the Hessian have changed, and given up
+  with another Hessian or another type of `PC`.
 
   The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
 

@@ -4,11 +4,7 @@ static char help[] = "The gap of smooth surfaces: patches on cylinders and spher
 #include "../lib/contact_problem.h"
 #include "src/contact/contactimpl.h"
 
-typedef enum {
-  TUBES,
-  BALLS,
-  NSHAPES
-} Shape;
+typedef enum { TUBES, BALLS, NSHAPES } Shape;
 static const char *const shape_names[] = {"tubes", "balls"};
 
 /* A point of the unit cylinder along z or of the unit sphere, and its normal */

@@ -52,9 +52,8 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
-/* Attributes an edge that both facets share to the nonmortar facet. The geometry on either side of such an edge is
-   then known, and an edge between two mortar facets does not end an overlap. nmortar: number of edges of the mortar
-   facet */
+/* Attributes an edge that both facets share to the nonmortar facet. The geometry on either side of such an edge is then
+   known, and an edge between two mortar facets does not end an overlap. nmortar: number of edges of the mortar facet */
 static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
   const PetscReal part[4][2], PetscInt edge[][2])
 {

@@ -50,10 +50,7 @@ PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
 /* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; a NULL matrix
    means none */
-typedef enum {
-  CONTACT_TRACE_FORWARD,
-  CONTACT_TRACE_INVERSE
-} ContactTraceType;
+typedef enum { CONTACT_TRACE_FORWARD, CONTACT_TRACE_INVERSE } ContactTraceType;
 PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType, PetscInt components, Mat *correction);
 PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec local);

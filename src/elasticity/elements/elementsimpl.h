@@ -197,6 +197,8 @@ typedef struct {
   PetscInt         assemblies; /* number of assemblies into any tangent */
   PetscBool        expands;
   PetscReal        expansion[9]; /* thermal expansion tensor [1/temperature] */
+  PetscReal        density;      /* [mass/length^3] */
+  PetscBool        rigid;
 } Body;
 
 /* Identifies the last assembled tangent and its state; any other matrix is assembled completely */
@@ -226,6 +228,8 @@ struct _n_Elasticity {
   PetscInt         npoints;     /* number of points with a history on this rank */
   PetscReal       *history;     /* at the last state of equilibrium, MATERIAL_HISTORY values per point */
   AssembledTangent assembled;
+  PetscReal        inertia, viscosity; /* of tangents: factor of the mass, 0: none; more than 1 of the stiffness */
+  PetscBool        consistent, *light; /* mass; local nodes that have none, NULL: all have theirs */
 };
 
 /* locals.c: local values of a displacement (NULL: zero), and the coordinates */

@@ -126,8 +126,7 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
 
   Notes:
   Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
-  small strain, which alone
-  expand, does not depend on it.
+  small strain, which alone expand, does not depend on it.
 
 .seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
 @*/

@@ -11,6 +11,9 @@ PETSC_INTERN PetscErrorCode SpringsAddEnergy(Elasticity, Vec u, PetscReal *energ
 PETSC_INTERN PetscErrorCode SpringsAddForce(Elasticity, Vec u, Vec force);
 PETSC_INTERN PetscErrorCode SpringsAddTangent(Elasticity, PetscBool all, const PetscInt global[], Mat);
 
+/* loads.c: lumped masses of a cell's nodes, of unit density, none negative */
+PETSC_INTERN void CellMasses(const CellBasis *, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES]);
+
 /* facet.c: a facet of a face: 4 or 9 nodes, or a triangle with 3 or 6; offsets in local vectors, coordinates, shape
    functions on [0,1]^2 or half of it */
 #define FACET_MAX_NODES MESH_MAX_FACET_NODES

@@ -17,7 +17,7 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
 
 /* The same; for tetrahedra with 10 nodes, whose corner integrals are negative, distributed in proportion to int
    N_a^2 */
-static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
 
@@ -197,9 +197,8 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is
-  not a face of the mesh is an
-  error.
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
+  a face of the mesh is an error.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
 @*/
@@ -227,8 +226,7 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 
   Notes:
   Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
-  quadratic shape functions
-  are loads.
+  quadratic shape functions are loads.
 
 .seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
 @*/

@@ -131,18 +131,15 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   Level: intermediate
 
   Notes:
-  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements'
-  own stress s_h,
-  and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's second
-  derivative at u. The
-  true stress is replaced by one recovered from the cells around each vertex, never across the border of a body.
+  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
+  stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
+  second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
+  the border of a body.
 
-  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across
-  the body on, and nears 1 as the
-  mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with its own, too small energy
-  still tells
-  it. Errors of a solver, of the loads or of the geometry are not seen. In bodies of one layer of cells the estimate
-  is rough.
+  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
+  body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
+  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies
+  of one layer of cells the estimate is rough.
 
   Where a cell is turned inside out the estimate is infinite.
 

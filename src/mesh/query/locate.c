@@ -282,9 +282,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   Level: developer
 
   Notes:
-  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was
-  added first. Cells farther away
-  than a quarter of their size are not looked at.
+  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added
+  first. Cells farther away than a quarter of their size are not looked at.
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
@@ -401,9 +400,8 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
 - body   - the body in which each is looked for; `PETSC_DECIDE`: any
 
   Output Parameter:
-. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that
-           of the point from the cell, is the same
-           on every rank, and `PETSC_MAX_REAL` where no cell is near
+. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of
+           the point from the cell, is the same on every rank, and `PETSC_MAX_REAL` where no cell is near
 
   Level: developer
 

@@ -137,9 +137,8 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
   Output Parameters:
 + n     - their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10
 - nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the
-          reference cube; of
-          order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the
-          vertices, then the edges 01, 12, 02, 03, 13 and 23
+          reference cube; of order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a
+          tetrahedron the vertices, then the edges 01, 12, 02, 03, 13 and 23
 
   Level: developer
 

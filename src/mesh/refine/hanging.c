@@ -182,9 +182,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 . dm - mesh from `MeshCreateScene()`
 
   Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are
-          the mean of, none of which hangs; the
-          others are empty. The mesh's own; NULL where no vertex hangs
+. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the
+          mean of, none of which hangs; the others are empty. The mesh's own; NULL where no vertex hangs
 
   Level: developer
 

@@ -12,13 +12,7 @@ typedef struct {
   PetscInt nring, nsection;       /* number of vertices on the core's outline, and in the cross-section */
 } HalfEllipse;
 
-enum {
-  ELLIPSE_FLAT,
-  ELLIPSE_ARC,
-  ELLIPSE_LMIN,
-  ELLIPSE_LMAX,
-  ELLIPSE_SYMMETRY
-};
+enum { ELLIPSE_FLAT, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX, ELLIPSE_SYMMETRY };
 
 static const char *const *ShapeFaces_HalfEllipse(const SceneBody *body)
 {

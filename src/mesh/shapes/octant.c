@@ -13,11 +13,7 @@ typedef struct {
 } OctantPatch;
 
 /* Order of the faces; x0, y0, z0 are consecutive, and a ball has no inner face */
-enum {
-  OCTANT_OUTER,
-  OCTANT_PLANE,
-  OCTANT_INNER = OCTANT_PLANE + 3
-};
+enum { OCTANT_OUTER, OCTANT_PLANE, OCTANT_INNER = OCTANT_PLANE + 3 };
 
 const char *const *OctantFaces(const SceneBody *body)
 {

@@ -51,13 +51,7 @@ PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, Petsc
   PetscInt n);
 
 /* Keys of shapes in scenes: values of a SceneBody. A key with an underscore may be nested, as outer: {radius: 1} */
-typedef enum {
-  KEY_REALS,
-  KEY_INTS,
-  KEY_AXIS,
-  KEY_DIRECTION,
-  KEY_TEXT
-} KeyType;
+typedef enum { KEY_REALS, KEY_INTS, KEY_AXIS, KEY_DIRECTION, KEY_TEXT } KeyType;
 
 typedef struct {
   const char *name;

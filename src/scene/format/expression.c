@@ -12,11 +12,11 @@ static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const
   PetscFunctionReturn(0);
 }
 
-/* Evaluates text at a time of a load program with nsteps steps; records an error if it is not a number */
-PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps,
+/* Evaluates text at a time of a load program that ends at `end`; records an error if it is not a number */
+PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscReal end,
   PetscReal *value)
 {
-  Expression e = {.at = text, .names = "ts", .values = {time, time / (PetscReal)nsteps}};
+  Expression e = {.at = text, .names = "ts", .values = {time, time / end}};
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);

@@ -52,6 +52,8 @@ PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ..
 /* owner_key, with its line where the file has the key, and what is wrong with it */
 PETSC_INTERN PetscErrorCode SceneKeysComplainOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
+/* Begins the complaint, if there is one, with the line of this key */
+PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 /* Makes a file's name relative to the folder of the scene */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
@@ -78,14 +80,13 @@ PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], Petsc
 
 /* expression.c: evaluates an expression of time; checks the syntax of an expression of position, which
    SceneEvaluatePlace() evaluates */
-PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time,
-  PetscInt nsteps, PetscReal *);
+PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscReal end,
+  PetscReal *);
 PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
-/* table.c: factors at the ends of load steps, from an expression or a table of times and values. found: the key has
-   one of them */
-PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[],
-  PetscBool *found);
+/* table.c: factors of a ramp at the ends of load steps, in dynamics also at time 0, from an expression or a table of
+   times and values. found: the key has one of them */
+PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], Scene, SceneRamp *, PetscBool *found);
 
 /*
    The table of keys (rows in sections/keytable.c). A row describes one key: it is read into a member (at a byte offset)
@@ -110,11 +111,7 @@ typedef enum {
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum {
-  SCENE_ANY,
-  SCENE_ABOVE_0,
-  SCENE_FROM_0
-} SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
 
 /* A value with a syntax of its own */
 typedef struct {

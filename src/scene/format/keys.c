@@ -139,6 +139,18 @@ static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
   return 0;
 }
 
+PetscErrorCode SceneKeysAddLine(SceneKeys keys, const char key[])
+{
+  const size_t line = SceneKeysGetLine(keys, key);
+  char         complaint[sizeof(keys->complaint)];
+
+  PetscFunctionBegin;
+  if (!line || !keys->complaint[0]) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(complaint, keys->complaint, sizeof(complaint)));
+  (void)snprintf(keys->complaint, sizeof(keys->complaint), "line %zu: %.900s", line, complaint);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneKeysComplainOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
 {
   char   full[SCENE_KEY_LENGTH];
@@ -195,6 +207,11 @@ static const char *const synonyms[][2] = {
   {"gravity", "body_forces"},
   {"neumann", "tractions"},
   {"increments", "steps"},
+  {"rho", "density"},
+  {"dt", "time_step"},
+  {"step", "time_step"},
+  {"duration", "end_time"},
+  {"velocity", "initial_velocity"},
 };
 
 /* The valid keys at the place of an unknown one: those with the same first *below letters (its list and entry); at

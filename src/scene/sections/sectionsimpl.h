@@ -16,6 +16,10 @@ PETSC_INTERN const SceneList *SceneFindList(const char name[]);
 PETSC_INTERN PetscErrorCode SceneReadRamps(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
+/* dynamics.c: time steps, before the ramps; whether a body has what they need */
+PETSC_INTERN PetscErrorCode SceneReadDynamics(SceneKeys, Scene, const SceneList *);
+PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owner[], const SceneBody *);
+
 /* constants.c: constants of a material's law, with keys <owner>_...: reading, printing, description, checks */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
 PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
