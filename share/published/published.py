@@ -226,7 +226,7 @@ def cut_runs(records):
             yield f"- {TITLES[problem]}, mesh {mesh}, {way}: {len(steps(record))} load steps done when the limit of {record['limit']} s ended it" if record["cut"] else f"- {TITLES[problem]}, mesh {mesh}, {way}: {record['words']}"
 
 
-def page(cases, records, omitted):
+def page(cases, records, omitted, clock):
     reference = published()
     with open(EXPLANATIONS) as file:
         explanations = json.load(file)
@@ -234,7 +234,7 @@ def page(cases, records, omitted):
     yield "# The published results, reproduced\n"
     yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows ours / theirs. A star marks a deviation above 10 %."
     yield "`make published` makes this page, `make published-quick` that of mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". Commit {commit()}, {datetime.date.today()}.\n"
+    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". Commit {commit()}, {datetime.date.today()}. Times: {clock}.\n"
     yield "## Iterations and sizes\n"
     yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
     yield "The bound is that of the condition number, from the contact-free problem: PCG iterations of AMG on K times sqrt(2 (beta + 3) / beta).\n"
@@ -267,6 +267,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="mesh 1 alone, ten minutes")
     parser.add_argument("--meshes", type=int, default=3, help="meshes of every problem")
     parser.add_argument("--only", default="", help="problems whose name has this")
+    parser.add_argument("--clock", default="elapsed seconds", help="what the page says of the times")
     parsed = parser.parse_args()
     os.makedirs(FOLDER, exist_ok=True)
     meshes = range(1, 2 if parsed.quick else parsed.meshes + 1)
@@ -279,7 +280,7 @@ def main():
     curves(cases, records)
     omitted = [f"- Meshes above {max(meshes)}: beyond the time of this run.", "- AMG alone on meshes above 1: 5,000 iterations a system take hours."]
     with open(os.path.join(FOLDER, "README.md"), "w") as file:
-        file.write("\n".join(page(cases, records, omitted)) + "\n")
+        file.write("\n".join(page(cases, records, omitted, parsed.clock)) + "\n")
     print(os.path.join(FOLDER, "README.md"))
 
 
