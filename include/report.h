@@ -193,6 +193,7 @@ typedef struct {
    are NULL */
 typedef struct {
   const StepReport   *report;
+  Vec                 velocity;          /* in dynamics, else NULL [length/time] */
   Vec                 displacement;      /* global vector, 3 components per node [length] */
   const PetscReal    *stress;            /* 7 values per local cell, see ElasticityCellStress() */
   const PetscReal    *nodal;             /* STRESS_VALUES per owned vertex, in the order of global vectors */

@@ -41,6 +41,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   *state = (StepState){
     .report            = report,
     .displacement      = sim->path.u,
+    .velocity          = sim->dynamics.velocity,
     .stress            = sim->stress,
     .nodal             = sim->results.nodal,
     .plastic           = sim->results.plastic,
