@@ -9,7 +9,7 @@
 #include <petsccompat.h>
 
 /* events.c: PETSc's log events of this folder */
-PETSC_INTERN PetscLogEvent  CONTACT_Search, CONTACT_Integrate;
+PETSC_INTERN PetscLogEvent  CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;
 PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
 
 /* quadrature.c: a rule for triangles */

@@ -247,7 +247,8 @@ static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynami
     "of `generalized_alpha`, from 0 to 1: what is left of the highest frequencies after a time step; 1: nothing is "
     "lost"),
   NAMED("mass", NULL, CHOICE, SceneDynamics, mass, SHOWN, MassTypes, "`redistributed`",
-    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces, which the other nodes of their "
+    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces without friction, which the "
+    "other nodes of their "
     "cells have; `lumped`; `consistent`"),
   REALS("damping_mass", NULL, 1, SceneDynamics, damping_mass, OPTIONAL, ANY, "1/T", "0",
     "Rayleigh damping: forces of this times mass times velocity"),
