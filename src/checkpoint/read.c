@@ -338,7 +338,7 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
-  if (rubs || (r->scene->npairs && SceneIsDynamic(r->scene)))
+  if (frictional || (r->scene->npairs && SceneIsDynamic(r->scene)))
     PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
   if (SceneIsDynamic(r->scene)) {
     PetscCall(RestartReadField(r, "velocity", 3, PETSC_FALSE, checkpoint));

@@ -116,7 +116,7 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
         "be dead, or the pair without friction",
         file, here->name, scene->pressures[q].name);
     SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
-                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairRubs(here)),
+                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
       "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
       "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
       file, here->name);
