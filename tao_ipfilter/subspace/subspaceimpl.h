@@ -172,6 +172,7 @@ PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Ve
 PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
 PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
+PETSC_INTERN PetscErrorCode IPSubspaceStateCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
