@@ -109,6 +109,7 @@ typedef enum {
   TABLE_FORCES,
   TABLE_PAIRS,
   TABLE_FACES,
+  TABLE_RIGID,
   TABLE_BALANCE,
   TABLE_PLASTICITY,
   TABLE_TRUTH,
@@ -158,8 +159,8 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes,
-  SchemaLevels, SchemaEffects, SchemaLines;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaFallbacks,
+  SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
 PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);

@@ -68,6 +68,15 @@ static const ReportField face_fields[] = {
 };
 const ReportRecord SchemaFaces = {sizeof(FaceReport), PETSC_TRUE, face_fields};
 
+static const ReportField rigid_fields[] = {
+  FIELD(RigidReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_RIGID, "rigid body", "", -24)}),
+  FIELD(RigidReport, position, FIELD_VECTOR, "length", .columns = {COLUMN(TABLE_RIGID, "position", "", -41)}),
+  FIELD(RigidReport, rotation, FIELD_VECTOR, "degrees",
+    .columns = {COLUMN(TABLE_RIGID, "rotation [degrees]", "", -41)}),
+  END,
+};
+const ReportRecord SchemaRigid = {sizeof(RigidReport), PETSC_TRUE, rigid_fields};
+
 static const ReportField ramp_fields[] = {
   FIELD(RampReport, name, FIELD_TEXT, ""),
   FIELD(RampReport, factor, FIELD_REAL, ""),
@@ -193,6 +202,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
+  FIELD(StepReport, rigid_bodies, FIELD_LIST, "", .count = offsetof(StepReport, nrigid_bodies), .record = &SchemaRigid),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
   FIELD(StepReport, motions, FIELD_LIST, "", .count = offsetof(StepReport, nmotions), .record = &SchemaMotions),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),

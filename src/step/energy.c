@@ -76,3 +76,37 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
+
+/*
+   Ends a solve that plastic flow keeps from an equilibrium. Plastic work grows in proportion to the displacement and
+   the elastic energy does not, so that the objective has a minimum unless the loads do more work on the flow than it
+   takes. They do where the objective is below that of the last state although the plastic work is a large multiple of
+   the elastic energy (the kinematic theorem of limit analysis). Prescribed displacements that move may require such a
+   plastic work, and are left alone.
+*/
+PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
+{
+  StepProblem       *p        = (StepProblem *)ctx;
+  const PetscReal    multiple = 1e3;
+  const PetscInt     patience = 2;
+  Vec                iterate, u;
+  PetscReal          stored, work, f, rest;
+  PetscInt           body;
+  PetscBool          still;
+  TaoConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  if (reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
+  PetscCall(TaoGetSolution(tao, &iterate));
+  PetscCall(EnergyGetState(p, iterate, &u));
+  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored, &work, &body));
+  if (!(work > multiple * stored)) PetscFunctionReturn(0);
+  PetscCall(VecEqual(p->base, p->sim->path.u, &still));
+  PetscCall(EnergyObjective(tao, iterate, &f, p));
+  PetscCall(EnergyObjective(tao, p->sim->path.u, &rest, p));
+  if (!still || !(f < rest) || ++p->nflows < patience) PetscFunctionReturn(0);
+  p->flowing = p->sim->scene->bodies[body].name;
+  PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
+  PetscFunctionReturn(0);
+}

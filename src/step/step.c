@@ -31,6 +31,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
+  PetscCall(RigidPlacesMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
   if (report->converged) PetscCall(StrainWarn(sim, report->step - 1));
   PetscCall(ResultsMeasure(sim));

@@ -11,7 +11,7 @@ PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
   PetscCall(IPBasisDestroy(&kept->basis));
   PetscCall(IPReducedDestroy(&kept->reduced));
   kept->K_id = 0;
-  kept->held = PETSC_FALSE;
+  kept->held = kept->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -135,7 +135,7 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, Petsc
   PetscCall(KeptGetWhole(K, (PetscBool)!factored, &whole));
   PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
   PetscCall(MatDestroy(&whole));
-  kept->held = PETSC_FALSE;
+  kept->held = kept->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -278,7 +278,7 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
   }
   if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
     kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
-    if (!kept->held) PetscCall(KeptSetUpFree(tao, kept, K, possible));
+    if (!kept->held || kept->negative) PetscCall(KeptSetUpFree(tao, kept, K, possible));
     if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));
     PetscCall(IPBasisMultiply(&kept->basis, K));
   } else PetscCall(IPSubspaceStateReconsider(tao, kept, kept->napplications, possible));

@@ -161,7 +161,7 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 
 /* Whether K is singular up to rounding, or negative, along a preconditioned residual d: K plus constraints may be
    positive, as for bodies under pressure that only contact holds */
-static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
+static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal rounding = 1e-11;
@@ -176,6 +176,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscCall(VecDot(d, Kd, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
+  *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
   PetscFunctionReturn(0);
 }
 
@@ -184,14 +185,15 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  PetscBool     singular = PETSC_FALSE;
+  PetscBool     singular = PETSC_FALSE, negative = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
   if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
-  PetscCall(FilteredIsSingular(tao, d, &singular));
+  PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
   if (!singular) PetscFunctionReturn(0);
   PetscCall(IPSubspaceStateHold(tao, kept, definite));
+  kept->negative = negative;
   if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
   PetscFunctionReturn(0);
 }

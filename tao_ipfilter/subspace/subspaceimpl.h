@@ -101,6 +101,7 @@ typedef struct {
   PC               pc;            /* the Krylov method's preconditioner, set up with K alone */
   PetscBool        held;          /* whether it was set up with K + J^T D J instead, for bodies that only constraints
                                      hold */
+  PetscBool        negative;      /* held only while K stays: K was negative along a direction */
   PetscBool        changing;      /* K has changed since it was first seen */
   PetscInt         napplications; /* applications of the preconditioner in the last solve */
   PetscObjectId    K_id;

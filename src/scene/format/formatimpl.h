@@ -14,8 +14,24 @@ typedef struct {
   size_t  *lines;
 } SceneKeyLines;
 
-/* yaml.c. Not collective: error if the text is not YAML that PETSc can read */
+/* yaml.c. Not collective: error if the text is not YAML that can be read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
+
+/* values.c: the values by their full keys, sorted; initialize with zeros */
+typedef struct {
+  char     *key, *text;
+  PetscInt  place; /* in the file */
+  PetscBool used;
+} SceneValue;
+
+typedef struct {
+  PetscInt    n, max;
+  SceneValue *values;
+} SceneValues;
+
+PETSC_INTERN PetscErrorCode SceneValuesRead(const char text[], SceneValues *);
+PETSC_INTERN const char    *SceneValuesUse(SceneValues *, const char key[]);
+PETSC_INTERN PetscErrorCode SceneValuesDestroy(SceneValues *);
 
 /* keys.c: the keys and values of a scene file. Each reader asks for a full key (nested keys joined with _); keys
    that no reader asked for are reported as unknown. A bad or missing value is recorded, not raised at once, because
@@ -28,7 +44,7 @@ typedef struct {
 typedef struct {
   MPI_Comm                   comm;
   const char                *file;
-  PetscOptions               options;
+  SceneValues                values;
   PetscInt                   nasked, maxasked;
   char                     **asked;
   const struct _n_SceneList *list; /* the list that is being read */
