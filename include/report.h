@@ -193,6 +193,7 @@ typedef struct {
    are NULL */
 typedef struct {
   const StepReport   *report;
+  Vec                 velocity;          /* in dynamics, else NULL [length/time] */
   Vec                 displacement;      /* global vector, 3 components per node [length] */
   const PetscReal    *stress;            /* 7 values per local cell, see ElasticityCellStress() */
   const PetscReal    *nodal;             /* STRESS_VALUES per owned vertex, in the order of global vectors */
@@ -273,8 +274,9 @@ typedef struct {
 
 /* Times [s], largest over the ranks; `other` is the time outside of all phases */
 typedef struct {
-  PetscLogDouble total, mesh, assembly, contact, amg_setup, amg_apply, filter_setup, filter_apply, error_estimate,
-    results, other;
+  PetscLogDouble total, mesh, setup, assembly, contact_search, contact_integrals, contact, amg_setup, amg_apply,
+    filter_setup, filter_apply, directions, reduced_factor, reduced, optimizer, measures, error_estimate, results,
+    other;
 } RunTimes;
 
 /* How a run ended: the exit code of the program */

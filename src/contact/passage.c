@@ -29,15 +29,15 @@ static PetscReal PassageHeight(const PassageTriangle *p, PetscReal time, PetscRe
     for (PetscInt a = 0; a < 3; ++a) e[a][c] = corner[(a + 1) % 3] - corner[a];
     r[c] = p->x[0][c] + time * (p->x[1][c] - p->x[0][c]) - corner[0];
   }
-  ContactCross(e[0], e[1], n);
-  square = ContactDot(n, n);
+  VectorCross(e[0], e[1], n);
+  square = VectorDot(n, n);
   if (!(square > 0.0)) return 0.0;
-  ContactCross(e[0], r, cross);
-  b[2] = ContactDot(n, cross) / square;
-  ContactCross(e[2], r, cross);
-  b[1] = ContactDot(n, cross) / square;
+  VectorCross(e[0], r, cross);
+  b[2] = VectorDot(n, cross) / square;
+  VectorCross(e[2], r, cross);
+  b[1] = VectorDot(n, cross) / square;
   b[0] = 1.0 - b[1] - b[2];
-  return ContactDot(n, r) / PetscSqrtReal(square);
+  return VectorDot(n, r) / PetscSqrtReal(square);
 }
 
 /* Appends when the vertex goes through the triangle, moved inwards by `inside` */

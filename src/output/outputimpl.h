@@ -32,6 +32,7 @@ struct _n_Output {
   PetscInt  nindices,
     nindiceslocal;         /* number of integers that describe the cells: 8 nodes each, or in mixed files a kind and its
                       nodes */
+  PetscBool   moving;      /* the velocity is written */
   PetscBool   friction;    /* friction stress and slip are written */
   PetscBool   plastic;     /* plastic strain is written */
   PetscBool   nodes;       /* nodal stress and strain energy are written */

@@ -3,22 +3,11 @@
 #include "stepimpl.h"
 #include <math.h>
 
-/* Linearizes the gap of all contact pairs at u, with the faces where they are: no ramp of an initial overlap is
-   applied. */
-static PetscErrorCode AttemptLinearizeFaces(Simulation sim, Vec u, ContactLinearization *lin)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscCall(ContactLinearize(sim->contact, u, lin));
-  PetscCall(PetscLogEventEnd(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
 /* Linearizes the gap at u for a load step that ends at `time`: ramps of initial overlaps are applied. */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(AttemptLinearizeFaces(sim, u, lin));
+  PetscCall(ContactLinearize(sim->contact, u, lin));
   PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
@@ -538,7 +527,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   Vec                  u, inertia;
 
   PetscFunctionBegin;
-  if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeFaces(sim, sim->path.u, &sim->upcoming));
+  if (sim->contact && !sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
   if (sim->contact && sim->path.time == 0.0 && !report->cuts && !sim->forecast.failed) {
     PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
     PetscCall(StartWarn(sim, sim->upcoming));

@@ -25,9 +25,9 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscFunctionBegin;
   (void)tao;
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
   if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
   if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->sim->dynamics, u, f, NULL));
@@ -49,9 +49,9 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
     PetscCall(VecZeroEntries(G));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityForce(p->sim->elasticity, u, G));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, G));
   PetscCall(SchemeAddForce(&p->sim->dynamics, u, &energy, G));
@@ -70,10 +70,10 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   PetscFunctionBegin;
   (void)tao, (void)Hpre;
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(TiesTangent(&constraints, u, H));
   PetscCall(ProximalAddStiffness(p, H));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -83,6 +83,7 @@ PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const ch
 PETSC_INTERN PetscErrorCode SceneParseAnswer(SceneKeys, const char key[], const char text[], PetscBool *);
 PETSC_INTERN PetscErrorCode SceneParseList(SceneKeys, const char key[], const char text[], PetscInt *n, char ***words);
 PETSC_INTERN PetscErrorCode SceneParseReals(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
+PETSC_INTERN PetscErrorCode SceneParseBounds(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneParseInts(SceneKeys, const char key[], const char text[], PetscInt n, PetscInt[]);
 PETSC_INTERN PetscErrorCode SceneParseBody(SceneKeys, Scene, const char key[], const char text[], PetscInt *body);
 PETSC_INTERN PetscErrorCode SceneParseRamp(SceneKeys, Scene, const char key[], const char text[], PetscInt *ramp);
@@ -115,8 +116,9 @@ typedef enum {
   SCENE_CHOICE, /* an enumeration, by its names */
   SCENE_AXIS,   /* the same, stored as PetscInt */
   SCENE_TEXT,
-  SCENE_BODY, /* a body's name, stored as its number */
-  SCENE_RAMP, /* a ramp's */
+  SCENE_EXPRESSION, /* of the place; stored as text */
+  SCENE_BODY,       /* a body's name, stored as its number */
+  SCENE_RAMP,       /* a ramp's */
   SCENE_OWN,
   SCENE_SECTION /* read and printed by a file in sections/ */
 } SceneKeyType;
@@ -127,7 +129,7 @@ typedef enum {
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0, SCENE_UNBOUNDED /* infinite, too */ } SceneRange;
 
 /* A value with a syntax of its own */
 typedef struct {
