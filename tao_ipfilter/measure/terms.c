@@ -243,7 +243,7 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* stiffness of the terms' rows: what resists the terms that stick; 0 for the others. force: M lambda of the constraints */
+/* stiffness of the terms' rows: what resists the terms that stick; 0 for the others. force: M lambda */
 PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
 {
   IPTerms           *terms  = &((TAO_IPFILTER *)tao->data)->terms;

@@ -179,7 +179,8 @@ static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal 
 
 /* Line search: halves the step until the penalized objective falls. The objective includes the norm terms with the
    weights of the model's multipliers. The violation that the model itself has at d, and what it leaves of the laws of
-   norm terms, are subtracted in proportion to the step. *ok: false if the objective does not fall, or the model is not convex along d */
+   norm terms, are subtracted in proportion to the step. *ok: false if the objective does not
+   fall, or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
