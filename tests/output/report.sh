@@ -20,7 +20,7 @@ judge() { "$PYTHON" -B "$AMGF_DIR/tests/output/report.py" "$@"; }
 judge one 4
 mkdir -p installed/bin installed/share/amgf
 cp "$contact" installed/bin
-cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/report" installed/share/amgf
+cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/python" "$AMGF_DIR/share/report" installed/share/amgf
 LD_LIBRARY_PATH=$AMGF_DIR/lib mpiexec --oversubscribe -n 2 installed/bin/contact boxes.yaml -quiet -load_steps 1 -report two.html -output fields -summary two.json || echo "exit code $?"
 judge two 3
 ls fields.xmf two.xmf 2> /dev/null
