@@ -133,6 +133,7 @@ typedef struct {
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* of the terms that make up the objective */
+  PetscReal pressure; /* multiplier of all rows alike that balances the gradient where this is large; 0: not known */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */
@@ -302,6 +303,7 @@ typedef struct {
   PetscReal rounding;           /* changes of phi below this mean nothing, */
   PetscReal theta_rounding;     /* and values of theta */
   PetscReal alpha, alpha_dual;
+  PetscReal before; /* norm of the direction before the last one */
   PetscInt  ntrials;
   PetscBool blocked;              /* whether it was the filter alone that refused the last trial point refused */
   PetscInt  nblocked, nunblocked; /* steps in a row that were shortened so; how often the filter was cleared for that */
@@ -312,8 +314,11 @@ typedef struct {
 typedef struct {
   PetscReal by;          /* what c_I is raised by, */
   PetscReal size;        /* the size of the constraints that it is a fraction of, */
-  PetscInt  times;       /* and how often it was */
-  PetscReal least_slack; /* that the last step left */
+  PetscReal unknowns;    /* what bounds are moved by, */
+  PetscReal told;        /* the larger of both in the caller's units, */
+  PetscInt  times;       /* and how often that was */
+  PetscReal least_slack; /* that the last step left, */
+  PetscReal least_bound; /* and the least distance from a bound */
   PetscInt  nvanished;   /* iterates in a row that have a slack of next to nothing */
 } IPRelaxation;
 
@@ -431,6 +436,7 @@ typedef struct {
   PetscInt  nregularized, nretried; /* steps taken with a shifted Hessian, and systems solved to find the shift */
   PetscReal delta_largest;          /* largest shift a step was taken with */
   PetscInt  nrestored;              /* restorations */
+  PetscInt  nsaddles;               /* stationary points that were no minima */
   PetscInt  ntiny;                  /* steps in a row that are as small as rounding */
   PetscInt  nacceptable;            /* iterates in a row within the acceptable tolerance */
   PetscInt  nstraight;              /* successive full steps with a shift along which the objective fell linearly, */

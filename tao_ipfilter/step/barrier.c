@@ -27,7 +27,7 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
   const PetscReal limit   = ip->opt.kappa_epsilon * mu,
                   balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
 
-  return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
+  return (PetscBool)(k->centrality <= limit && k->primal <= PetscMax(limit, ip->tol) && k->dual <= balance);
 }
 
 /* mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
