@@ -19,11 +19,11 @@ programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard a
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo demo-published check stress scene-stress clean help dependencies print-contact-libs FORCE
+.PHONY: all complex demo demo-published check check-all stress scene-stress clean help dependencies print-contact-libs FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs)
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs) $(if $(programs),bin/contact-mesh)
 
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
@@ -33,8 +33,8 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 	$(call say,CC,$<)
 	$(Q)$(COMPILE) $< -o $@
 
-# Which Python makes the page of a run
-build/src/output/page.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
+# Which Python makes the page of a run, and converts meshes
+build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
@@ -59,6 +59,10 @@ bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
+bin/contact-mesh: share/python/contact-mesh.sh
+	@mkdir -p $(@D)
+	$(Q)install -m 755 $< $@
+
 .PRECIOUS: build/%.o
 -include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)
 
@@ -82,6 +86,10 @@ demo-published: dependencies
 
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
+
+# Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are for
+check-all: dependencies
+	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check LONG=1
 
 # STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which need IPOPT; else parts and
 # options of tests/stress/run.py
@@ -110,8 +118,9 @@ help:
 	@echo 'make                 the plugin $(PLUGIN), the mechanics library, and bin/contact'
 	@echo 'make demo            installs what is missing, builds, solves a problem whose exact answer is known, and compares'
 	@echo 'make demo-published  the same with the two-block problem of the publication'
-	@echo 'make check           installs what is missing, builds, and runs every test; last line: N passed, N failed'
+	@echo 'make check           installs what is missing, builds, and tests every feature; last line: N passed, N failed'
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
+	@echo 'make check-all       the same and the long tests: finer meshes, published figures, more numbers of ranks'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
 	@echo '                       STRESS=nlp: 490 nonlinear programs, and 500 drawn at random, beside IPOPT, 15 minutes, in tests/stress/nlp.md, nlp_random.md'
 	@echo '                       STRESS=grid: obstacle problems to 1000 x 1000 unknowns beside TRON and IPOPT, an hour, in tests/stress/grid.md'

@@ -62,18 +62,18 @@ typedef struct {
   PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
 } AppOptions;
 
-/* What main() knows about an error */
+/* State of main() for error handling */
 typedef struct {
   MPI_Comm  meeting;   /* where ranks with an error wait for each other */
   int       said;      /* file descriptor for errors, also while stderr is silenced during output */
-  PetscBool traceback; /* PETSc's own is asked for */
-  PetscBool silent;    /* another rank says it */
-  int       end;       /* the exit code */
-  PetscBool alone;     /* no other rank can know of the error */
+  PetscBool traceback; /* the user asked for PETSc's own traceback */
+  PetscBool silent;    /* another rank prints the error */
+  int       end;       /* the exit code of the program */
+  PetscBool alone;     /* the error occurred on this rank only; no other rank knows of it */
   char      sentence[512];
 } AppError;
 
-/* Most kinds of errors are caused by the input; those listed here by the machine or by the program */
+/* Most kinds of errors are caused by the input. The kinds listed here are caused by the machine or by the program */
 static RunEnd AppClassifyError(PetscErrorCode n)
 {
   static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC,
@@ -194,7 +194,7 @@ static PetscErrorCode AppSayText(const char word[])
   PetscFunctionReturn(0);
 }
 
-/* A page needs fields and a summary. Unless the user names files for them, they are named after the page */
+/* An HTML page needs fields and a summary. Unless the user names files for them, they are named after the page */
 static PetscErrorCode AppCompleteReport(AppOptions *app)
 {
   char  base[PETSC_MAX_PATH_LEN];
@@ -214,7 +214,7 @@ static PetscErrorCode AppCompleteReport(AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* -help without a scene has already printed the help */
+/* Reads the program's options; -help without a scene has already printed the help */
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
   PetscBool helped;
@@ -448,7 +448,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   PetscFunctionReturn(0);
 }
 
-/* Before there is anything to lose */
+/* Checks that all files can be written, before any time is spent */
 static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
 {
   char file[PETSC_MAX_PATH_LEN];
@@ -529,7 +529,7 @@ static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **ar
   PetscFunctionReturn(0);
 }
 
-/* The run is over, and its exit code stays. If the page cannot be made, this prints why */
+/* Makes the HTML page after the run, whose exit code stays. If the page cannot be made, this prints why */
 static void AppMakePage(const ReportPage *page)
 {
   char sentence[512];
@@ -581,8 +581,8 @@ static void AppLimitHeap(void)
 #endif
 }
 
-/* Handles a crash of the program or of a library: one sentence, and the other ranks are ended. PETSc's handler would
-   print a page and use an exit code of its own */
+/* Handles a crash of the program or of a library: prints one sentence and ends the other ranks. PETSc's handler
+   would print a page and use its own exit code */
 static PetscErrorCode AppCrash(int sig, void *ctx)
 {
   const PetscBool fault =
@@ -599,8 +599,8 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   _Exit(RUN_BROKEN);
 }
 
-/* If the reader of a pipe stops reading (contact -help | head), end silently. PETSc's signal handler would print a
-   page */
+/* Initializes PETSc. If the reader of a pipe stops reading (contact -help | head), the program ends silently;
+   PETSc's signal handler would print a page */
 static PetscErrorCode AppInitialize(int *argc, char ***argv)
 {
   static const char option[] = "-no_signal_handler";
@@ -618,7 +618,8 @@ int main(int argc, char **argv)
 
   RunEnd         end   = RUN_CONVERGED;
   AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
-  const char    *word = AppAsksForText(argc, argv) ? argv[1] : NULL; /* PETSc would take this word for its own option */
+  const char    *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* PETSc would take this argument for one of its
+                                                                        own options */
   PetscErrorCode ierr;
 
   AppLimitHeap();

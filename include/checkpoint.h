@@ -5,17 +5,17 @@
 #include <petscdmplex.h>
 #include "model.h"
 
-/* Values at the vertices that a rank owns, in the order of the global vectors */
+/* Values at the vertices that a rank owns, in the order of the global vectors; or n records of another kind */
 typedef struct {
   char       name[128];
-  PetscInt   components;
+  PetscInt   n, components;
   PetscReal *values;
 } CheckpointField;
 
 typedef struct _n_Checkpoint {
   PetscInt         step;          /* load step in progress, or the next one; from 0 */
   PetscReal        time;          /* time of the state; load step k ends at time k */
-  PetscReal        previous_time; /* of the state before it */
+  PetscReal        previous_time; /* time of the last state but one */
   PetscReal        increment;     /* time increment that a load step in progress tries; 0: the rest of the load step */
   PetscReal        largest_increment; /* of any displacement so far [length] */
   PetscReal        work;              /* work of the external forces [force length] */
@@ -36,10 +36,10 @@ typedef enum {
 } CheckpointPairKind;
 
 typedef struct {
-  const char *name; /* the pair's follows */
+  const char *name; /* NULL: field of the contact pairs, named after the pair */
   PetscInt    components;
   PetscBool   sum;      /* a sum over vertices, like a force: on another mesh it is transferred, not interpolated */
-  PetscBool   friction; /* of pairs that have it alone */
+  PetscBool   friction; /* only for pairs with friction */
 } CheckpointPairField;
 PETSC_EXTERN const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS];
 /* kept: whether the pair has this field; and the name of the field */

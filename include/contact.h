@@ -9,18 +9,18 @@
 
 typedef struct _n_Contact *Contact;
 
-/* The constraints of one contact update. Rows are distributed as their nonmortar vertices are. */
+/* Data of one contact update. Rows are distributed like their nonmortar vertices. */
 typedef struct {
   Vec g;          /* gap at u_ref, divided by the lumped mass [length] */
   Mat J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
-  Mat derivative; /* derivative of the gap with the turning of the normals; J has patches of smooth pairs of fixed
-                     shape. NULL if no pair is smooth */
-  Mat cover;      /* J of the facets: an area is shared among vertices in proportion to it. NULL (use J) if no pair is
-                smooth or of order 2 */
+  Mat derivative; /* derivative of the gap that includes the rotation of the normals; in J patches of smooth pairs
+                     keep their shape. NULL if no pair is smooth */
+  Mat cover;      /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
+                     or of order 2 */
   Vec mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  Mat slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along both
-               tangents of a row. Rows of pairs without friction are empty; NULL: no pair has friction */
-  PetscReal *tangent; /* [6 nlocal] of each row, and */
+  Mat slip;       /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
+               two tangents of a row. Rows without friction are empty; NULL: no pair has friction */
+  PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
   PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
                          pair has friction */
   PetscReal *normal;  /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
@@ -37,14 +37,14 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
-/* Counts nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact update;
-   and all its nodes */
+/* Number of nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact
+   update; and number of all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
-/* Collective. How deep vertices of either face of each pair are in the other body at a displacement,
-   and what that is known to [length] */
+/* Collective. Largest penetration of vertices of either face of each pair at a displacement, and its accuracy
+   [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
-/* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
-   search reaches */
+/* Collective. Error if undeformed bodies overlap deeper than the contact search reaches; takes a contact update at
+   zero displacement */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* For each node of a nonmortar face, the weights of the mortar face's nodes that it is tied to */

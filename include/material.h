@@ -1,26 +1,44 @@
-/* Materials of elastic bodies: plain parameters, and the constitutive laws evaluated at a point. */
+/* Materials of elastic bodies: parameters, and the constitutive laws at a point. */
 #ifndef MATERIAL_H
 #define MATERIAL_H
 
 #include <petscsys.h>
 
-/* The laws: a new one is a file of src/material and a line here. What it is called in C, and by scenes */
+/* The material laws. A new one is a file in src/material and a line here: name in C, and name in scenes */
 #define MATERIAL_LAWS(LAW) \
   LAW(LINEAR, Linear, "linear")                     /* small strain, isotropic */ \
   LAW(NEOHOOKEAN, NeoHookean, "neohookean")         /* compressible neo-Hookean, finite strain */ \
   LAW(SAINT_VENANT, SaintVenant, "saint_venant")    /* Saint Venant-Kirchhoff, large rotations at moderate strain */ \
   LAW(MOONEY_RIVLIN, MooneyRivlin, "mooney_rivlin") /* compressible Mooney-Rivlin, finite strain */ \
   LAW(ORTHOTROPIC, Orthotropic, "orthotropic")      /* small strain, three planes of symmetry */ \
+  LAW(J2, J2, "j2")                                 /* small strain, plasticity of von Mises with hardening */ \
   LAW(RIGID, Rigid, "rigid")                        /* no strain: every displacement of the body is prescribed */
 
 #define MATERIAL_TYPE(name, law, text) MATERIAL_##name,
-typedef enum {
-  MATERIAL_LAWS(MATERIAL_TYPE)
-} MaterialType;
+typedef enum { MATERIAL_LAWS(MATERIAL_TYPE) } MaterialType;
 #undef MATERIAL_TYPE
 PETSC_EXTERN const char *const MaterialTypes[];
 
-#define MATERIAL_OWN 8 /* constants, and moduli, that a law may have beside those that have names here */
+#define MATERIAL_OWN 8 /* number of constants and moduli that a law may have without a named member here */
+
+#define MATERIAL_HISTORY 7 /* values that a law may keep at a point */
+
+#define MATERIAL_LIST 32
+typedef struct {
+  PetscInt  n;
+  PetscReal value[MATERIAL_LIST];
+} MaterialList;
+
+/* Hardening of a metal: the yield stress of the equivalent plastic strain a is that of the table, or yield, and
+   modulus a + (saturation - yield) (1 - exp(-rate a)) */
+typedef struct {
+  PetscReal    yield;            /* at a = 0; with a table its first stress [force/length^2] */
+  PetscReal    modulus;          /* linear isotropic hardening, not negative [force/length^2] */
+  PetscReal    saturation, rate; /* Voce's exponential hardening; 0: none [force/length^2], [1] */
+  PetscReal    kinematic;        /* Prager's: slope of the back stress in a bar, not negative [force/length^2] */
+  MaterialList strains;          /* of the table, equivalent plastic strains, ascending from 0; none: no table */
+  MaterialList stresses; /* yield stresses there, not descending; beyond the last one constant [force/length^2] */
+} MaterialHardening;
 
 typedef struct {
   MaterialType type;
@@ -35,26 +53,30 @@ typedef struct {
                    */
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
-  PetscReal own[MATERIAL_OWN];
+  MaterialHardening hardening; /* j2 */
+  PetscReal         density;   /* mass per undeformed volume; 0: not given. Used in dynamics only */
+  PetscReal         own[MATERIAL_OWN];
 } Material;
 
 /* The constants with which a law is evaluated [force/length^2] */
 typedef struct {
-  PetscReal lambda, mu;    /* Lame parameters */
-  PetscReal bulk;          /* kappa = lambda + 2 mu/3 */
-  PetscReal share;         /* Mooney-Rivlin: c01/(c10 + c01) */
-  PetscReal stiffness[36]; /* orthotropic: of strains xx yy zz 2xy 2yz 2zx */
-  PetscReal own[MATERIAL_OWN];
+  PetscReal                lambda, mu;    /* Lame parameters */
+  PetscReal                bulk;          /* kappa = lambda + 2 mu/3 */
+  PetscReal                share;         /* Mooney-Rivlin: c01/(c10 + c01) */
+  PetscReal                stiffness[36]; /* orthotropic: of strains xx yy zz 2xy 2yz 2zx */
+  PetscReal                own[MATERIAL_OWN];
+  const MaterialHardening *hardening; /* j2: of the Material, which must stay where it is */
+  const PetscReal         *history;   /* of the point, from the law's advance(); NULL: elastic, without any */
 } MaterialModuli;
 
-/* A constant of a law, as scenes have it: so many numbers of a Material, each between two bounds */
+/* A constant of a law in scenes: one or more numbers of a Material, with bounds */
 typedef struct {
   const char *name; /* of its key; NULL ends a list */
-  PetscInt    n;
-  size_t      at; /* offset in a Material */
+  PetscInt    n;    /* 0: a MaterialList */
+  size_t      at;   /* offset in a Material */
   PetscBool   required;
-  const char *label, *symbol; /* in sentences; NULL: its name */
-  PetscReal   lower, upper;   /* both excluded; PETSC_INFINITY: none. Both 0: any number will do */
+  const char *label, *symbol; /* name in messages; NULL: the key's name */
+  PetscReal   lower, upper;   /* bounds, both excluded; PETSC_INFINITY: none. Both 0: no bounds */
 } MaterialConstant;
 
 /*
@@ -66,7 +88,7 @@ typedef struct {
 */
 typedef struct {
   PetscBool constant;  /* the tangent does not depend on H */
-  PetscBool isotropic; /* and is lambda I (x) I + 2 mu I_sym */
+  PetscBool isotropic; /* and equals lambda I (x) I + 2 mu I_sym */
   /* Energy density W(H) [force/length^2] */
   PetscReal (*energy)(const MaterialModuli *, const PetscReal H[9]);
   /* First Piola-Kirchhoff stress P = dW/dH [force/length^2] */
@@ -79,11 +101,17 @@ typedef struct {
   PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
   /* Adds pressure times the second derivative of theta to a tangent */
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
+  /* Of laws with a history, whose functions above are of the step from the history of their moduli: writes the one
+     at H, and returns whether it differs. NULL: there is none. After it energy and stress at H are the same */
+  PetscBool (*advance)(const MaterialModuli *, const PetscReal H[9], PetscReal history[MATERIAL_HISTORY]);
+  /* The part of the energy that is plastic work [force/length^2] */
+  PetscReal (*work)(const MaterialModuli *, const PetscReal history[MATERIAL_HISTORY]);
   PetscBool               finite; /* strains are */
   const MaterialConstant *constants;
-  /* Its bulk modulus, 2 mu/3 + lambda, and what else the functions above read; an error if no such material exists */
+  /* Computes the moduli used by the functions above, among them the bulk modulus lambda + 2 mu/3; error if no such
+     material exists */
   PetscErrorCode (*moduli)(const Material *, MaterialModuli *);
-  /* Young's modulus, about, from other constants; NULL: it is one of them */
+  /* Sets an equivalent Young's modulus from other constants; NULL: it is one of the constants */
   void (*scale)(Material *);
 } MaterialLaw;
 
@@ -93,10 +121,12 @@ PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
 /* Sets an equivalent Young's modulus for a material with other constants */
 PETSC_EXTERN PetscErrorCode MaterialSetScale(Material *);
-/* Linear thermal expansion along the axes of space, a symmetric tensor */
+/* Linear thermal expansion as a symmetric tensor in global axes */
 PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9]);
-/* The constants for the law, and for its isochoric part alone */
+/* Moduli for the law, and for its isochoric part */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
+/* Whether a law of plasticity has such a hardening; if not, which constant is wrong and why */
+PETSC_EXTERN PetscBool MaterialCheckHardening(const MaterialHardening *, const char **key, char why[], size_t length);
 
 #endif

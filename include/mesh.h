@@ -1,11 +1,10 @@
 /*
    Meshes: one DMPlex of hexahedra and tetrahedra for all bodies (disjoint components), distributed and refined.
 
-   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its
-   facets and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement
-   components per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its
-   vertices, those of a body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the
-   reference geometry.
+   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its facets
+   and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components
+   per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a
+   body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the reference geometry.
 */
 #ifndef MESH_H
 #define MESH_H
@@ -17,7 +16,7 @@
 #define MESH_MAX_NODES       27 /* of a cell */
 #define MESH_MAX_FACET_NODES 9
 
-/* What the number of a cell's nodes says: tetrahedra have 4 or 10, hexahedra 8 or 27 */
+/* Tetrahedra have 4 or 10 nodes, hexahedra 8 or 27 */
 static inline PetscBool MeshIsTetrahedron(PetscInt nnodes)
 {
   return (PetscBool)(nnodes == 4 || nnodes == 10);
@@ -37,23 +36,23 @@ static inline PetscInt MeshCorners(PetscInt nnodes)
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
 /* Cells marked for refinement on one mesh after another, as cell numbers on the first rank */
 typedef struct {
-  PetscInt   n, *count; /* rounds, and the cells of each */
+  PetscInt   n, *count; /* number of rounds, and number of cells in each */
   PetscInt **cells;
 } MeshMarks;
-/* The mesh of a scene: refined where the scene says so, then where cells are marked; NULL: no cell will be marked */
+/* The mesh of a scene: refined as the scene says, then in the marked cells; marks NULL: none */
 PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, const MeshMarks *, DM *);
 PETSC_EXTERN PetscErrorCode MeshMarksAdd(DM, const PetscBool marked[], MeshMarks *);
 PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
-/* Hanging vertices, in the middle of an edge or a facet of a coarser cell, and the vertices whose mean they are; NULL:
-   none */
+/* means: for each hanging vertex (in the middle of an edge or facet of a coarser cell) the vertices whose mean it
+   is; NULL: no hanging vertices */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
-/* The facets of this rank that bound the bodies */
+/* Marks the boundary facets of the bodies on this rank */
 PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
-/* Checks the shape's parameters, or that the mesh file has the volume, and the parts of faces that the body names */
+/* Checks the shape's parameters, or that the mesh file contains the volume, and the body's parts of faces */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
-/* Names of a body's faces, without the body's name: those of the shape or the physical surfaces of the Gmsh file, then
-   the parts of them */
+/* Names of a body's faces without the body's name: faces of the shape, or physical surfaces of the Gmsh file; then
+   its parts of faces */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
 /* Checks that the faces of a scene have facets, and that every body is held by displacements or contact */
@@ -78,36 +77,35 @@ PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, P
 PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n,
   PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
-/* The two corners that each node of a tetrahedron lies between; values and derivatives of its shape functions */
+/* End vertices of the edge on which each node of a tetrahedron lies; values and derivatives of its shape functions */
 PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
 PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[],
             PetscReal dN[3][MESH_MAX_NODES]);
 /* The integration points of a tetrahedron of 4 or 10 nodes, and their weights */
 PETSC_EXTERN void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[]);
-/* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
+/* Shape functions of a cell with n nodes, and their derivatives, at a point of the reference cube or tetrahedron */
 PETSC_EXTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
-/* The order of every body on all ranks: the requested one, or that of its cells */
+/* Order of the displacements of every body, on all ranks: the requested one, or that of its cells */
 PETSC_EXTERN PetscErrorCode MeshGetOrders(DM, PetscInt nbodies, PetscInt orders[]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
-/* The place of a point in a mesh: a cell, and the values of its nodes' shape functions there, in the order of the
-   nodes */
+/* Position of a point in a mesh: a cell, and the values of its nodes' shape functions at the point */
 typedef struct {
-  PetscReal distance; /* of the point from the cell [length] */
-  PetscReal size;     /* of the cell: diagonal of its box [length] */
-  PetscInt  cell, n;  /* nodes of the cell */
-  PetscInt  body;     /* that the cell is of */
+  PetscReal distance; /* distance of the point from the cell [length] */
+  PetscReal size;     /* diagonal of the cell's bounding box [length] */
+  PetscInt  cell, n;  /* cell number; number of its nodes */
+  PetscInt  body;     /* body of the cell */
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
-/* Fields of a mesh, global vectors, at points of this rank: nfields x 3 values a point; missing: points of all ranks
-   that no cell is near */
+/* Evaluates fields (global vectors) at points of this rank: nfields x 3 values per point. missing: number of points
+   on all ranks that are near no cell */
 PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints,
   const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
 
-/* In which cells of a mesh are points? Of any cells, which need not be those of a DM */
+/* Finds the cells that contain points, in a DM or in any set of cells */
 typedef struct _n_MeshLocator *MeshLocator;
 PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[],
      MeshPlace places[]);
@@ -116,9 +114,9 @@ PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal poi
 PETSC_EXTERN PetscErrorCode MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3]);
 PETSC_EXTERN PetscErrorCode MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
 PETSC_EXTERN PetscErrorCode MeshLocatorDestroy(MeshLocator *);
-/* The points of a scene's probes; an error where one is in no body */
+/* Locates the points of a scene's probes; error if one is outside all bodies */
 PETSC_EXTERN PetscErrorCode MeshLocateProbes(DM, Scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[]);
-/* PETSCPARTITIONER type "metis" */
+/* Registers the PETSCPARTITIONER type "metis" */
 PETSC_EXTERN PetscErrorCode MeshRegisterPartitioner(void);
 
 #endif

@@ -7,7 +7,7 @@
 #include "material.h"
 #include "formulation.h"
 
-/* The shapes: a new one is a file of src/mesh/shapes and a line here. What it is called in C, and by scenes */
+/* The shapes. A new one is a file in src/mesh/shapes and a line here: name in C, and name in scenes */
 #define BODY_SHAPES(SHAPE) \
   SHAPE(BOX, Box, "box") \
   SHAPE(TUBE_ARC, TubeArc, "tube_arc") \
@@ -17,33 +17,31 @@
   SHAPE(BALL, Ball, "ball")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
-typedef enum {
-  BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH
-} BodyShape;
+typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 #undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
 
 #define BODY_OWN 16
 
-/* Arc of a tube. Angles turn about the axis from the next axis in the order x, y, z, x, y (for the axis y: from z to
-   x) */
+/* Arc of a tube. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis y:
+   from z to x) */
 typedef struct {
   PetscInt  axis;      /* 0, 1, 2: along x, y, z */
   PetscReal center[3]; /* a point on the axis [length] */
   PetscReal radii[2];  /* inner, outer [length] */
-  PetscReal angles[2]; /* from, to [degrees] */
-  PetscReal extent[2]; /* from, to along the axis [length] */
+  PetscReal angles[2]; /* first and last angle [degrees] */
+  PetscReal extent[2]; /* first and last position along the axis [length] */
 } SceneTubeArc;
 
-/* Prism over half an ellipse, or over one half of that, cut at its plane of symmetry */
+/* Prism with the cross-section of half an ellipse, or of a quarter if it is cut at its plane of symmetry */
 typedef struct {
-  PetscInt  axis;      /* of the prism: 0, 1, 2 */
+  PetscInt  axis;      /* axis of the prism: 0, 1, 2 */
   PetscInt  depth;     /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
   PetscInt  half;      /* direction from the plane of symmetry to the half that is modelled; PETSC_DECIDE: both halves
                           */
   PetscReal center[3]; /* a point on the line where the flat side meets the plane of symmetry [length] */
-  PetscReal semi_axes[2]; /* along depth, and across [length] */
-  PetscReal extent[2];    /* from, to along the axis [length] */
+  PetscReal semi_axes[2]; /* semi-axis along depth, and across [length] */
+  PetscReal extent[2];    /* first and last position along the axis [length] */
 } SceneHalfEllipse;
 
 typedef struct {
@@ -53,65 +51,80 @@ typedef struct {
 /* The octants of shells and balls: cut out by the three coordinate planes through a corner */
 typedef struct {
   PetscReal   corner[3];     /* [length] */
-  PetscInt    signs[3];      /* +-1: the side of each plane; 0 stands for 1 */
-  SceneSphere inner, outer;  /* sphere_shell; outer also ball */
+  PetscInt    signs[3];      /* +1 or -1 for the side of each plane; 0 stands for 1 */
+  SceneSphere inner, outer;  /* of sphere_shell; outer also of ball */
   SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
   PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */
   PetscReal   outer_axes[3];
-  PetscReal   layer_grading; /* thickness of the outermost layer over the innermost; 0: 1 */
-  PetscInt    layer_even;    /* equal layers at the fine end of the grading; 0 stands for 1 */
+  PetscReal   layer_grading; /* thickness of the outermost layer / that of the innermost; 0: 1 */
+  PetscInt    layer_even;    /* number of equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
-/* One volume of a Gmsh file */
+/* One volume of a mesh file */
 typedef struct {
-  char *file;   /* with its folder */
-  char *volume; /* physical name */
+  char     *file;       /* with its folder */
+  char     *volume;     /* physical name */
+  PetscReal scale;      /* factor of its coordinates; 0 stands for 1 */
+  char     *converted;  /* the temporary Gmsh file that a file of another format, or with a scale, became; else NULL */
+  int       descriptor; /* of that file, for the first body that has it, on the first rank; 0: none */
 } SceneGmsh;
 
-/* A part of a face: its facets that lie in a box at refinement level 0 */
+/* A part of a face: its facets at refinement level 0 whose centroids lie in a box */
 typedef struct {
   char     *name;               /* "<body>.<name>" is a face */
-  char     *of;                 /* the face, without its body */
-  PetscReal lower[3], upper[3]; /* bounds of the facets' centroids, may be infinite [length] */
+  char     *of;                 /* name of the face without the body */
+  PetscReal lower[3], upper[3]; /* bounds of the box, may be infinite [length] */
 } SceneSubface;
 
-/* Refinement level 0 and the shape. An octant's patches are its cells along x, y and z; a half ellipse's are those of
-   its core along depth and across half of it, and those of the ring around the core. */
+/* A body: shape and mesh at refinement level 0. The patches of an octant are its cells along x, y and z. Those of a
+   half ellipse are the cells of its core along depth and across half of it, and of the ring around the core. */
 typedef struct {
   char       *name;
   BodyShape   shape;
-  PetscReal   lower[3], upper[3]; /* box: corners [length] */
-  PetscInt    cells[3];           /* box: along each axis; tube_arc: radially, around, along; the others: patches */
+  PetscReal   lower[3], upper[3]; /* box: opposite corners [length] */
+  PetscInt    cells[3];           /* number of cells: box: along each axis; tube_arc: radially, around, along; other
+                                     shapes: in patches */
   Material    material;
   ElementType element;
   PetscInt  order; /* order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra, 2 for tetrahedra */
-  PetscReal grading[3]; /* size of the last cell over the first: box, octants: along each axis; tube_arc: as cells;
-                               half_ellipse:     core along depth, core across, ring to the arc; 0: 1 */
-  PetscInt  even[3];    /* equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt  layers;     /* half_ellipse: cells along the axis; octants: cells across the shell */
-  PetscBool curved;     /* refinement follows the shape's surfaces; false keeps the facets of level 0 */
+  PetscReal grading[3]; /* size of the last cell / size of the first: box, octants: along each axis; tube_arc: like
+                           cells; half_ellipse: core along depth, core across, ring; 0: 1 */
+  PetscInt  even[3];    /* number of equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt  layers;     /* number of cells: half_ellipse: along the axis; octants: through the shell */
+  PetscBool curved;     /* refined vertices follow the shape's curved surfaces; false: the facets of level 0 */
   SceneTubeArc     tube;
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
   SceneGmsh        gmsh;
-  PetscReal        own[BODY_OWN]; /* parameters of a shape that have no names here */
+  PetscReal        own[BODY_OWN]; /* parameters of shapes without a named member here */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
+  PetscReal        velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
 } SceneBody;
 
-/* A load program: the factor at the end of each load step, linear in between, 0 before the first */
+/* A load history (ramp): the factor at the end of each load step, linear in between */
 typedef struct {
   char      *name;
+  PetscReal  start;  /* factor before the first load step: 0 but in dynamics */
   PetscReal *factor; /* nsteps values */
 } SceneRamp;
 
+/* Inertia: a load step is a time step */
+typedef struct {
+  PetscReal      time_step, end_time; /* [time]; time_step 0: a static analysis */
+  DynamicsScheme scheme;
+  MassType       mass;
+  PetscReal      spectral_radius; /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
+  PetscReal      damping_mass;    /* forces by mass times velocity [1/time] */
+} SceneDynamics;
+
 typedef enum {
-  DISPLACEMENT_FACE, /* or all of a rigid body */
+  DISPLACEMENT_FACE, /* a face, or a whole rigid body */
   DISPLACEMENT_POINT,
   DISPLACEMENT_EDGE
 } DisplacementPlace;
 
-#define SCENE_WHOLE_BODY ".*" /* instead of a face: a whole rigid body */
+#define SCENE_WHOLE_BODY ".*" /* replaces the face's name for a whole rigid body */
 
 typedef struct {
   char     *name;
@@ -121,37 +134,37 @@ typedef struct {
   PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
   PetscBool moves;    /* a rigid motion of a rigid body, or of a face with a rotation; motions of one face or body add
                          up */
-  PetscReal rotation[3]; /* rotation vector about an axis through the center, at factor 1 [degrees] */
-  PetscReal center[3];   /* which moves by value [length] */
-  PetscBool released[6]; /* of a rigid body: its translations and rotations (about the center) that are free and driven
-                            by forces */
-  PetscBool inclined;  /* an inclined symmetry plane: no component is prescribed, but the displacement along the normal
-                          is 0 */
-  PetscReal normal[3]; /* of any length */
+  PetscReal rotation[3]; /* rotation vector about an axis through `center`, at factor 1 [degrees] */
+  PetscReal center[3];   /* center of rotation, which moves by `value` [length] */
+  PetscBool released[6]; /* rigid body: translations and rotations (about the center) that are free and driven by
+                            forces */
+  PetscBool inclined;    /* an inclined symmetry plane: the displacement along `normal` is 0, no component is
+                          prescribed */
+  PetscReal normal[3];   /* normal of the plane, any length */
   DisplacementPlace at;
-  PetscInt          body;           /* of a point or an edge */
+  PetscInt          body;           /* of a point or an edge: body */
   PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
   PetscInt          ramp;
 } SceneDisplacement;
 
-/* force -value x normal: of the reference face (a dead load), or of the deformed one */
+/* A pressure: force -value x normal, on the reference face (dead load) or on the deformed face (follower load) */
 typedef struct {
   char     *name;
   char     *face;
-  PetscBool follows; /* the deformed normal and area */
-  PetscReal value;   /* at factor 1, positive pushes on the body [force/length^2] */
+  PetscBool follows; /* acts on the deformed normal and area */
+  PetscReal value;   /* at factor 1; positive values push on the body [force/length^2] */
   PetscInt  ramp;
 } ScenePressure;
 
-/* Dead load on a face: a uniform traction, or one with the given resultant, linear if there is a moment */
+/* Dead load on a face or a rigid body: a uniform traction, or a resultant; with a moment the traction is linear */
 typedef struct {
   char     *name;
-  PetscInt  body;      /* rigid body that a resultant acts on; PETSC_DECIDE: it acts on a face */
+  PetscInt  body;      /* rigid body on which the resultant acts; PETSC_DECIDE: it acts on a face */
   char     *face;      /* with a resultant also a whole rigid body, "<body>" SCENE_WHOLE_BODY */
-  PetscBool resultant; /* value is the force [force], else the traction [force/length^2], at factor 1 */
+  PetscBool resultant; /* value is a force [force], not a traction [force/length^2]; at factor 1 */
   PetscReal value[3];
-  PetscReal moment[3]; /* moment of a resultant about the point where it acts, at factor 1 [force length] */
-  PetscBool placed;    /* the point is given; else it is the face's centroid */
+  PetscReal moment[3]; /* moment of the resultant about its point of action, at factor 1 [force length] */
+  PetscBool placed;    /* the point of action is given; otherwise it is the face's centroid */
   PetscReal point[3];  /* [length] */
   PetscInt  ramp;
 } SceneTraction;
@@ -160,8 +173,8 @@ typedef struct {
 typedef struct {
   char     *name;
   char     *face;
-  char     *to;       /* NULL: the ground; another face, which covers the first one */
-  PetscReal distance; /* facets further apart are not joined [length]; 0: chosen from their size */
+  char     *to;       /* NULL: the ground; else a face that covers the first one */
+  PetscReal distance; /* largest distance of facets that are joined [length]; 0: from their size */
   PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
@@ -172,25 +185,25 @@ typedef struct {
   PetscInt  ramp;
 } SceneBodyForce;
 
-/* Temperature above the stress-free one, of bodies that expand; those of one body add up */
+/* A temperature rise above the stress-free temperature; several for one body add up */
 typedef struct {
   char    *name;
   PetscInt body;  /* index, or PETSC_DECIDE: every body that expands */
-  char    *value; /* an expression of the undeformed place x, y, z [temperature], at factor 1 */
+  char    *value; /* an expression in the undeformed coordinates x, y, z [temperature], at factor 1 */
   PetscInt ramp;
 } SceneTemperature;
 
 typedef struct {
   char     *name;
   char     *mortar;    /* "<body>.<face>" */
-  char     *nonmortar; /* "<body>.<face>": carries the constraints */
+  char     *nonmortar; /* "<body>.<face>": the face that carries the constraints */
   GapType   gap;
-  PetscReal distance;          /* facets further apart never pair [length]; 0: chosen from the size of the faces */
-  PetscReal interference;      /* largest intended overlap at the start [length]; 0: none, PETSC_INFINITY: any */
-  PetscInt  interference_ramp; /* ramp of the interference; PETSC_DECIDE: all of it from the start */
-  PetscReal friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks with any force */
-  PetscReal shear_limit;       /* largest shear of the contact [force/length^2]; PETSC_INFINITY: none */
-  PetscInt  friction_ramp;     /* that the coefficient follows; PETSC_DECIDE: none */
+  PetscReal distance;          /* largest distance of facets that pair [length]; 0: from the size of the faces */
+  PetscReal interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
+  PetscInt  interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
+  PetscReal friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
+  PetscReal shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
+  PetscInt  friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
   PetscBool smooth;            /* measure the gap between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
@@ -199,12 +212,12 @@ static inline PetscBool SceneContactPairRubs(const SceneContactPair *pair)
   return (PetscBool)(pair->friction > 0.0 && pair->shear_limit > 0.0);
 }
 
-/* Faces that are joined, undeformed */
+/* A tie: two faces that are joined in the undeformed state */
 typedef struct {
   char     *name;
   char     *mortar;
-  char     *nonmortar; /* whose displacements follow */
-  PetscReal distance;  /* facets further apart are not joined [length]; 0: chosen from their size */
+  char     *nonmortar; /* the face whose displacements follow the other's */
+  PetscReal distance;  /* largest distance of facets that are joined [length]; 0: from their size */
 } SceneTie;
 
 /* A zone of finer cells: near a face, near both faces of a contact pair, or in a box */
@@ -212,8 +225,8 @@ typedef struct {
   char     *name;
   char     *face[2];            /* "<body>.<face>"; NULL: none */
   PetscInt  body;               /* PETSC_DECIDE: any */
-  PetscReal lower[3], upper[3]; /* where there is no face [length] */
-  PetscReal distance;           /* distance from each face, or from the box [length] */
+  PetscReal lower[3], upper[3]; /* box, if there is no face [length] */
+  PetscReal distance;           /* the zone's distance from each face, or from the box [length] */
   PetscInt  levels;             /* refinements beyond the uniform ones */
 } SceneRefinement;
 
@@ -223,33 +236,33 @@ typedef struct {
   PetscInt  body; /* PETSC_DECIDE: any */
   PetscBool line;
   PetscInt  n;              /* points */
-  PetscReal from[3], to[3]; /* a point is at from [length] */
+  PetscReal from[3], to[3]; /* ends of the line; for a point only `from` is used [length] */
 } SceneProbe;
 
-/* A PETSc option, without its dash */
+/* A PETSc option, without its leading dash */
 typedef struct {
   char     *name, *value;
-  PetscBool set; /* the scene set the option; the command line or an options file had not */
+  PetscBool set; /* the scene's value is in use: neither the command line nor an options file set the option */
 } SceneOption;
 
 typedef struct _n_Scene {
   char              *name;
-  char              *units; /* a note for tables; NULL: none */
+  char              *units; /* units as text for tables; NULL: none */
   PetscInt           nbodies;
   SceneBody         *bodies;
   PetscInt           ndisplacements;
   SceneDisplacement *displacements;
   PetscInt           npressures;
   ScenePressure     *pressures;
-  PetscInt           ntractions; /* forces on faces too */
+  PetscInt           ntractions; /* including forces and moments on faces and bodies */
   SceneTraction     *tractions;
   PetscInt           nsprings;
   SceneSpring       *springs;
-  PetscReal weak_springs; /* stiffness of weak springs on bodies that move freely, relative to Young's modulus times
-                             the cube root of the volume; 0: no weak springs */
-  PetscInt  nforces;
-  SceneBodyForce   *forces;
-  PetscInt          ntemperatures;
+  PetscReal       weak_springs; /* stiffness of the weak springs on bodies that move freely, relative to Young's modulus
+                             times the cube root of the volume; 0: none */
+  PetscInt        nforces;
+  SceneBodyForce *forces;
+  PetscInt        ntemperatures;
   SceneTemperature *temperatures;
   PetscInt          npairs;
   SceneContactPair *pairs;
@@ -259,23 +272,37 @@ typedef struct _n_Scene {
   SceneRefinement  *refinements;
   PetscInt          nprobes;
   SceneProbe       *probes;
+  SceneDynamics     dynamics;
   PetscInt          nsteps; /* load steps, at least 1 */
-  PetscInt          nramps; /* at least 1: ramp 0 is the load itself, for everything that names no ramp */
+  PetscInt          nramps; /* at least 1: ramp 0 is the load, for everything that names no ramp */
   SceneRamp        *ramps;
   PetscInt          refine; /* uniform refinements of level 0 */
   StepModel         model;
-  PetscInt contact_updates;     /* largest number of contact updates a load step; 1: one update, whatever the gap */
+  PetscInt contact_updates;     /* limit of contact updates per load step; 1: one update, and the gap is not required
+                                   to be consistent */
   PetscInt displacement_bounds; /* first load step (from 1) whose displacements are bounded by the largest increment so
                                    far; 0: none */
-  PetscInt noptions;            /* of the solver */
+  PetscInt noptions;            /* number of PETSc options */
   SceneOption *options;
 } * Scene;
 
-/* Factor of a ramp at a time: load step k ends at time k, from 1 */
+/* Whether bodies have inertia */
+static inline PetscBool SceneIsDynamic(Scene scene)
+{
+  return (PetscBool)(scene->dynamics.time_step > 0.0);
+}
+
+/* Load step k ends at k times this */
+static inline PetscReal SceneTimeStep(Scene scene)
+{
+  return SceneIsDynamic(scene) ? scene->dynamics.time_step : 1.0;
+}
+
+/* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
-/* Of the body that a face belongs to */
+/* The material of the body that a face belongs to */
 PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);
-/* An expression of the place */
+/* Evaluates an expression in x, y, z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 
 #endif

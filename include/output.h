@@ -15,10 +15,10 @@ PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
 PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 
-/* What the page of a run is made from */
+/* Data for the HTML page of a run */
 typedef struct {
   char file[PETSC_MAX_PATH_LEN]; /* the page */
-  char base[PETSC_MAX_PATH_LEN]; /* of the fields' files */
+  char base[PETSC_MAX_PATH_LEN]; /* base name of the fields' files */
   char summary[PETSC_MAX_PATH_LEN], scene[PETSC_MAX_PATH_LEN];
   char command[4096], versions[512];
 } ReportPage;

@@ -40,11 +40,7 @@
 
   Level: intermediate
 E*/
-typedef enum {
-  PC_AMGF_BFB,
-  PC_AMGF_FBF,
-  PC_AMGF_ADDITIVE
-} PCAMGFCycle;
+typedef enum { PC_AMGF_BFB, PC_AMGF_FBF, PC_AMGF_ADDITIVE } PCAMGFCycle;
 PETSC_EXTERN const char *const PCAMGFCycles[];
 
 /*E
@@ -57,11 +53,7 @@ PETSC_EXTERN const char *const PCAMGFCycles[];
 
   Level: intermediate
 E*/
-typedef enum {
-  PC_AMGF_FACTOR_FALSE,
-  PC_AMGF_FACTOR_TRUE,
-  PC_AMGF_FACTOR_AUTO
-} PCAMGFFactorUse;
+typedef enum { PC_AMGF_FACTOR_FALSE, PC_AMGF_FACTOR_TRUE, PC_AMGF_FACTOR_AUTO } PCAMGFFactorUse;
 PETSC_EXTERN const char *const PCAMGFFactorUses[];
 
 /* What a PCAMGF has done since it was created; PCReset() keeps the counts */

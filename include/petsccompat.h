@@ -1,5 +1,5 @@
-/* Differences between PETSc releases, and nothing else. Base: 3.18; newest compiled against: the main branch of August
-   2026 (3.25). */
+/* Differences between PETSc releases, and nothing else. Oldest release: 3.18; newest compiled against: the main
+   branch of August 2026 (3.25). */
 #ifndef PETSCCOMPAT_H
 #define PETSCCOMPAT_H
 
@@ -23,7 +23,7 @@ typedef PetscOptionItems AMGFOptionItems;
   #define MPI_PETSCBOOL MPI_C_BOOL
 #endif
 
-/* The argument of a destructor: the context, or a pointer to the pointer */
+/* Argument of a destructor: the context (old), or a pointer to it (new) */
 #if PETSC_VERSION_LT(3, 23, 0)
 typedef PetscErrorCode PetscCtxDestroyFn(void *);
   #define PetscContainerSetCtxDestroy(container, destroy) PetscContainerSetUserDestroy(container, destroy)
@@ -44,7 +44,7 @@ typedef void AMGFOperation(void);
 typedef PetscErrorCodeFn AMGFOperation;
 #endif
 
-/* Defaults of a type that do not override the user's values */
+/* Sets defaults of a type that do not override the user's values */
 #if PETSC_VERSION_LT(3, 22, 0)
   #define PetscObjectParameterSetDefault(object, name, value) \
     do { \

@@ -1,5 +1,5 @@
-/* Makes a failure on one rank a failure on all. Work that is not collective and may fail on some ranks only (the first
-   rank reads a file, or has no memory) stands between RankErrorBegin() and RankErrorEnd(). */
+/* Makes an error on one rank an error on all. Work that is not collective and may fail on some ranks only (the first
+   rank reads a file, or a rank has no memory) is placed between RankErrorBegin() and RankErrorEnd(). */
 #ifndef RANKERROR_H
 #define RANKERROR_H
 
@@ -10,7 +10,7 @@ typedef struct {
   char           message[1024]; /* the message of the first rank that failed */
 } RankError;
 
-/* From here on PETSc's errors are kept in the RankError and not printed */
+/* From here on errors are stored in the RankError and not printed */
 PETSC_EXTERN PetscErrorCode RankErrorBegin(RankError *);
 /* Collective. code: the return value of the work on this rank. Afterwards the RankError is the same on every rank */
 PETSC_EXTERN PetscErrorCode RankErrorEnd(MPI_Comm, PetscErrorCode code, RankError *);

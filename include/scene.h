@@ -8,12 +8,13 @@
 
 PETSC_EXTERN PetscErrorCode SceneLoad(MPI_Comm, const char file[], Scene *);
 PETSC_EXTERN PetscErrorCode SceneView(Scene, PetscViewer);
-/* Prints the keys of the format as tables */
+/* Prints the keys of the format as Markdown tables */
 PETSC_EXTERN PetscErrorCode SceneViewKeys(PetscViewer);
-/* The text of a scene as it is viewed. Compares two such texts; load program, mesh and solver may differ */
+/* The text of a scene as printed by SceneView(); and a comparison of a scene with such a text, in which load
+   program, mesh and solver may differ */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);
 PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char difference[], size_t length);
-/* Describes what will be simulated; dm: the scene's mesh */
+/* Describes what will be simulated on the mesh dm */
 PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode SceneDestroy(Scene *);

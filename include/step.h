@@ -1,5 +1,5 @@
-/* Load stepping with elasticity and contact. Each load step minimizes the elastic energy subject to the linearized
-   gap: by TAO, or by one PCG solve if the energy is quadratic and there is neither contact nor a bound. */
+/* Load stepping with elasticity and contact. Each load step minimizes the energy subject to the linearized gap: by
+   TAO, or by one PCG solve if the energy is quadratic and there are neither contact pairs nor bounds. */
 #ifndef STEP_H
 #define STEP_H
 
@@ -16,18 +16,18 @@ typedef struct {
   PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's default */
   PetscReal linear;     /* relative residual of PCG for a load step without TAO */
   PetscReal gap_change; /* change of the gap that ends the contact updates, relative to the largest displacement */
-  PetscReal gap_untrue; /* change of the gap above which a load step has not converged, relative to the largest
+  PetscReal gap_untrue; /* change of the gap above which a load step counts as not converged, relative to the largest
                            displacement */
 } StepTolerances;
 
-/* The solution of each load step on a mesh: displacement, and the pressures of each contact pair. Initially zero */
+/* Solutions of all load steps on a mesh: displacement, and pressures of each contact pair. Initialize with zeros */
 typedef struct {
   DM       dm;
   PetscInt nsteps, nfields;
   Vec     *fields; /* nsteps x nfields */
 } StepForecast;
 
-/* Create, set, SimulationSetFromOptions(), SimulationSetUp(), then the load steps */
+/* Order of calls: create, set, SimulationSetFromOptions(), SimulationSetUp(), load steps */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
 PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *);
@@ -35,20 +35,21 @@ PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
-/* The solutions from which load steps start, found on another mesh; afterwards those of this mesh */
+/* Sets the solutions, found on another mesh, from which load steps start; afterwards it holds those of this mesh */
 PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
 PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
-/* Marks cells for the next mesh by the errors of these load steps; and how much the mesh grows */
+/* Propose: selects cells to refine by the errors of these load steps, and how much the mesh would grow. Mark: adds
+   them to the marks */
 PETSC_EXTERN PetscErrorCode SimulationPropose(Simulation, PetscReal *growth);
 PETSC_EXTERN PetscErrorCode SimulationMark(Simulation, MeshMarks *);
-/* The state for a checkpoint. Sets a state from one before the first load step, and gives the next step */
+/* Gets the state for a checkpoint; sets the state from one before the first load step */
 PETSC_EXTERN PetscErrorCode SimulationGetCheckpoint(Simulation, Checkpoint *);
 PETSC_EXTERN PetscErrorCode SimulationSetCheckpoint(Simulation, Checkpoint, PetscInt *step);
-/* Describes the contact pairs before a run: gaps, overlaps, sizes of facets; dm: the scene's mesh */
+/* Describes the contact pairs before a run: gaps, overlaps, facet sizes */
 PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);

@@ -1,4 +1,4 @@
-/* The preconditioner type: its page, and its life from creation to destruction */
+/* The preconditioner type: manual page, creation, destruction */
 #include "amgfimpl.h"
 
 static PetscErrorCode PCReset_AMGF(PC pc)
@@ -46,7 +46,6 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
                                       the positive diagonal entries; 0: off
 .  -pc_amgf_amg_lag <auto>          - n: rebuild the AMG at every n-th changed operator; -1: never; 0 or `auto`: when
                                       the cost grows; the cycle `bfb` has the default 1
-.  -pc_amgf_amg_lag_ratio <1.5>     - automatic lag: growth of the cost that calls for a rebuild, at least 1
 .  -amgf_amg_pc_type <blockamg>     - the AMG, B; any symmetric `PC`, with all of its options under the prefix
                                       `amgf_amg_`; `hypre`: BoomerAMG with its own cycle
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the
@@ -55,8 +54,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -pc_amgf_filter_ranks <0>        - how many ranks the direct solver has, unless its type is given; 0: one for every
                                       10,000 rows
 .  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options
-                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says
-                                      that it is the cheaper
+                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says that it is the cheaper
 -  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
 
    Level: intermediate
@@ -127,7 +125,6 @@ PetscErrorCode PCCreate_AMGF(PC pc)
   amgf->cycle        = PC_AMGF_FBF;
   amgf->active       = PETSC_TRUE;
   amgf->lag.every    = AMGF_LAG_UNSET;
-  amgf->lag.ratio    = 1.5;
   amgf->factor.share = 0.4;
   PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amgf->amg));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)amgf->amg, (PetscObject)pc, 1));

@@ -1,4 +1,4 @@
-/* Private to PCAMGF */
+/* Private header of PCAMGF */
 #ifndef AMGFIMPL_H
 #define AMGFIMPL_H
 
@@ -6,7 +6,7 @@
 #include <petsc/private/pcimpl.h>
 #include <petscamgf.h>
 
-/* Who named the subspace; in order of precedence after NONE */
+/* Source of the subspace, in order of precedence after NONE */
 typedef enum {
   AMGF_SOURCE_NONE,
   AMGF_SOURCE_CALL,
@@ -15,56 +15,55 @@ typedef enum {
   AMGF_SOURCE_DETECT
 } AMGFSource;
 
-/* A version of an object: the object, its values, its nonzero pattern */
+/* Identifies a matrix and its state: object, values, nonzero pattern */
 typedef struct {
   PetscObjectId    id;
   PetscObjectState state, pattern;
 } AMGFStamp;
 
-/* Special values of PCAMGFSetAMGLag(); unset: the default of the cycle */
+/* Special values of PCAMGFSetAMGLag(); unset: default of the cycle */
 #define AMGF_LAG_AUTO  0
 #define AMGF_LAG_NEVER (-1)
 #define AMGF_LAG_UNSET (-2)
 
-/* When to rebuild the AMG */
+/* Automatic lag: the AMG is rebuilt if costs, or a diagonal entry outside the subspace, grow by this factor */
+#define AMGF_LAG_RATIO 1.5
+
+/* Rule for rebuilding the AMG */
 typedef struct {
-  PetscInt every; /* as PCAMGFSetAMGLag() */
-  PetscReal
-    ratio; /* automatic lag: ratio of the costs, or of diagonal entries outside the subspace, above which the AMG is
-              rebuilt */
+  PetscInt  every; /* as PCAMGFSetAMGLag() */
   PetscBool built;
-  PetscInt  age;      /* changed operators since the last rebuild */
+  PetscInt  age;      /* number of changed operators since the last rebuild */
   AMGFStamp seen;     /* operator at the last set-up */
   Vec       diagonal; /* diagonal of the operator from which the AMG was built; automatic lag only */
-  PetscBool overdue;  /* the last solve cost too much */
+  PetscBool overdue;  /* the last solve was too expensive */
   PetscInt  its;      /* reference: iterations, */
-  PetscReal digits;   /* and digits of residual reduction */
+  PetscReal digits;   /* and its digits of residual reduction */
   PetscInt  history;  /* length of the residual history when the solve began */
 } AMGFLag;
 
-/* B as a factorization of the operator in place of the AMG */
+/* A factorization of the operator that replaces the AMG as B */
 typedef struct {
   PCAMGFFactorUse use;
   PetscBool       on;     /* B is the factorization */
-  PetscBool       failed; /* the last one did */
-  PetscReal       share;  /* largest share of the machine's memory for the factors, with automatic choice */
+  PetscBool       failed; /* the last factorization failed */
+  PetscReal       share;  /* automatic choice: limit of the factors' memory, as a fraction of the machine's memory */
   Mat             F;
-  AMGFStamp       analysed;               /* the operator that MUMPS has analysed, and the estimates of the analysis: */
-  PetscReal       flops, entries, memory; /* of the factors; [bytes] */
-  char            why[160];               /* the last choice */
+  AMGFStamp       analysed;               /* the operator analysed by MUMPS, and the estimates of the analysis: */
+  PetscReal       flops, entries, memory; /* operations, entries and memory [bytes] of the factors */
+  char            why[160];               /* explanation of the last choice */
 } AMGFFactor;
 
-/* The filtered system on the first few ranks */
+/* Solver of the filtered system on the first few ranks */
 typedef struct {
   PetscInt    wanted; /* as PCAMGFSetFilterRanks() */
   PetscMPIInt nranks; /* number of ranks that solve; 0: not set up */
-  PetscBool   solves; /* this rank does */
+  PetscBool   solves; /* whether this rank is one of them */
   AMGFStamp   stamp;  /* of A_w */
   MPI_Comm    comm;   /* communicators of the ranks that solve, and of the others */
-  PC          pc;     /* on the ranks that solve, like A, b and x */
+  PC          pc;     /* on the solving ranks, like A, b and x */
   Mat         moved, rows, A;
-  Vec         at, b, x; /* at: moves vectors of all ranks to the ranks that solve; NULL: all ranks solve, with the
-                           matrix as it is */
+  Vec         at, b, x; /* at: vector scatter to the solving ranks; NULL: all ranks solve, with the matrix itself */
   VecScatter  scatter;
 } AMGFFewRanks;
 
@@ -77,12 +76,12 @@ typedef struct {
 /* The subspace range(P): either unknowns (rows) or a general interpolation P */
 typedef struct {
   AMGFSource source;
-  IS         rows; /* owned rows of A that enter R: sorted, unique; the filtered unknowns if P is NULL */
+  IS         rows; /* owned rows of A that are needed for R, sorted, unique; the filtered unknowns if P is NULL */
   Mat        P;
   AMGFStamp  stamp; /* state of the Mat from which P was taken */
 
-  PetscObjectId    composed_id; /* state of what was composed on the operator when the subspace was looked up; 0:
-                                   nothing */
+  PetscObjectId    composed_id; /* object composed on the operator when the subspace was looked up, and its state; 0:
+                                   none */
   PetscObjectState composed_state;
   PetscInt         nlocal, n;
 } AMGFSubspace;
@@ -91,14 +90,15 @@ typedef struct {
   PCAMGFCycle  cycle;
   PC           amg;
   KSP          filter;
-  PetscBool    configured; /* inner solvers have read their options */
-  PetscBool    bydefault;  /* the AMG's type is the default: PCBLOCKAMG, or BoomerAMG where single precision fails */
-  PetscBool    active;     /* use the subspace; else the AMG alone */
+  PetscBool    configured; /* the inner solvers have read their options */
+  PetscBool    bydefault;  /* the AMG has its default type: PCBLOCKAMG, or BoomerAMG where single precision is not
+                              sufficient */
+  PetscBool    active;     /* the subspace is used; otherwise the AMG alone */
   PetscBool    optional;   /* a missing subspace is intended: no warning */
   PetscBool    warned;
   PCAMGFCounts counts;
 
-  /* how the subspace is named */
+  /* set by the user: */
   IS        set_is;
   Mat       set_P;
   char     *file;
@@ -107,7 +107,7 @@ typedef struct {
   IS        detected_is;
 
   AMGFSubspace sub;
-  AMGFStamp    galerkin;   /* operator R and Aw were filled from */
+  AMGFStamp    galerkin;   /* the operator from which R and Aw were computed */
   Mat          rowsA;      /* rows of A where P is nonzero; with a general P only */
   Mat          rowsP;      /* the same rows of P */
   Mat          R;          /* P^H A, thin: n_c x n */
@@ -120,7 +120,7 @@ typedef struct {
   AMGFFewRanks few;
 } PC_AMGF;
 
-/* The files of this folder, each after those it builds on, and what they define for others */
+/* Functions of this folder; files in the order in which they depend on each other */
 
 /* log.c */
 PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
@@ -176,7 +176,7 @@ PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
-/* api.c, beside the public functions */
+/* api.c, in addition to the public functions */
 PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFRemoveFunctions_Private(PC);
 /* opts.c */
@@ -187,7 +187,7 @@ PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);
 /* library.c */
 PETSC_INTERN PetscErrorCode PCAMGFCheckLibrary_Private(void);
-/* version.c: a public function */
-/* register.c: the two public functions with which the plugin begins and ends */
+/* version.c: only a public function */
+/* register.c: only public functions, called when the plugin is loaded and finalized */
 
 #endif

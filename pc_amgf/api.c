@@ -328,9 +328,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns
-             of it on the standard error stream;
-             `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
+             it on the standard error stream; `PETSC_TRUE`: it does not
 
   Level: intermediate
 
@@ -358,9 +357,8 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 + pc  - the preconditioner
 - lag - n > 0: at every n-th changed operator; -1: never again; 0: automatically
 
-  Options Database Keys:
-+ -pc_amgf_amg_lag <auto>      - the lag; `auto` is 0; the cycle `bfb` has the default 1
-- -pc_amgf_amg_lag_ratio <1.5> - growth that calls for a rebuild, with automatic lag; at least 1
+  Options Database Key:
+. -pc_amgf_amg_lag <auto> - the lag; `auto` is 0; the cycle `bfb` has the default 1
 
   Level: intermediate
 
@@ -369,12 +367,10 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   indefinite; automatic for the other cycles.
 
   With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
-  reduction
-  (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a diagonal entry
-  of the operator outside the subspace has
-  grown or shrunk by more than the ratio, or when a solve has failed. The iterations are those of the `KSP` that owns
-  the preconditioner, compared with its first solve after the AMG was
-  built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
+  reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a
+  diagonal entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has
+  failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the
+  AMG was built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
   changed operator.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`

@@ -16,7 +16,7 @@ static PetscErrorCode BoomerAMGOptionName(PetscObject obj, const char name[], ch
   PetscFunctionReturn(0);
 }
 
-/* Sets an option in the database unless the user has set it; *set: it did */
+/* Sets an option in the database unless the user has set it; *set: whether it was set here */
 static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption *option, PetscBool *set)
 {
   PetscOptions options;
@@ -42,8 +42,8 @@ static PetscErrorCode BoomerAMGReadOptions(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCHYPRE has no functions for most parameters. Its defaults are therefore set in the options database and removed
-   afterwards */
+/* Sets defaults in the options database and removes them afterwards, since PCHYPRE has no functions for most
+   parameters */
 static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMGOption defaults[])
 {
   PetscBool   *set;

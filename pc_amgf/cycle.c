@@ -6,7 +6,7 @@
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* VecConjugate() refuses vectors that are locked for reading, real ones too */
+/* VecConjugate() rejects vectors that are locked for reading, even real ones */
 static PetscErrorCode CycleConjugate(Vec x)
 {
   PetscFunctionBegin;
@@ -15,9 +15,9 @@ static PetscErrorCode CycleConjugate(Vec x)
 }
 
 /*
-   PCApply() of the AMG. An error in its library may occur on one rank only. Then z is zero there and the PC is marked
-   as failed; all ranks learn it at the next reduction. The same holds if the set-up of the AMG has failed, because
-   KSPs apply the PC before they check.
+   PCApply() of the AMG. A library error may occur on one rank only. z is then set to zero there and the PC is marked as
+   failed; all ranks notice at the next reduction. The same is done if the AMG's set-up failed, because KSPs apply the
+   PC before they check.
 */
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
 {
@@ -189,7 +189,7 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
   PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
   if (stale) PetscCall(PCSetUp_AMGF(pc));
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
-  PetscCall(VecFlag(z, pc->failedreason)); /* the KSP that owns it then asks for the reason */
+  PetscCall(VecFlag(z, pc->failedreason)); /* so that the KSP asks for the reason */
   PetscFunctionReturn(0);
 }
 

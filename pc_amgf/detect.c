@@ -1,7 +1,7 @@
 /* Stiff rows by their diagonal entries: their detection, and how far they are from soft ones */
 #include "amgfimpl.h"
 
-/* An entry that has a logarithm */
+/* Whether an entry is positive and finite */
 static PetscBool DetectCounts(PetscScalar d)
 {
   return (PetscBool)(PetscRealPart(d) > 0.0 && PetscRealPart(d) <= PETSC_MAX_REAL);
@@ -13,7 +13,7 @@ static PetscBool DetectCounts(PetscScalar d)
 */
 static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
 {
-  PetscReal range[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}; /* -log min, log max */
+  PetscReal range[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}; /* -log of the smallest, log of the largest */
   PetscInt  count    = 0;
 
   PetscFunctionBegin;
@@ -71,8 +71,8 @@ PetscErrorCode PCAMGFDetectRows_Private(Mat A, PetscReal ratio, IS *rows)
 }
 
 /*
-   A x - D x with a vector of no zeros: exactly zero in rows that are coupled to no other, such as those of prescribed
-   values
+   coupling = A x - D x for a vector x without zeros: exactly zero in rows that are coupled to no other, such as those
+   of prescribed values
 */
 static PetscErrorCode ContrastFindCoupling(Mat A, Vec diagonal, Vec *coupling)
 {
@@ -97,7 +97,7 @@ static PetscErrorCode ContrastFindCoupling(Mat A, Vec diagonal, Vec *coupling)
   PetscFunctionReturn(0);
 }
 
-/* The largest of the entries, and of their inverses; on this rank */
+/* range: the largest entry and the largest inverse on this rank, without uncoupled rows */
 static PetscErrorCode ContrastFindRange(Vec diagonal, Vec coupling, PetscReal range[2])
 {
   PetscInt           n;

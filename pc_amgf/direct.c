@@ -1,4 +1,4 @@
-/* The direct solver of the filtered matrix */
+/* Direct solver of the filtered matrix */
 #include "amgfimpl.h"
 #include "mumps.h"
 

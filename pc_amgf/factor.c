@@ -67,13 +67,13 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
   PetscCall(AMGFMumpsGetInfog(f->F, 20, &entries));
   PetscCall(AMGFMumpsGetInfog(f->F, 17, &memory));
   f->entries =
-    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS gives large counts in millions, as negative numbers */
+    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS returns large counts in millions, as negative numbers */
   f->memory = 1e6 * memory;
   if (error) f->flops = f->entries = f->memory = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
-/* CPU time of the calling thread [s]; other threads and processes do not change it */
+/* CPU time of the calling thread [s], not affected by other threads and processes */
 static PetscReal FactorThreadTime(void)
 {
   struct timespec now;
@@ -82,15 +82,16 @@ static PetscReal FactorThreadTime(void)
   return (PetscReal)now.tv_sec + 1e-9 * (PetscReal)now.tv_nsec;
 }
 
-/* Whether BLAS is one that was written for the processor: the reference implementation takes ten times as long for a
-   product of matrices */
+/* rate: flops per second of BLAS, optimized or reference implementation: the latter takes ten times as long for a
+   matrix product */
 static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 {
   const PetscBLASInt n   = 192;
   const PetscScalar  one = 1.0, zero = 0.0;
-  const PetscReal    threshold = 4e9, tuned = 2.7e10, reference = 1.2e9; /* flops a second */
-  PetscScalar       *a, *c;
-  PetscReal          best = 0.0;
+  /* flops per second: threshold between the two; their rates */
+  const PetscReal threshold = 4e9, tuned = 2.7e10, reference = 1.2e9;
+  PetscScalar    *a, *c;
+  PetscReal       best = 0.0;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(n * n, &a, n * n, &c));
@@ -107,19 +108,20 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 }
 
 /*
-   Time of either solver on one core [s], fitted to elastic bodies of 2,000 to 200,000 unknowns. Ranks are assumed to
-   share the work equally. An application of the AMG includes what its caller does beside it: a product with the
-   operator, and the orthogonalization of one more direction. In contact a part of that is the same for all sizes.
+   Estimated time of either solver on one core [s], fitted to elastic bodies with 2,000 to 200,000 unknowns. Ranks are
+   assumed to share the work equally. An application of the AMG includes the caller's work: a product with the operator
+   and the orthogonalization of a direction. With contact a part of that does not depend on the size.
 */
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const PC_AMGF    *amgf     = (PC_AMGF *)pc->data;
   const AMGFFactor *f        = &amgf->factor;
-  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix */
-  const PetscReal   single = 1.6e-9, other = 1e-8;       /* an application of PCBLOCKAMG, or BoomerAMG; per entry */
-  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* beside it: per entry; per application */
-  const PetscReal   cached       = 2e6;                  /* entries above which an application takes twice as long */
-  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* an entry of the factors */
+  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix [s] */
+  const PetscReal   single = 1.6e-9, other = 1e-8;       /* time of an application per entry [s]: PCBLOCKAMG;
+                                                            BoomerAMG */
+  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* caller's work: per entry, and per application [s] */
+  const PetscReal   cached       = 2e6;                  /* with more entries an application takes twice as long */
+  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* time per entry of the factors: factorization, solve [s] */
   MatInfo           info;
   PetscReal         rate;
   PetscBool         half, block;
@@ -164,13 +166,13 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   PetscFunctionReturn(0);
 }
 
-/* Chooses B for the given number of applications of an AMG, or of solves with factors, with the present operator */
+/* Chooses B for the present operator from the expected number of AMG applications or of solves with factors */
 static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solves)
 {
   PC_AMGF        *amgf    = (PC_AMGF *)pc->data;
   AMGFFactor     *f       = &amgf->factor;
-  const PetscReal largest = 5e5; /* above so many unknowns the analysis alone takes minutes, and as much memory as the
-                                    AMG */
+  const PetscReal largest = 5e5; /* with more unknowns the analysis alone would take minutes, and as much memory as
+                                    the AMG */
   AMGFStamp       now;
   PetscInt        n;
   Mat             A;
@@ -179,7 +181,7 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed) PetscFunctionReturn(0);
   PetscCall(MatGetSize(pc->pmat, &n, NULL));
   if (n > largest) PetscFunctionReturn(0);
-  PetscCall(PCAMGFConfigureInner_Private(pc)); /* which AMG it would be */
+  PetscCall(PCAMGFConfigureInner_Private(pc)); /* determines which AMG would be used */
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!AMGFStampSamePattern(&now, &f->analysed)) {
     PetscCall(FactorTakeMatrix(pc->pmat, &A));
@@ -188,7 +190,7 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
     PetscCall(MatDestroy(&A));
   }
   PetscCall(FactorCompare(pc, applications, solves, &f->on));
-  if (!f->on) PetscCall(MatDestroy(&f->F)); /* of which the estimates are kept */
+  if (!f->on) PetscCall(MatDestroy(&f->F)); /* the estimates are kept */
   else amgf->lag.built = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -212,7 +214,7 @@ static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
 }
 
 /*
-  PCAMGFFactorSetUp_Private - factors the operator; f->failed says that it cannot be
+   PCAMGFFactorSetUp_Private - factors the operator; f->failed: it cannot be factored
 */
 PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
 {
@@ -317,11 +319,10 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory;
-  the AMG by the entries of the operator. Call it before the
-  first `PCSetUp()`, and again when more is known: a change from the AMG to the factorization comes with the next
-  `PCSetUp()`. There is no way back while the
-  pattern of the operator stays. Operators of more than 500,000 unknowns keep the AMG.
+  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the
+  AMG by the entries of the operator. Call it before the first `PCSetUp()`, and again when more is known: a change from
+  the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the pattern of the operator
+  stays. Operators of more than 500,000 unknowns keep the AMG.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/

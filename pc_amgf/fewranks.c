@@ -1,12 +1,12 @@
 /*
-   The filtered system on the first few ranks. Its factors are small; on all ranks, messages would take longer than
-   arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors. The direct solver on those ranks reads the
+   Solves the filtered system on the first few ranks. Its factors are small; on all ranks, messages would take longer
+   than arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors. The direct solver on those ranks reads the
    options of the filter's prefix.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
 
-/* Moves A_w to fewer ranks, row by row */
+/* Moves A_w to the solving ranks, row by row */
 static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool reuse)
 {
   const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -27,7 +27,7 @@ static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool re
   PetscFunctionReturn(0);
 }
 
-/* The vectors of the ranks that solve, and the way to them */
+/* Creates the vectors on the solving ranks, and the scatter to them */
 static PetscErrorCode FewRanksCreateVecs(AMGFFewRanks *few, Mat Aw)
 {
   const MPI_Comm comm = PetscObjectComm((PetscObject)Aw);
@@ -70,7 +70,7 @@ PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
   PetscFunctionReturn(0);
 }
 
-/* Number of ranks by size: with fewer rows a rank than this, one rank is faster than several */
+/* Number of ranks by size: below this number of rows per rank, one rank is faster than several */
 static PetscErrorCode FewRanksChoose(const AMGFFewRanks *few, Mat Aw, PetscMPIInt *nranks)
 {
   const PetscInt rows_per_rank = 10000;
@@ -110,7 +110,7 @@ static PetscErrorCode FewRanksCreate(PC shell, Mat Aw, PetscMPIInt nranks, AMGFF
   PetscFunctionReturn(0);
 }
 
-/* A failure on the ranks that solve becomes one of all ranks */
+/* Makes a failure on the solving ranks a failure on all */
 static PetscErrorCode FewRanksShareFailure(PC shell, const AMGFFewRanks *few)
 {
   PCFailedReason reason = PC_NOERROR;
@@ -151,7 +151,7 @@ static PetscErrorCode FewRanksSetUp(PC shell)
   PetscFunctionReturn(0);
 }
 
-/* x = A_w^-1 r by one of PCApply() and PCApplyTranspose() */
+/* x = A_w^-1 r by PCApply() or PCApplyTranspose() */
 static PetscErrorCode FewRanksSolve(PC shell, PetscErrorCode (*apply)(PC, Vec, Vec), Vec r, Vec x)
 {
   AMGFFewRanks *few;
@@ -208,7 +208,7 @@ static PetscErrorCode FewRanksView(PC shell, PetscViewer viewer)
 }
 
 /*
-  PCAMGFFewRanksBegin_Private - makes a PC, which has no type yet, one that solves on the first few ranks
+   PCAMGFFewRanksBegin_Private - sets a PC without a type up to solve on the first few ranks
 */
 PetscErrorCode PCAMGFFewRanksBegin_Private(PC pc, AMGFFewRanks *few)
 {

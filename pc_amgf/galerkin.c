@@ -1,4 +1,4 @@
-/* The thin matrix R = P^H A and the filtered matrix A_w = P^H A P; with real scalars P^H is P^T */
+/* The matrices R = P^H A (few rows) and A_w = P^H A P; for real scalars P^H is P^T */
 #include "amgfimpl.h"
 
 /* P selects unknowns: R is rows of A, A_w columns of R */
@@ -46,10 +46,8 @@ PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *amgf)
 }
 
 /*
-  PCAMGFUpdateGalerkin_Private - R and A_w of the current operator and subspace
-
-  Input Parameter:
-. same - the subspace is that of the last call
+   allows a factorization without pivoting; PETSc takes MAT_SPD to imply symmetric, which a complex Hermitian matrix is
+   not
 */
 PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
 {

@@ -1,9 +1,9 @@
-/* Catches errors of libraries (hypre) between begin and end of a call, so that they do not end the program. */
+/* Catches errors of libraries (hypre) inside a call, so that they do not end the program. */
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* Error handler: keeps errors of libraries and their messages, and passes all other errors to the previous handler.
-   PETSc calls it at every level that an error passes. */
+/* Error handler: stores errors of libraries and their messages; passes all other errors to the previous handler.
+   PETSc calls it at every level of the call stack. */
 static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file,
   PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
 {
@@ -19,8 +19,8 @@ static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *func
   return error;
 }
 
-/* Clears hypre's error flag; otherwise every later call would return the error. PETSc is linked with hypre, this
-   library is not. */
+/* Clears hypre's error flag; otherwise every later call would return the error. Looked up at run time, since only
+   PETSc is linked with hypre. */
 static PetscErrorCode GuardClearHypre(void)
 {
   union {
@@ -34,8 +34,8 @@ static PetscErrorCode GuardClearHypre(void)
   PetscFunctionReturn(0);
 }
 
-/* PCAMGFGuardBegin_Private - before a call; b is its right-hand side, or NULL. Errors of the call are passed to
-   PCAMGFGuardEnd_Private() only */
+/* PCAMGFGuardBegin_Private - call before a guarded call; b: its right-hand side, or NULL. Errors of the call are
+   reported by PCAMGFGuardEnd_Private() only */
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
   PetscFunctionBegin;
@@ -47,8 +47,8 @@ PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 }
 
 /*
-  PCAMGFGuardEnd_Private - after it: *failed is true, on this rank, where a library met the error; any other error
-  goes on
+   PCAMGFGuardEnd_Private - call after it. *failed: a library reported an error on this rank; any other error is
+   returned
 */
 PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, PetscBool *failed)
 {

@@ -5,8 +5,8 @@
 #include <petscvec.h>
 
 typedef struct {
-  char     why[128]; /* what was said of the error */
-  Vec      b;        /* the call's right-hand side, which an interrupted call leaves locked; NULL: it has none */
+  char     why[128]; /* message of the error */
+  Vec      b;        /* right-hand side of the call, which an interrupted call leaves locked; NULL: none */
   PetscInt nlocks;
 } AMGFGuard;
 

@@ -1,4 +1,5 @@
-/* Defaults and options of the inner solvers */
+/* Configures PCGAMG, which restricts with P^T. For a complex operator B is Hermitian only if P is real, i.e.
+   unsmoothed */
 #include "amgfimpl.h"
 
 /* PCGAMG restricts with P^T. For a complex operator B is Hermitian only if P is real, that is, not smoothed */
@@ -11,7 +12,7 @@ static PetscErrorCode InnerConfigureGAMG(PC amg)
   PetscFunctionReturn(0);
 }
 
-/* BoomerAMG, unless the options name another type */
+/* Configures BoomerAMG, unless the options name another type */
 static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
 {
   PetscInt bs;
@@ -23,7 +24,7 @@ static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
   PetscFunctionReturn(0);
 }
 
-/* Whether the options under the AMG's prefix ask for its type, or for something in hypre's own cycle */
+/* asks: whether options with the AMG's prefix set its type, or concern hypre's own cycle */
 static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
 {
   static const char *const names[] = {"-pc_type", "-pc_hypre_type", "-pc_hypre_boomeramg_cycle_type",
@@ -46,7 +47,7 @@ static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
   PetscFunctionReturn(0);
 }
 
-/* Whether PCBLOCKAMG takes the operator, and the options ask for no other type */
+/* takes: whether PCBLOCKAMG supports the operator and no option asks for another type */
 static PetscErrorCode InnerTakesBlockAMG(PC pc, PC amg, PetscBool *takes)
 {
   PetscBool asks;
@@ -62,8 +63,8 @@ static PetscErrorCode InnerTakesBlockAMG(PC pc, PC amg, PetscBool *takes)
 }
 
 /*
-  PCAMGFSetBlockAMG_Private - where the type of the AMG is the default, makes it PCBLOCKAMG, or BoomerAMG with its own
-  cycle, whichever it is not yet
+   PCAMGFSetBlockAMG_Private - if the AMG has its default type, changes it to PCBLOCKAMG, or to BoomerAMG with its own
+   cycle
 */
 PetscErrorCode PCAMGFSetBlockAMG_Private(PC pc, PetscBool block)
 {
@@ -93,7 +94,7 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* MUMPS on as many ranks as the size needs; on all ranks if the user chose another solver or PETSc has no MUMPS */
+/* Sets MUMPS on as many ranks as the size needs; on all ranks if the user chose another solver or PETSc has no MUMPS */
 static PetscErrorCode InnerSetFilterSolver(PC pc, PC inner)
 {
   PetscOptions options;
@@ -129,8 +130,8 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
 }
 
 /*
-  PCAMGFPrefixInner_Private - gives the inner solvers their prefixes behind that of the preconditioner, which may
-  change until the set-up
+   PCAMGFPrefixInner_Private - gives the inner solvers prefixes derived from that of the preconditioner, which may
+   change until the set-up
 */
 PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
 {
@@ -147,7 +148,7 @@ PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
 }
 
 /*
-  PCAMGFConfigureInner_Private - gives the inner solvers their types and options; needs the operator's block size
+   PCAMGFConfigureInner_Private - sets types and options of the inner solvers; needs the operator's block size
 */
 PetscErrorCode PCAMGFConfigureInner_Private(PC pc)
 {

@@ -1,10 +1,11 @@
 /* When to rebuild the AMG */
 #include "amgfimpl.h"
 
-/* Iterations above the allowed growth that do not count: iterations are whole numbers, and small ones vary */
+/* additional iterations that are always allowed, because small iteration counts vary */
 #define LAG_FREE_ITERATIONS 2
 
-/* bfb needs A < 2 B^-1, which an old B does not guarantee. The other cycles are positive definite with any B */
+/* Returns the lag: default 1 for bfb, which needs A < 2 B^-1; an old B does not guarantee that. The other cycles are
+   positive definite with any B */
 PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
 {
   if (amgf->lag.every != AMGF_LAG_UNSET) return amgf->lag.every;
@@ -43,7 +44,7 @@ static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *d
   PetscFunctionReturn(0);
 }
 
-/* The last solve took too many iterations, or the operator has changed outside the filtered subspace */
+/* rebuild: the last solve took too many iterations, or the operator has changed outside the filtered subspace */
 static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
@@ -57,14 +58,14 @@ static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
     PetscCall(MatGetDiagonal(pc->pmat, diagonal));
     PetscCall(LagDiagonalDrift(amgf, diagonal, &drift));
     PetscCall(VecDestroy(&diagonal));
-    if (drift > amgf->lag.ratio) *rebuild = PETSC_TRUE;
-  } else *rebuild = PETSC_TRUE; /* automatic lag was set after the AMG was built: there is nothing to compare with */
+    if (drift > AMGF_LAG_RATIO) *rebuild = PETSC_TRUE;
+  } else *rebuild = PETSC_TRUE; /* there is nothing to compare with, as automatic lag was set after the AMG was built */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rebuild, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   PetscFunctionReturn(0);
 }
 
 /*
-  PCAMGFLagDecide_Private - whether this set-up rebuilds the AMG; the subspace is up to date
+   PCAMGFLagDecide_Private - whether this set-up rebuilds the AMG; call with the subspace up to date
 */
 PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
 {
@@ -89,7 +90,7 @@ PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
   PetscFunctionReturn(0);
 }
 
-/* The solve with which later ones are compared; its = 0: none yet, digits = 0: unknown */
+/* Sets the solve with which later ones are compared; its = 0: none yet, digits = 0: unknown */
 static void LagSetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   lag->its    = its;
@@ -97,7 +98,7 @@ static void LagSetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
 }
 
 /*
-  PCAMGFLagRebuilt_Private - the AMG has just been built from the present operator
+   PCAMGFLagRebuilt_Private - call after the AMG was built from the present operator
 */
 PetscErrorCode PCAMGFLagRebuilt_Private(PC pc)
 {
@@ -170,10 +171,10 @@ static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   const PetscBool perdigit = (PetscBool)(lag->digits > 0.0 && digits > 0.0);
-  const PetscReal allowed  = lag->ratio * lag->its * (perdigit ? digits / lag->digits : 1.0);
+  const PetscReal allowed  = AMGF_LAG_RATIO * lag->its * (perdigit ? digits / lag->digits : 1.0);
 
   if (its <= allowed + LAG_FREE_ITERATIONS) return PETSC_FALSE;
-  if (perdigit && digits > 2.0 * lag->digits && its <= lag->ratio * allowed + LAG_FREE_ITERATIONS) {
+  if (perdigit && digits > 2.0 * lag->digits && its <= AMGF_LAG_RATIO * allowed + LAG_FREE_ITERATIONS) {
     LagSetReference(lag, its, digits);
     return PETSC_FALSE;
   }

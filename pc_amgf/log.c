@@ -1,4 +1,4 @@
-/* The log events of PCAMGF, on which every file that does work builds */
+/* Log events of PCAMGF */
 #include "amgfimpl.h"
 
 PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,

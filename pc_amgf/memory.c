@@ -1,4 +1,4 @@
-/* The memory that all ranks together may use: that of their machines, or less where a control group limits it */
+/* Memory that all ranks together may use: that of their machines, or less if a control group limits it */
 #include "amgfimpl.h"
 #include <stdio.h>
 #include <unistd.h>
@@ -21,8 +21,7 @@ static PetscReal MemoryReadLimit(const char folder[], const char file[])
 }
 
 /*
-   The smallest limit of a control group and of those around it. A container may see its own group as the outermost
-   one under a path that is only known outside, so that folders may be missing.
+   The smallest limit of a control group and of its parents. Inside a container some folders of the path may not exist.
 */
 static PetscReal MemoryReadGroup(const char mount[], const char group[], const char file[])
 {
@@ -39,7 +38,7 @@ static PetscReal MemoryReadGroup(const char mount[], const char group[], const c
   return limit;
 }
 
-/* Whether a list of names parted by commas has "memory" */
+/* Whether a comma-separated list of names contains "memory" */
 static PetscBool MemoryIsController(const char list[])
 {
   for (const char *at = list; (at = strstr(at, "memory")); at += 6) {
@@ -49,8 +48,8 @@ static PetscBool MemoryIsController(const char list[])
 }
 
 /*
-   Limits of the process's control groups [bytes], version 2 (memory.max) and version 1 (memory.limit_in_bytes);
-   root: where /proc and /sys are, empty but for tests
+   Limits of the process's control groups [bytes], version 2 (memory.max) and version 1 (memory.limit_in_bytes). root:
+   prefix of /proc and /sys, not empty only in tests
 */
 static PetscReal MemoryReadGroups(const char root[])
 {
@@ -80,7 +79,7 @@ static PetscReal MemoryReadGroups(const char root[])
   return limit;
 }
 
-/* What this rank's machine has, or the process may use [bytes]. All processes there share it. */
+/* Memory of this rank's machine, or less if the process is limited [bytes]. All processes on the machine share it. */
 static PetscReal MemoryOfMachine(const char root[])
 {
   const PetscReal physical = (PetscReal)sysconf(_SC_PHYS_PAGES) * (PetscReal)sysconf(_SC_PAGESIZE);

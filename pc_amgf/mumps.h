@@ -1,7 +1,6 @@
 /*
-   MUMPS where PETSc was configured with it. PETSc declares MatMumps*() in either case, but a library without MUMPS
-   does not define them: one call left unguarded, and nothing links. Compile with -DAMGF_WITHOUT_MUMPS to be as a
-   PETSc without MUMPS would make it.
+   Wrappers for MUMPS if PETSc was configured with it. PETSc always declares MatMumps*(), but a library without MUMPS
+   does not define them, so an unguarded call would not link. Compile with -DAMGF_WITHOUT_MUMPS to test this.
 */
 #ifndef AMGF_MUMPS_H
 #define AMGF_MUMPS_H
@@ -14,8 +13,8 @@
 
 #define AMGF_MUMPS_RELAXATION 20 /* per cent of work space beyond MUMPS's estimate: its own default */
 
-/* Work space beyond the estimate, which may be too small: `first` per cent where there is none yet, else twice what
-   did not suffice; false where that was 16 times the first */
+/* Increases the work space [per cent beyond MUMPS's estimate]: `first` initially, then twice the last value. Returns
+   false when 16 times `first` was not enough */
 static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
 {
   const PetscInt last = 16 * first;
@@ -25,7 +24,7 @@ static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
   return PETSC_TRUE;
 }
 
-/* Whether MUMPS factors matrices of a type; everything below is for those it does */
+/* factors: whether MUMPS factors matrices of this type; the functions below are for those types */
 static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor, PetscBool *factors)
 {
   PetscFunctionBegin;
@@ -39,7 +38,7 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
   PetscFunctionReturn(0);
 }
 
-/* Without MUMPS no matrix is a factor of it, so there is nothing to control */
+/* Without MUMPS this does nothing */
 static inline PetscErrorCode AMGFMumpsSetIcntl(Mat F, PetscInt icntl, PetscInt value)
 {
   PetscFunctionBegin;
@@ -66,7 +65,7 @@ static inline PetscErrorCode AMGFMumpsSetCntl(Mat F, PetscInt cntl, PetscReal va
   PetscFunctionReturn(0);
 }
 
-/* Without MUMPS nothing was factored, and 0 is what it would say of that */
+/* Without MUMPS the value is 0 */
 static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *value)
 {
   PetscFunctionBegin;

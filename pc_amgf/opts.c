@@ -1,7 +1,7 @@
 /* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
 #include "amgfimpl.h"
 
-/* A number or "auto" */
+/* Reads a number or "auto" */
 static PetscErrorCode LagFromString(PC pc, const char string[])
 {
   PetscBool automatic;
@@ -56,10 +56,6 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
     "Number of operator changes after which the AMG is rebuilt; -1: never; 0 or auto: when the cost grows",
     "PCAMGFSetAMGLag", amgf->cycle == PC_AMGF_BFB ? "1" : "auto", lag, sizeof(lag), &flg));
   if (flg) PetscCall(LagFromString(pc, lag));
-  PetscCall(PetscOptionsReal("-pc_amgf_amg_lag_ratio", "Automatic lag: ratio of the costs at which the AMG is rebuilt",
-    "PCAMGFSetAMGLag", amgf->lag.ratio, &amgf->lag.ratio, NULL));
-  PetscCheck(amgf->lag.ratio >= 1.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "-pc_amgf_amg_lag_ratio must be at least 1, not %g", (double)amgf->lag.ratio);
   PetscCall(PetscOptionsEnum("-pc_amgf_factor", "Use a factorization instead of the AMG", "PCAMGFSetFactor",
     PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
   if (flg) PetscCall(PCAMGFSetFactor(pc, use));

@@ -1,8 +1,8 @@
-/* A few rows of a large symmetric matrix as a matrix of their own, in whatever format the large one is */
+/* Extracts a few rows of a large symmetric matrix of any format as an AIJ matrix */
 #include "amgfimpl.h"
 #include <petsc/private/hashmapi.h>
 
-/* Rows stored in full: AIJ, BAIJ */
+/* Inserts rows of formats that store full rows: AIJ, BAIJ */
 static PetscErrorCode RowsInsertFull(Mat A, PetscInt n, const PetscInt rows[], Mat R)
 {
   PetscInt first;
@@ -21,7 +21,7 @@ static PetscErrorCode RowsInsertFull(Mat A, PetscInt n, const PetscInt rows[], M
   PetscFunctionReturn(0);
 }
 
-/* Position in R of every wanted row of A, on all ranks */
+/* map: position in R of every requested row of A, on all ranks */
 static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
 {
   IS              all;
@@ -39,8 +39,9 @@ static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
   PetscFunctionReturn(0);
 }
 
-/* Only the upper triangle is stored, SBAIJ: what is left of the diagonal in a wanted row is a column of that number
-   in rows above it, so every row is visited. Entry (i,j), i <= j, is (k(i), j) and, mirrored, (k(j), i). */
+/* Inserts rows of SBAIJ, which stores the upper triangle only. The part of a requested row left of the diagonal is
+   stored as a column in the rows above, so every row is visited. Entry (i,j), i <= j, becomes (k(i), j) and,
+   mirrored, (k(j), i). */
 static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
 {
   PetscHMapI map;
@@ -58,7 +59,7 @@ static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
     PetscCall(PetscHMapIGet(map, i, &ki));
     PetscCall(MatGetRow(A, i, &ncols, &cols, &vals));
     for (PetscInt c = 0; c < ncols; c++) {
-      if (cols[c] < i) continue; /* lower half of the diagonal block */
+      if (cols[c] < i) continue; /* lower half of a diagonal block */
       if (ki >= 0) PetscCall(MatSetValue(R, ki, cols[c], vals[c], INSERT_VALUES));
       if (cols[c] == i) continue;
       PetscCall(PetscHMapIGet(map, cols[c], &kj));
@@ -95,7 +96,7 @@ static PetscErrorCode RowsInsert(Mat A, IS rows, Mat R)
   PetscFunctionReturn(0);
 }
 
-/* An AIJ matrix with room for exactly the rows' entries */
+/* Creates an AIJ matrix preallocated for exactly these rows */
 static PetscErrorCode RowsCreateMatrix(Mat A, IS rows, Mat *R)
 {
   MPI_Comm comm;

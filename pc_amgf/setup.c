@@ -1,5 +1,5 @@
-/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, the AMG or the factorization in its place
-   where it is due */
+/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, and the AMG (or the factorization that
+   replaces it) if due */
 #include "amgfimpl.h"
 #include "guard.h"
 
@@ -13,7 +13,7 @@ static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
   PetscFunctionReturn(0);
 }
 
-/* A filter that was forgotten, or finds nothing, costs iterations and no more: nothing else would tell */
+/* Warns if there is no filter: the only effect would be more iterations, so a forgotten filter would not be noticed */
 static PetscErrorCode SetUpWarn(PC pc)
 {
   PC_AMGF         *amgf   = (PC_AMGF *)pc->data;
@@ -68,9 +68,8 @@ static PetscErrorCode SetUpFilter(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCSetUp() of the AMG. An error of its library, over a row of zeros, say, may be one rank's alone, and would be met
-   again by every later call of the library: all ranks say that the PC has failed, as they do where the AMG says so
-   itself, and the AMG begins anew. */
+/* PCSetUp() of the AMG. A library error, e.g. because of a zero row, may occur on one rank only, and every later
+   call of the library would report it again. Therefore all ranks mark the PC as failed, and the AMG is created anew. */
 static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
@@ -91,9 +90,10 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 }
 
 /*
-   Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries, which is to be little
-   beside soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2 B^-1: of stiff ties,
-   where A < B^-1 in exact arithmetic, a contrast of 1e4 allows A < 1.001 B^-1, one of 1e5 A < 1.6 B^-1.
+   Chooses the AMG. Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries, which
+   must be small compared with soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2
+   B^-1: for stiff ties, where A < B^-1 in exact arithmetic, a contrast of 1e4 gives A < 1.001 B^-1, one of 1e5 A < 1.6
+   B^-1.
 */
 static PetscErrorCode SetUpChooseAMG(PC pc)
 {
@@ -121,12 +121,12 @@ static PetscErrorCode SetUpAMG(PC pc, PetscBool *failed)
   PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
   PetscCall(SetUpGuardAMG(pc, failed));
-  /* PCApply() must not rebuild it behind our back when the operator changes in place */
+  /* prevents PCApply() from rebuilding the AMG when the operator changes in place */
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-/* B, where it is due */
+/* Sets up B, if due */
 static PetscErrorCode SetUpWhole(PC pc)
 {
   PC_AMGF    *amgf   = (PC_AMGF *)pc->data;

@@ -1,4 +1,4 @@
-/* Versions of matrices, to know what may be reused */
+/* Stamps of matrices, to decide what can be reused */
 #include "amgfimpl.h"
 
 PetscErrorCode MatGetStamp_AMGF(Mat A, AMGFStamp *stamp)

@@ -1,4 +1,4 @@
-/* Who names the subspace, and what it is on this rank */
+/* Source of the subspace, and its rows on this rank */
 #include "amgfimpl.h"
 
 static PetscErrorCode SubspaceLoadFile(PC pc)
@@ -37,8 +37,8 @@ static PetscErrorCode SubspaceGetComposed(PC pc, PetscObject *composed, PetscObj
 }
 
 /*
-  PCAMGFSubspaceIsStale_Private - whether another object has been composed on the operator, or has changed, since the
-  set-up, which PETSc does not repeat while the operator itself stays
+   PCAMGFSubspaceIsStale_Private - whether the object composed on the operator was replaced or changed since the set-up;
+   PETSc does not repeat the set-up for an unchanged operator
 */
 PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
 {
@@ -56,7 +56,7 @@ PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
   PetscFunctionReturn(0);
 }
 
-/* The first source that is given wins. *is and *P are borrowed. */
+/* Finds the first source that is given. *is and *P are borrowed. */
 static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
 {
   PC_AMGF    *amgf = (PC_AMGF *)pc->data;
@@ -96,7 +96,7 @@ static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat 
 
 static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[])
 {
-  PetscInt N, extreme[2] = {0, 0}; /* -smallest and largest row number, over all ranks */
+  PetscInt N, extreme[2] = {0, 0}; /* minus the smallest, and the largest row number, over all ranks */
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &N, NULL));
@@ -112,7 +112,8 @@ static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[]
   PetscFunctionReturn(0);
 }
 
-/* The rows named on any rank, each on the rank that owns it, sorted, without repetition: a Vec collects the marks */
+/* rows: the rows named on any rank, each on the rank that owns it, sorted, without repetition; a Vec collects the
+   marks */
 static PetscErrorCode SubspaceOwnedRows(PC pc, IS is, IS *rows)
 {
   Vec                marks;
@@ -143,7 +144,7 @@ static PetscErrorCode SubspaceOwnedRows(PC pc, IS is, IS *rows)
   PetscFunctionReturn(0);
 }
 
-/* The rows in which P is nonzero */
+/* rows: the rows in which P is nonzero */
 static PetscErrorCode SubspaceNonzeroRows(Mat P, IS *rows)
 {
   PetscInt start, end, k = 0, *owned;

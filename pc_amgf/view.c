@@ -1,4 +1,4 @@
-/* What -ksp_view says of PCAMGF */
+/* Output of -ksp_view for PCAMGF */
 #include "amgfimpl.h"
 
 static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)
@@ -13,8 +13,7 @@ static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; age: %" PetscInt_FMT " changed operators\n", age));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", (double)amgf->lag.ratio,
-      age));
+      "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", AMGF_LAG_RATIO, age));
   PetscFunctionReturn(0);
 }
 

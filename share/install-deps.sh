@@ -50,21 +50,23 @@ missing() {
   done
 }
 
-# Only pictures need these. Elsewhere than on Debian the rest works without them
-missing_for_pictures() {
+# Pictures and mesh formats need these. Elsewhere than on Debian the rest works without them
+missing_for_some() {
   have_module vtkmodules || echo "VTK 9 for Python 3"
   have Xvfb || echo "Xvfb"
+  have_module meshio || echo "meshio for Python 3"
+  have_module netCDF4 || echo "netCDF4 for Python 3"
 }
 
 required=$(missing)
-pictures=$(missing_for_pictures)
-lacking=$(printf '%s\n%s' "$required" "$pictures" | sed '/^$/d')
+optional=$(missing_for_some)
+lacking=$(printf '%s\n%s' "$required" "$optional" | sed '/^$/d')
 [ -n "$lacking" ] || exit 0
 
-# give_up SENTENCE: an error, unless only pictures are missing
+# give_up SENTENCE: an error, unless only what some features need is missing
 give_up() {
   if [ -z "$required" ]; then
-    echo "$1: pictures are left out (missing: $(echo "$pictures" | paste -sd, | sed 's/,/, /g'))"
+    echo "$1: pictures or mesh formats are left out (missing: $(echo "$optional" | paste -sd, | sed 's/,/, /g'))"
     exit 0
   fi
   echo "$1. Missing:" >&2
@@ -87,7 +89,7 @@ apt() {
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
 apt update || give_up "apt-get update failed"
 packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libyaml-dev libopenblas0-serial
-          python3 python3-numpy python3-matplotlib python3-h5py python3-yaml python3-vtk9 xvfb"
+          python3 python3-numpy python3-matplotlib python3-h5py python3-yaml python3-vtk9 xvfb python3-meshio python3-netcdf4"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
   # the complex one is for a test, which is left out where it is missing; the real one stays the default

@@ -18,12 +18,13 @@ fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@PET
 # $(call put,MODE,FILES,FOLDER): lines of install.sh
 put = $(foreach file,$(2),'$(1) $(file) $(3)/$(notdir $(file))')
 
-installed = $(call put,755,$(programs),bin) $(call put,755,$(PLUGIN).$(VERSION),lib) \
+installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) $(call put,755,$(PLUGIN).$(VERSION),lib) \
             'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' 'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
             $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') $(call put,644,include/petscamgf.h,include) \
             $(if $(PETSC_COMPLEX),,$(call put,644,$(LIBRARY),lib) $(call put,644,$(filter-out include/petscamgf.h include/petsccompat.h,$(wildcard include/*.h)),include/contact)) \
             $(foreach kind,scenes materials options gmsh examples,$(call put,644,$(wildcard share/$(kind)/*.* share/$(kind)/makefile),share/amgf/$(kind))) \
             $(if $(PETSC_COMPLEX),,$(foreach kind,plot report,$(call put,644,$(wildcard share/$(kind)/*.py),share/amgf/$(kind)))) \
+            $(if $(PETSC_COMPLEX),,$(foreach folder,python python/contact python/contact/meshes,$(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))) \
             $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
             $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 

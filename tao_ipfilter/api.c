@@ -20,7 +20,7 @@ static PetscErrorCode CopyVec(Vec v, Vec *slot)
   PetscFunctionReturn(0);
 }
 
-/* Weights must be positive, on every rank */
+/* Checks that all weights are positive, on every rank */
 static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
 {
   PetscReal least;
@@ -150,7 +150,7 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
   PetscFunctionReturn(0);
 }
 
-/* Attaches the implementations to the object, or detaches them */
+/* Composes the implementations with the Tao, or removes them */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
   PetscObject o = (PetscObject)tao;
@@ -315,10 +315,9 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
   Level: intermediate
 
   Notes:
-  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose
-  distance to a bound and its
-  multiplier have next to no product. Where there are inequality constraints, `TaoIPFilterSetWarmStart()` must give
-  theirs, too.
+  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance
+  to a bound and its multiplier have next to no product. Where there are inequality constraints,
+  `TaoIPFilterSetWarmStart()` must give theirs, too.
 
   With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
 
@@ -381,8 +380,7 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
   force.
 
   With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two
-  bounds is the sum of both,
-  that of a row with equal bounds has either sign.
+  bounds is the sum of both, that of a row with equal bounds has either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/

@@ -1,7 +1,7 @@
-/* The Tao type: its page and its creation. */
+/* The Tao type: its manual page and its creation. */
 #include "ipfilterimpl.h"
 
-/* KSPCG with PCAMGF, convergence on the true residual's norm */
+/* Creates the Krylov solver: CG with PCAMGF, convergence by the norm of the true residual */
 static PetscErrorCode CreateKSP(Tao tao)
 {
   PC pc;
@@ -41,110 +41,37 @@ static PetscErrorCode DestroyType(Tao tao)
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
                                                               `TaoSetTolerances()` sets it; 0: machine precision
 . -tao_ipfilter_tol <1e-8>                                  - the same by another name
-. -tao_ipfilter_acceptable_tol <1e-6>                       - KKT error accepted where no further progress is made
-. -tao_ipfilter_acceptable_it <15>                          - iterates in a row within the acceptable tolerance that end
-                                                              the solve
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,gradient,none)   - constants that follow the units, those of IPOPT after a
                                                               scaling
                                                               by the gradients at the start, or those as they stand
-. -tao_ipfilter_gradient_max <100>                          - gradient: entry of the gradients at the start above
-                                                              which the
-                                                              objective and constraints are scaled down to it; 0: none
 . -tao_ipfilter_dual_inf_tol <-1>                           - limit of the stationarity residual's entries at
-                                                              convergence,
-                                                              in the caller's units; negative: 1 with gradient, else
-                                                              none
+                                                              convergence, in the caller's units; negative: 1 with
+                                                              gradient, else none
 . -tao_ipfilter_constr_viol_tol <-1>                        - the same of the constraint violation; negative: 1e-4, or
                                                               none
 . -tao_ipfilter_compl_inf_tol <-1>                          - the same of slacks times multipliers; negative: 1e-4, or
                                                               none
-. -tao_ipfilter_row_ratio <100>                             - constraints whose gradient exceeds this many times the
-                                                              smallest at the start are scaled down to that; 0: none
-. -tao_ipfilter_unbounded_factor <1e10>                     - fall of the objective, against its first size, that
-                                                              counts as
-                                                              unbounded
 . -tao_ipfilter_monitor                                     - a line an iteration, in IPOPT's columns
-. -tao_ipfilter_start <warm> (cold,predict,warm)            - slacks and multipliers to start from: constants,
-                                                              predicted by
-                                                              a step of the penalized problem, or those of
+. -tao_ipfilter_start <warm> (cold,predict,warm)            - slacks and multipliers to start from: constants, predicted
+                                                              by a step of the penalized problem, or those of
                                                               `TaoIPFilterSetWarmStart()` where given, else predicted
 . -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
 . -tao_ipfilter_slack_init <1>                              - cold start: slacks
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
-. -tao_ipfilter_predict_mu <0.3>                            - predicted start: mu as a fraction of mean length x mean
-                                                              pressure, with bounds alone of a step without them x the
-                                                              gradient there
-. -tao_ipfilter_predict_forcing <0.1>                       - predicted start: forces out of balance, as a fraction of
-                                                              those the constraints transmit
-. -tao_ipfilter_warm_mu <0.03>                              - warm start: least mu as a fraction of the mean product
-                                                              length
-                                                              x pressure
-. -tao_ipfilter_bound_push <0.01>                           - distance of the start from its bounds, relative to the
-                                                              bound's or
-                                                              the unknown's size, or to the distance between the bounds
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
-. -tao_ipfilter_kappa_epsilon <10>                          - monotone: mu is reduced once the errors of the barrier
-                                                              problem are below kappa_epsilon mu
-. -tao_ipfilter_kappa_dual <0.1>                            - relative measure: imbalance of forces at which mu may be
-                                                              reduced
-. -tao_ipfilter_kappa_mu <0.2>                              - monotone: linear reduction of mu
-. -tao_ipfilter_theta_mu <1.5>                              - monotone: superlinear reduction, mu^theta_mu
 . -tao_ipfilter_mu_reductions_first <10>                    - monotone: limit of the reductions at the first iteration
-. -tao_ipfilter_mu_reductions <1>                           - monotone: limit of the reductions at later iterations
-. -tao_ipfilter_kappa_progress <0.9999>                     - mehrotra: reduction of the KKT error against the worst
-                                                              of the
-                                                              last four, or mu turns monotone
-. -tao_ipfilter_tau_min <0.99>                              - least fraction to the boundary
-. -tao_ipfilter_kappa_sigma <1e10>                          - multipliers are kept within this factor of mu/s
-. -tao_ipfilter_gamma_theta <1e-5>                          - filter: sufficient reduction of the constraint violation
-                                                              theta
 . -tao_ipfilter_gamma_phi <1e-8>                            - filter: sufficient reduction of the barrier function phi
 . -tao_ipfilter_eta_phi <1e-8>                              - Armijo's constant
-. -tao_ipfilter_delta_switch <1>                            - constant of the switching condition
-. -tao_ipfilter_s_theta <1.1>                               - exponent of the violation in it
-. -tao_ipfilter_s_phi <2.3>                                 - exponent of the descent in it
-. -tao_ipfilter_gamma_alpha <0.05>                          - safety factor of the smallest step
-. -tao_ipfilter_theta_min_fact <1e-4>                       - violation below which Armijo may decide, as a fraction
-                                                              of the
-                                                              first
-. -tao_ipfilter_theta_max_fact <1e4>                        - largest violation accepted, as a multiple of the first
-. -tao_ipfilter_obj_max_inc <1e5>                           - largest rise of phi accepted for less violation, against
-                                                              its
-                                                              size; 0.01 where hardly any violation is left
 . -tao_ipfilter_max_soc <4>                                 - limit of second-order corrections a step
-. -tao_ipfilter_kappa_soc <0.99>                            - reduction of the violation that a correction must give
-                                                              to be
-                                                              continued
-. -tao_ipfilter_kappa_curvature <1e-11>                     - curvature d^T W d that a direction must have, as a
-                                                              fraction
-                                                              of d^T d
-. -tao_ipfilter_delta_first <1e-4>                          - first multiple of M_u that is added to the Hessian where a
-                                                              direction has less, in its unit
-. -tao_ipfilter_delta_max <1e20>                            - largest one
-. -tao_ipfilter_delta_grow_first <100>                      - its growth before one has worked
-. -tao_ipfilter_delta_grow <8>                              - its growth later
-. -tao_ipfilter_delta_shrink <0.333>                        - its decrease from one step to the next
-. -tao_ipfilter_delta_equality <1e-8>                       - regularization of dependent equality constraints, in
-                                                              units of
-                                                              J_E H^-1 J_E^T
+. -tao_ipfilter_delta_max <1e20>                            - largest multiple of M_u that is added to the Hessian
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)         - Krylov tolerance from the KKT error, or the KSP's own
-. -tao_ipfilter_forcing_max <0.1>                           - adaptive: linear residual as a fraction of the forces in
-                                                              balance, while mu falls
-. -tao_ipfilter_forcing_reduce <0.7>                        - adaptive: and as a fraction of the last stationarity
-                                                              residual
-. -tao_ipfilter_forcing_last <0.5>                          - adaptive: as a fraction of the tolerance, in the step that
-                                                              would finish
-. -tao_ipfilter_filter_threshold <1e-12>                    - columns of J above this fraction of its largest entry
-                                                              belong
-                                                              to the filter subspace
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
                                                               H_ii for some i; 0: always
 . -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for linear constraints that
                                                               touch few unknowns
 . -tao_ipfilter_subspace_max <0>                            - directions that it keeps, of two vectors each; 0: 80 to
-                                                              160, by memory,
-                                                              48 where the objective is not quadratic
+                                                              160, by memory, 48 where the objective is not quadratic
 . -tao_ipfilter_ksp_max_it <10000>                          - limit of Krylov iterations in a linear solve, and of all
                                                               directions
                                                               of the filtered subspace method in a `TaoSolve()`
@@ -157,8 +84,7 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints in an augmented system that MUMPS
                                                               factors, or condensed with proximal updates
 . -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness that resists
-                                                              them,
-                                                              as a fraction of their weights
+                                                              them, as a fraction of their weights
 - -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; `MATSOLVERMUMPS` takes
                                                               approximate minimum fill (-mat_mumps_icntl_7 2)
 
@@ -174,64 +100,47 @@ static PetscErrorCode DestroyType(Tao tao)
   Constraints that depend on one another are regularized, by proximal terms that leave nothing of them in the solution.
 
   Equality constraints that touch no more than a tenth of the unknowns, as ties and interface conditions do, need no
-  factorization of
-  the whole: where `PCAMGF` preconditions and there are 1,000 unknowns or more, their rows are condensed into A with
-  the others, with
-  weights W far above the stiffness that resists them, their unknowns are filtered, and proximal updates y <- y + W
-  (J_E dx + c_E) of the
-  multipliers make the step exact. Dependent constraints do no harm, and the Hessian need be convex on the constraints
-  alone. Where the
-  updates do not reach the constraints, or the Krylov method fails, the augmented system takes over for the rest of
-  the solve, unless
+  factorization of the whole: where `PCAMGF` preconditions and there are 1,000 unknowns or more, their rows are
+  condensed into A with the others, with weights W far above the stiffness that resists them, their unknowns are
+  filtered, and proximal updates y <- y + W (J_E dx + c_E) of the multipliers make the step exact. Dependent constraints
+  do no harm, and the Hessian need be convex on the constraints alone. Where the updates do not reach the constraints,
+  or the Krylov method fails, the augmented system takes over for the rest of the solve, unless
   `-tao_ipfilter_direct_memory` is 0; `TaoIPFilterGetFallbacks()` counts that as a system by MUMPS.
-  `-tao_ipfilter_equality` chooses otherwise,
-  `-tao_view` says which was taken.
+  `-tao_ipfilter_equality` chooses otherwise, `-tao_view` says which was taken.
 
   `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()`
-  returns; without it gradients
-  are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a `MATLMVMBFGS` learns from the steps
-  of the solve, whose options have
-  the prefix `-tao_ipfilter_`; the matrix that is assembled and preconditioned has a multiple of the identity in its
-  place, the Krylov method
-  multiplies with all of it. A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are taken as they
-  are; others
-  that have entries, as nests and `MATIS` do, are converted to AIJ at every evaluation. Where a Hessian or Jacobian
-  routine leaves a matrix
+  returns; without it gradients are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a
+  `MATLMVMBFGS` learns from the steps of the solve, whose options have the prefix `-tao_ipfilter_`; the matrix that is
+  assembled and preconditioned has a multiple of the identity in its place, the Krylov method multiplies with all of it.
+  A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are taken as they are; others that have entries,
+  as nests and `MATIS` do, are converted to AIJ at every evaluation. Where a Hessian or Jacobian routine leaves a matrix
   alone that is not converted, that costs nothing: what depends on it is kept. A Hessian that gives products alone, as
-  `MATSHELL` does, serves with
-  `-tao_ipfilter_pc_type` none, jacobi, shell or a type of your own, which then gets a `MATSHELL` of the condensed
-  matrix; its diagonal is taken from
-  `MATOP_GET_DIAGONAL`, or else estimated. With another preconditioner, or with equality constraints that are not
-  condensed, it is read column by
-  column up to 1,000 unknowns, as are Jacobians that give products alone; with more unknowns that is an error.
+  `MATSHELL` does, serves with `-tao_ipfilter_pc_type` none, jacobi, shell or a type of your own, which then gets a
+  `MATSHELL` of the condensed matrix; its diagonal is taken from `MATOP_GET_DIAGONAL`, or else estimated. With another
+  preconditioner, or with equality constraints that are not condensed, it is read column by column up to 1,000 unknowns,
+  as are Jacobians that give products alone; with more unknowns that is an error.
 
   An error of a library inside the Krylov method or its preconditioner, hypre's say, is a failure of that solve.
 
   The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
   iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns
-  are
-  filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory`
-  (its options have the prefix `-tao_ipfilter_direct_`); else the solve ends. `TaoIPFilterGetFallbacks()` counts this.
+  are filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory` (its
+  options have the prefix `-tao_ipfilter_direct_`); else the solve ends. `TaoIPFilterGetFallbacks()` counts this.
 
   With `-tao_ipfilter_subspace` a quadratic objective under linear inequalities that touch few unknowns W is minimized
-  over span{e_i, i in W} + span(P), exactly,
-  by an active set method on the first rank; the residual that is left, preconditioned by the `PC` of the Krylov
-  method for H alone, is the next direction in P.
-  With `-tao_ipfilter_pc_amgf_factor` auto a factorization takes the place of the AMG there once it is estimated to be
-  the cheaper for what is to come: `PCAMGFExpect()`,
-  `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. Another objective under such constraints is minimized by
-  Newton's method, whose quadratic models are solved so, to a fraction of
-  the present residual; products of the directions with the new Hessian are made anew, an indefinite one is shifted,
-  and a line search on the objective, penalized where constraints are
-  violated, takes the step. Such a step counts as an iteration; a direction counts against the limit of
-  `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`.
-  The directions serve all later solves with the same Hessian, whatever constraints and loads:
-  `TaoIPFilterSetSubspace()`. The end is judged as ever, by the KKT error made of the caller's
-  gradient. auto takes it where the routine of the Jacobian leaves its matrix alone, W is no more than half of the
-  unknowns, the `PC` is `PCAMGF` with adaptive forcing,
-  or a factorization, which is then made of H, once, and nothing but the default is asked of start and measure. Where
-  it does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts
-  that.
+  over span{e_i, i in W} + span(P), exactly, by an active set method on the first rank; the residual that is left,
+  preconditioned by the `PC` of the Krylov method for H alone, is the next direction in P. With
+  `-tao_ipfilter_pc_amgf_factor` auto a factorization takes the place of the AMG there once it is estimated to be the
+  cheaper for what is to come: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. Another objective
+  under such constraints is minimized by Newton's method, whose quadratic models are solved so, to a fraction of the
+  present residual; products of the directions with the new Hessian are made anew, an indefinite one is shifted, and a
+  line search on the objective, penalized where constraints are violated, takes the step. Such a step counts as an
+  iteration; a direction counts against the limit of `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`. The
+  directions serve all later solves with the same Hessian, whatever constraints and loads: `TaoIPFilterSetSubspace()`.
+  The end is judged as ever, by the KKT error made of the caller's gradient. auto takes it where the routine of the
+  Jacobian leaves its matrix alone, W is no more than half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing,
+  or a factorization, which is then made of H, once, and nothing but the default is asked of start and measure. Where it
+  does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
   An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
   constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of
@@ -241,60 +150,44 @@ static PetscErrorCode DestroyType(Tao tao)
   grad f + J_E^T DE - J^T DI = DL + DU.
 
   Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
-  gradient that `TaoGetGradient()` returns are zero. Rows of the
-  inequality constraints may have two bounds, `TaoSetInequalityBounds()`: such a row has one slack with two
-  multipliers. Where the bounds are
-  equal it is an equality constraint; infinite ones are none.
+  gradient that `TaoGetGradient()` returns are zero. Rows of the inequality constraints may have two bounds,
+  `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. Where the bounds are equal it is an
+  equality constraint; infinite ones are none.
 
   The KKT error of `-tao_ipfilter_kkt relative` is measured twice, and both must be within the tolerance; with
-  `-tao_ipfilter_scaling
-  problem` neither depends on the units of lengths, forces, rows or the objective. First by sizes of a kind: the norm
-  of the stationarity
-  residual r over that of the gradient, the largest violation over the largest constraint value, the largest product
-  of a slack s or
-  distance t and its multiplier over the largest length times the largest multiplier. Where one of these sizes
-  vanishes, a small fraction of
-  its first value, or of what the Hessian's diagonal makes of x, takes its place, and a gradient of nothing but
-  rounding is none.
-  Second by what residuals are worth in the objective, each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| +
-  sum_i |y_i| |c_E,i| and
-  sum_i m_i t_i z_i, where l_j is the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over
-  twenty times 1e-6 of the
-  terms sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In these sums no row,
-  bound or unknown is
-  measured by the size of another, a far bound counts no more than a near one, and many bounds count as much as the
-  error they make: 2e-7
-  of the objective at the default tolerance. A number added to the objective changes the second measure, not the first.
+  `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective. First by sizes
+  of a kind: the norm of the stationarity residual r over that of the gradient, the largest violation over the largest
+  constraint value, the largest product of a slack s or distance t and its multiplier over the largest length times the
+  largest multiplier. Where one of these sizes vanishes, a small fraction of its first value, or of what the Hessian's
+  diagonal makes of x, takes its place, and a gradient of nothing but rounding is none. Second by what residuals are
+  worth in the objective, each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| and sum_i m_i
+  t_i z_i, where l_j is the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over twenty
+  times 1e-6 of the terms sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In
+  these sums no row, bound or unknown is measured by the size of another, a far bound counts no more than a near one,
+  and many bounds count as much as the error they make: 2e-7 of the objective at the default tolerance. A number added
+  to the objective changes the second measure, not the first.
 
   With `none` and `gradient` the residuals count as they are, with `gradient` after the objective and each row are
-  divided by what brings
-  their gradients at the start down to `-tao_ipfilter_gradient_max`. Absolute limits, in the caller's units, hold
-  beside any of these.
+  divided by what brings their gradients at the start down to 100. Absolute limits, in the
+  caller's units, hold beside any of these.
 
   Where the iterates show that inequalities have no interior they are relaxed by a hundredth of the tolerance times
-  their size, or by the
-  tolerance if that was not enough, and the sentence says by how much; what that is worth in the objective beyond the
-  tolerance makes the
-  result acceptable only. A solve that fails returns the least infeasible of its points, and of those within the
-  tolerance the one of the
-  smallest KKT error.
+  their size, or by the tolerance if that was not enough, and the sentence says by how much; what that is worth in the
+  objective beyond the tolerance makes the result acceptable only. A solve that fails returns the least infeasible of
+  its points, and of those within the tolerance the one of the smallest KKT error.
 
   Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
-  `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has
-  been called (or
-  `-tao_catol`, `-tao_crtol` given), convergence asks for a largest violation of the constraints within catol, and a
-  relative one within
-  crtol, besides; 0 is none. `TaoSetConvergenceTest()` replaces `TaoIPFilterDefaultConvergenceTest()`. Reasons:
-  `TAO_CONVERGED_GATOL` (KKT error within the tolerance), `TAO_CONVERGED_STEPTOL`
-  (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`), `TAO_DIVERGED_LS_FAILURE` (no
-  acceptable step; the
-  constraints may be infeasible), `TAO_DIVERGED_USER` (no direction, or the objective seems unbounded),
-  `TAO_DIVERGED_NAN`,
-  `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a sentence.
+  `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been
+  called (or `-tao_catol`, `-tao_crtol` given), convergence asks for a largest violation of the constraints within
+  catol, and a relative one within crtol, besides; 0 is none. `TaoSetConvergenceTest()` replaces
+  `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance),
+  `TAO_CONVERGED_STEPTOL` (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`),
+  `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the constraints may be infeasible), `TAO_DIVERGED_USER` (no direction,
+  or the objective seems unbounded), `TAO_DIVERGED_NAN`, `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`;
+  `TaoIPFilterGetReason()` gives a sentence.
 
   Errors where a PETSc without MUMPS meets equality constraints that are not condensed, where a matrix cannot be read,
-  where a lower bound exceeds an upper one, and where the sizes of the
-  masses do not fit. Scalars must be real.
+  where a lower bound exceeds an upper one, and where the sizes of the masses do not fit. Scalars must be real.
 
   References:
 + * - A. Waechter and L. T. Biegler, "On the implementation of an interior-point filter line-search algorithm for

@@ -9,7 +9,7 @@ const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEq
 const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
-/* Constants of the method with IPOPT's defaults (Waechter and Biegler 2006), by option name without its prefix */
+/* Real-valued options and their defaults; names without prefix */
 typedef struct {
   const char *option, *text;
   size_t      offset;
@@ -22,60 +22,16 @@ typedef struct {
   }
 
 static const RealOption real_options[] = {
-  IP_REAL("acceptable_tol", acceptable_tol, 1e-6, "KKT error accepted when no further progress is made"),
   IP_REAL("mu_init", mu0, 1.0, "cold start: barrier parameter"),
   IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
   IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
-  IP_REAL("predict_mu", mu_start, 0.3, "predicted start: mu as a fraction of mean length x mean pressure"),
-  IP_REAL("warm_mu", mu_warm, 3e-2, "warm start: least mu as a fraction of the mean product length x pressure"),
-  IP_REAL("predict_forcing", forcing_start, 0.1,
-    "predicted start: forces out of balance, as a fraction of those the constraints transmit"),
-  IP_REAL("kappa_epsilon", kappa_epsilon, 10.0, "mu is reduced once the barrier error is below kappa_epsilon mu"),
-  IP_REAL("kappa_dual", kappa_dual, 0.1, "relative measure: imbalance of forces at which mu may be reduced"),
-  IP_REAL("kappa_mu", kappa_mu, 0.2, "linear reduction of mu"),
-  IP_REAL("theta_mu", theta_mu, 1.5, "superlinear reduction of mu"),
-  IP_REAL("tau_min", tau_min, 0.99, "least fraction to the boundary"),
-  IP_REAL("kappa_sigma", kappa_sigma, 1e10, "multipliers are kept within this factor of mu/s"),
-  IP_REAL("gamma_theta", gamma_theta, 1e-5, "sufficient reduction of the constraint violation"),
   IP_REAL("gamma_phi", gamma_phi, 1e-8, "sufficient reduction of the barrier function"),
   IP_REAL("eta_phi", eta_phi, 1e-8, "Armijo's constant"),
-  IP_REAL("delta_switch", delta_switch, 1.0, "constant of the switching condition"),
-  IP_REAL("s_theta", s_theta, 1.1, "exponent of the violation in the switching condition"),
-  IP_REAL("s_phi", s_phi, 2.3, "exponent of the descent in the switching condition"),
-  IP_REAL("gamma_alpha", gamma_alpha, 0.05, "safety factor of the smallest step"),
-  IP_REAL("theta_min_fact", theta_min_fact, 1e-4,
-    "violation below which Armijo may decide, as a fraction of the first"),
-  IP_REAL("theta_max_fact", theta_max_fact, 1e4, "largest violation accepted, as a multiple of the first"),
-  IP_REAL("obj_max_inc", obj_max_inc, 1e5,
-    "largest rise of the barrier function accepted for less violation, against its size"),
-  IP_REAL("kappa_soc", kappa_soc, 0.99, "reduction a second-order correction must give to be continued"),
-  IP_REAL("forcing_max", forcing_max, 0.1,
-    "adaptive forcing: linear residual as a fraction of the forces in balance, while mu falls"),
-  IP_REAL("forcing_reduce", forcing_reduce, 0.7,
-    "adaptive forcing: linear residual as a fraction of the last stationarity residual"),
-  IP_REAL("forcing_last", forcing_last, 0.5,
-    "adaptive forcing: as a fraction of the tolerance, in the step that would finish"),
-  IP_REAL("kappa_curvature", kappa_curvature, 1e-11,
-    "curvature d^T W d that a direction must have, as a fraction of d^T d"),
-  IP_REAL("delta_first", delta_first, 1e-4, "first regularization"),
   IP_REAL("delta_max", delta_max, 1e20, "largest regularization"),
-  IP_REAL("delta_grow_first", delta_grow_first, 100.0, "growth of the regularization before one has worked"),
-  IP_REAL("delta_grow", delta_grow, 8.0, "growth of the regularization"),
-  IP_REAL("delta_shrink", delta_shrink, 1.0 / 3.0, "decrease of the regularization from one step to the next"),
-  IP_REAL("delta_equality", delta_equality, 1e-8, "regularization of dependent equality constraints"),
   IP_REAL("proximal", proximal, 1e-5,
     "condensed equality constraints: stiffness that resists them as a fraction of their weights"),
-  IP_REAL("kappa_progress", kappa_progress, 0.9999,
-    "mehrotra: reduction of the KKT error against the worst of the last four, or mu turns monotone"),
-  IP_REAL("filter_threshold", filter_threshold, 1e-12,
-    "columns of J above this fraction of its largest entry belong to the filter subspace"),
   IP_REAL("filter_switch", filter_switch, 10.0,
     "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
-  IP_REAL("row_ratio", row_ratio, 100.0,
-    "constraints whose gradient exceeds this many times the smallest at the start are scaled down to that; 0: none"),
-  IP_REAL("gradient_max", gradient_max, 100.0,
-    "scaling by gradients: objective and constraints are scaled down to no larger entries of their gradients at the "
-    "start"),
   IP_REAL("dual_inf_tol", dual_inf_tol, -1.0,
     "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
   IP_REAL("constr_viol_tol", constr_viol_tol, -1.0,
@@ -83,11 +39,8 @@ static const RealOption real_options[] = {
   IP_REAL("compl_inf_tol", compl_inf_tol, -1.0,
     "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else "
     "none"),
-  IP_REAL("unbounded_factor", unbounded_factor, 1e10,
-    "fall of the objective, against its first size, that counts as unbounded"),
   IP_REAL("direct_memory", direct_memory, 2000,
     "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
-  IP_REAL("bound_push", bound_push, 1e-2, "distance of the start from its bounds, relative"),
 };
 
 /* The defaults */
@@ -96,20 +49,18 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++)
     *(PetscReal *)((char *)opt + real_options[k].offset) = real_options[k].value;
-  opt->start         = IP_START_WARM;
-  opt->barrier       = IP_BARRIER_MEHROTRA;
-  opt->max_mu_first  = 10;
-  opt->max_mu_later  = 1;
-  opt->max_soc       = 4;
-  opt->acceptable_it = 15;
-  opt->subspace      = IP_SUBSPACE_AUTO;
-  opt->subspace_max  = 0;
+  opt->start        = IP_START_WARM;
+  opt->barrier      = IP_BARRIER_MEHROTRA;
+  opt->max_mu_first = 10;
+  opt->max_soc      = 4;
+  opt->subspace     = IP_SUBSPACE_AUTO;
+  opt->subspace_max = 0;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
-  const PetscInt fewest = 4; /* directions that can be compressed */
+  const PetscInt fewest = 4; /* fewer directions cannot be compressed */
   IPOptions     *opt    = &((TAO_IPFILTER *)tao->data)->opt;
 
   PetscFunctionBegin;
@@ -139,20 +90,15 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(
     PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "Largest number of reductions of mu at the first iteration",
       TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions", "Largest number of reductions of mu at a later iteration",
-    TAOIPFILTER, opt->max_mu_later, &opt->max_mu_later, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections a step", TAOIPFILTER,
     opt->max_soc, &opt->max_soc, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_acceptable_it",
-    "Number of successive iterates within the acceptable tolerance that ends the solve", TAOIPFILTER,
-    opt->acceptable_it, &opt->acceptable_it, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
     "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,
     &opt->direct_always, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Filtered subspace method instead of the interior point method",
     TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
   PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max",
-    "Largest number of Largest number of Largest number of Largest number of Largest number of directions that the "
+    "Largest number of directions that the "
     "filtered subspace method keeps; 0: by memory",
     TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 0));
   PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),

@@ -1,5 +1,5 @@
-/* The methods beside the interior point method, and the laws of norm terms: two lines each are all that
-   names their folders. */
+/* Registers the methods besides the interior point method, and the laws of norm terms. Their folders are named only
+   here, in two lines each. */
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 #include "tao_ipfilter/friction/frictionimpl.h"

@@ -1,7 +1,7 @@
-/* What -tao_view says. */
+/* Output of -tao_view. */
 #include "ipfilterimpl.h"
 
-/* How well the constraints are met, and to what tolerances they have to be beyond gatol */
+/* Prints how well the constraints are met, and their tolerances besides gatol */
 static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* The preconditioner type PCBLOCKAMG: its page, and its life from creation to destruction */
+/* The preconditioner type PCBLOCKAMG: manual page, creation, destruction */
 #include "blockamgimpl.h"
 
 static PetscErrorCode PCReset_BlockAMG(PC pc)

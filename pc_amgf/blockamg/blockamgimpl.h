@@ -1,6 +1,6 @@
 /*
-   Private to PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG sets
-   up
+   Private header of PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG
+   sets up
 */
 #ifndef BLOCKAMG_H
 #define BLOCKAMG_H
@@ -10,7 +10,7 @@
 #include <petscsf.h>
 #include <petscamgf.h>
 
-/* At most so many unknowns of all ranks are solved for by a dense inverse */
+/* largest level (unknowns on all ranks) that is solved by a dense inverse */
 #define BLOCKAMG_DENSE 256
 
 /*
@@ -25,20 +25,20 @@ typedef struct {
   Mat                held, diag, off;
 } BlockRows;
 
-/* Values of unknowns of other ranks */
+/* Exchange of values of other ranks' unknowns */
 typedef struct {
   int     nghosts;
   PetscSF sf; /* NULL on one rank */
 } BlockHalo;
 
-/* Rows with columns of other ranks: entries beside the blocks, and what is added to the diagonal for them */
+/* Rows with columns of other ranks: their entries outside the blocks, and the additions to their diagonal */
 typedef struct {
   int    n;
-  int   *place, *ptr, *col; /* place of the row; number of the ghost */
+  int   *place, *ptr, *col; /* place of the row; row pointer; number of the ghost */
   float *val, *shift;
 } BlockBorder;
 
-/* Interpolation from the next level, rows by place; columns are places of the next level, ghosts behind them */
+/* Interpolation from the next level: rows by place; columns are places of the next level, then ghosts */
 typedef struct {
   int      *ptr, *col;
   float    *val;
@@ -46,9 +46,10 @@ typedef struct {
 } BlockInterpolation;
 
 /*
-   A level on this rank. A vector has 4 places a block row, then its ghosts; position[] has the place of an unknown. L,
-   the strictly lower triangle of the matrix without columns of other ranks, has blocks of B x B floats by rows. The
-   inverses of the diagonal blocks are W^T W, blocks of B columns of 4 floats. Places that no unknown has hold zeros.
+   A level on this rank. A vector has 4 places per block row, then its ghosts; position[] has the place of each unknown.
+   L, the strictly lower triangle without columns of other ranks, is stored by rows in blocks of B x B floats. The
+   inverses of the diagonal blocks are stored as W with D^-1 = W^T W, B columns of 4 floats per block. Unused places
+   hold zeros.
 */
 typedef struct {
   int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
@@ -58,36 +59,36 @@ typedef struct {
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
-  int                nslots;    /* of a vector */
+  int                nslots;    /* length of a vector */
   float             *x, *b, *t; /* iterate, right-hand side, L^T x */
 
-  PetscLogDouble unknowns, entries, blocks, bytes; /* of all ranks; entries: of the matrix; blocks: floats of L and D */
+  PetscLogDouble unknowns, entries, blocks, bytes; /* all ranks: unknowns; matrix entries; floats of L and D; memory */
 } BlockLevel;
 
-/* The last level, by its inverse W^T W */
+/* The last level, solved by its inverse W^T W */
 typedef struct {
-  int          first, N;        /* unknown of this rank; number of unknowns of all ranks */
-  float       *W, *b;           /* of all ranks */
-  PetscMPIInt *counts, *starts; /* of all ranks */
+  int          first, N;        /* first unknown of this rank; number of unknowns on all ranks */
+  float       *W, *b;           /* inverse factor and right-hand side of all ranks */
+  PetscMPIInt *counts, *starts; /* unknowns of each rank, and their first */
 } BlockDense;
 
 typedef struct {
   MPI_Comm    comm;
   PetscMPIInt size;
-  int         nlevels; /* that are smoothed */
+  int         nlevels; /* number of smoothed levels */
   BlockLevel *levels;
   BlockLevel  bottom; /* vectors and places of the dense level */
-  BlockDense  dense;  /* N = 0: there is none, and the last of the levels is smoothed alone */
-  double      scale;  /* matrices are divided by it: a power of 2 */
+  BlockDense  dense;  /* N = 0: no dense level; the last level is only smoothed */
+  double      scale;  /* power of 2 by which matrices are divided */
 } BlockHierarchy;
 
 typedef struct {
-  PC              hypre; /* sets up the hierarchy; holds none between set-ups */
+  PC              hypre; /* used to set up the hierarchy; empty between set-ups */
   BlockHierarchy *h;
-  char            why[200]; /* there is no hierarchy */
+  char            why[200]; /* reason if there is no hierarchy */
 } PC_BlockAMG;
 
-/* The files of blockamg, each after those it builds on */
+/* Functions of blockamg; files in the order in which they depend on each other */
 
 /* rows.c */
 PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);

@@ -12,8 +12,8 @@
   #include <xmmintrin.h>
 #endif
 
-/* Denormal numbers are a hundred times slower than others on many processors. They are set to zero until
-   CycleRestoreTiny() */
+/* Sets the processor to flush denormal numbers to zero until CycleRestoreTiny(), because they are a hundred times
+   slower on many processors */
 static unsigned CycleFlushTiny(void)
 {
 #if defined(__SSE__)
@@ -35,7 +35,7 @@ static void CycleRestoreTiny(unsigned mode)
 #endif
 }
 
-/* y = y + sign (E x - S x) on rows with columns of other ranks, of which x has the ghosts */
+/* y += sign (E x - S x) in rows with columns of other ranks; the ghosts of x must be up to date */
 static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
 {
   const BlockBorder *border = &l->border;
@@ -50,7 +50,7 @@ static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
   }
 }
 
-/* x of this level, and b of the next one, if any */
+/* Downward half on one level: computes x of this level, and b of the next one if there is one */
 static PetscErrorCode CycleDown(const BlockLevel *l, const BlockLevel *next)
 {
   PetscFunctionBegin;
@@ -95,7 +95,7 @@ PetscErrorCode BlockCycle_Private(BlockHierarchy *h)
   PetscFunctionReturn(0);
 }
 
-/* The power of 2 above the largest entry of all ranks: 1 for zeros; not finite where an entry is not */
+/* scale: the power of 2 above the largest entry on all ranks; 1 for zeros; not finite if an entry is not */
 static PetscErrorCode ApplyFindScale(const BlockHierarchy *h, PetscInt n, const PetscScalar r[], double *scale)
 {
   double largest = 0.0, nan = 0.0;
@@ -129,7 +129,7 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   unsigned           mode;
 
   PetscFunctionBegin;
-  if (!h) { /* the set-up has failed */
+  if (!h) { /* the set-up failed */
     PetscCall(VecSet(z, 0.0));
     PetscCall(VecFlag(z, 1));
     PetscFunctionReturn(0);

@@ -1,7 +1,7 @@
-/* The last level, by A^-1 = W^T W, of which every rank has all of W */
+/* The last level, solved by A^-1 = W^T W; every rank holds all of W */
 #include "blockamgimpl.h"
 
-/* The matrix of all ranks, on each of them */
+/* Gathers the matrix of all ranks on each rank */
 static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows, PetscScalar full[])
 {
   const PetscInt N = h->dense.N, first = rows->columns->rstart;
@@ -18,7 +18,7 @@ static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows
 }
 
 /*
-  BlockDenseCreate_Private - the bottom level and its inverse; its places are its unknowns
+   BlockDenseCreate_Private - creates the bottom level and its inverse; its places are its unknowns
 */
 PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows)
 {

@@ -1,12 +1,11 @@
-/* Values of unknowns of other ranks, in floats: fetched from their owners, or added to what those have */
+/* Exchange of values of other ranks' unknowns, in floats: fetched from their owners, or added there */
 #include "blockamgimpl.h"
 
 /*
   BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
 
   Input Parameters:
-+ layout - of the level's unknowns
-. ghosts - unknowns of other ranks
++ layout - of the level's unknowns . ghosts - unknowns of other ranks
 - level  - with the places of its unknowns
 */
 PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],
@@ -43,7 +42,7 @@ PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, con
 }
 
 /*
-  BlockHaloFetch_Private - ghosts of x get their owners' values
+   BlockHaloFetch_Private - sets the ghosts of x to their owners' values
 */
 PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {
@@ -55,7 +54,7 @@ PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *l
 }
 
 /*
-  BlockHaloAdd_Private - owners add what the ghosts of x have
+   BlockHaloAdd_Private - adds the ghosts of x to their owners' values
 */
 PetscErrorCode BlockHaloAdd_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {

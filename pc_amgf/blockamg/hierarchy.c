@@ -1,7 +1,7 @@
-/* The hierarchy: matrices and interpolations of BoomerAMG converted level by level, each of which is freed at once */
+/* The hierarchy: BoomerAMG's matrices and interpolations, converted level by level; each is freed at once */
 #include "blockamgimpl.h"
 
-/* Matrices are divided by a power of 2 near the largest diagonal entry, so that floats hold them in any units */
+/* scale: power of 2 near the largest diagonal entry, so that floats can represent the matrices in any units */
 static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
 {
   Vec       diagonal;
@@ -18,7 +18,7 @@ static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* The number of smoothed levels: those above the first that is small enough for an inverse */
+/* Number of smoothed levels: those before the first that is small enough for a dense inverse */
 static PetscErrorCode HierarchyCountLevels(BlockHierarchy *h, Mat A, PetscInt nlevels, Mat coarse[], PetscBool *dense)
 {
   PetscFunctionBegin;
@@ -79,7 +79,7 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
   PetscCall(HierarchyCountLevels(h, A, nlevels, coarse, &dense));
   PetscCall(PetscCalloc1(h->nlevels, &h->levels));
   last = h->nlevels - (dense ? 0 : 1);
-  for (int i = (int)nlevels - 1; i > last; i--) { /* below the inverse */
+  for (int i = (int)nlevels - 1; i > last; i--) { /* levels below the dense inverse are not used */
     PetscCall(MatDestroy(&coarse[nlevels - 1 - i]));
     PetscCall(MatDestroy(&interpolations[nlevels - 1 - i]));
   }
@@ -95,7 +95,7 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
 }
 
 /*
-  BlockHierarchyIsFinite_Private - whether floats hold the hierarchy, on all ranks
+   BlockHierarchyIsFinite_Private - whether all values of the hierarchy are finite in floats, on all ranks
 */
 PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool *finite)
 {

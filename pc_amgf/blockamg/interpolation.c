@@ -1,6 +1,5 @@
 /*
-   The interpolation from the next coarser level, with rows and columns in the order of the block vectors of both
-   levels
+   The interpolation from the next coarser level, with rows and columns in the order of the block vectors of both levels
 */
 #include "blockamgimpl.h"
 

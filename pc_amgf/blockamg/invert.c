@@ -18,7 +18,7 @@ static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScala
       w[n * i + j] = i == j ? PetscSqrtReal(PetscRealPart(s)) : s == 0.0 ? 0.0 : s / w[n * j + j];
     }
   }
-  for (PetscInt i = 0; i < n; i++) { /* rows above i are those of W */
+  for (PetscInt i = 0; i < n; i++) { /* rows below i still hold A, those above i hold W */
     const PetscScalar d = w[n * i + i] == 0.0 ? 0.0 : 1.0 / w[n * i + i];
 
     for (PetscInt j = 0; j < i; j++) {
@@ -33,7 +33,7 @@ static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScala
   return PETSC_TRUE;
 }
 
-/* The same from the eigenvalues of A, which need not be positive; one within rounding of zero contributes nothing */
+/* The same from the eigenvalues of A, of any sign; eigenvalues within rounding of zero contribute nothing */
 static PetscErrorCode RootByEigenvalues(PetscBLASInt n, const PetscScalar a[], PetscScalar v[])
 {
   PetscBLASInt lwork = 8 * n, info;

@@ -4,7 +4,7 @@
 */
 #include "blockamgimpl.h"
 
-/* Blocks of the rows so far; grows */
+/* Blocks of the rows processed so far; grows on demand */
 typedef struct {
   int    n, room;
   int   *col;
@@ -21,7 +21,7 @@ static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
   PetscFunctionReturn(0);
 }
 
-/* The unknowns of places; -1 where there is none */
+/* unknown: the unknown at each place; -1 if there is none */
 static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
 {
   PetscFunctionBegin;
@@ -31,7 +31,7 @@ static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
   PetscFunctionReturn(0);
 }
 
-/* A short list, mostly sorted */
+/* Sorts a short, almost sorted list */
 static void LevelSort(int n, int a[])
 {
   for (int i = 1; i < n; i++) {
@@ -43,7 +43,7 @@ static void LevelSort(int n, int a[])
   }
 }
 
-/* The columns of block row i of L, sorted; slot[] gets their blocks */
+/* Finds the block columns of block row i of L, sorted; slot[] gets their positions in blocks */
 static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
   LevelBlocks *blocks, int slot[])
 {
@@ -75,7 +75,7 @@ static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *
   PetscFunctionReturn(0);
 }
 
-/* Their entries, and those of the diagonal block */
+/* Fills these blocks, and the diagonal block D */
 static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
   double inverse_scale, const int slot[], float val[], PetscScalar D[16])
 {
@@ -148,8 +148,8 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   PetscCall(PetscRealloc((size_t)blocks.n * sizeof(*blocks.col), &blocks.col));
   PetscCall(PetscRealloc(((size_t)blocks.n * size + 4) * sizeof(*blocks.val), &blocks.val));
   if (blocks.val)
-    PetscCall(
-      PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4 floats */
+    PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4
+                                                                   floats, so one more is allocated */
   level->col = blocks.col;
   level->L   = blocks.val;
   PetscCall(PetscFree(slot));
@@ -157,7 +157,7 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Rows with entries in columns of other ranks, in the order of their places */
+/* Stores the rows with columns of other ranks, in the order of their places */
 static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, double scale)
 {
   BlockBorder *border = &level->border;
@@ -194,7 +194,7 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Sums over all ranks, for PCView() */
+/* Sums over all ranks for PCView() */
 static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 {
   const int    B      = level->B;
@@ -245,7 +245,8 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
 }
 
 /*
-  BlockLevelCreateVectors_Private - once the ghosts that the interpolation to this level needs are known
+   BlockLevelCreateVectors_Private - creates the vectors; call when the ghosts of the interpolation to this level are
+   known
 */
 PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *level)
 {

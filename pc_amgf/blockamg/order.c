@@ -12,8 +12,8 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
 }
 
 /*
-   The three neighbours of an unknown that have the most columns in common with it, of those that have no place yet;
-   mark[] has the unknown's columns
+   best: the three unplaced neighbours of an unknown that share the most columns with it; mark[] has the unknown's
+   columns
 */
 static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[],
   PetscInt best[3])
@@ -40,9 +40,8 @@ static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int 
 }
 
 /*
-  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown
-  without a
-  place, and the best of its neighbours
+  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown without
+  a place, and the best of its neighbours
 */
 PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
 {

@@ -39,7 +39,8 @@ PetscErrorCode BlockConvertToAIJ_Private(Mat A, Mat *aij)
     PetscCall(PetscObjectReference((PetscObject)A));
     *aij = A;
   } else {
-    /* Converting a parallel format increases the state of A; without a reset every application would set up again */
+    /* MatConvert() of a parallel format increases the state of A; unless it is reset, every application would set up
+       again */
     PetscCall(PetscObjectStateGet((PetscObject)A, &state));
     PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, aij));
     PetscCall(PetscObjectStateSet((PetscObject)A, state));

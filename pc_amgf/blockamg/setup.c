@@ -16,7 +16,7 @@ static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
   PetscFunctionReturn(0);
 }
 
-/* The first row of all ranks whose diagonal entry is zero or no finite number; -1: there is none */
+/* row: the first row on all ranks whose diagonal entry is zero or not finite; -1: none */
 static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 {
   Vec                diagonal;
@@ -40,8 +40,8 @@ static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 }
 
 /*
-   The operator for hypre, which makes a copy of it. PETSc copies SBAIJ entry by entry, which takes twice as long as
-   hypre's set-up: it goes through AIJ.
+   The operator in a format for hypre, which copies it. PETSc copies SBAIJ entry by entry, which takes twice as long as
+   hypre's set-up, so it is converted to AIJ first.
 */
 static PetscErrorCode SetUpGetOperator(Mat A, Mat *operator)
 {
@@ -64,7 +64,7 @@ static PetscErrorCode SetUpGetOperator(Mat A, Mat *operator)
   PetscFunctionReturn(0);
 }
 
-/* An error of hypre may be one rank's alone */
+/* Sets up hypre; an error may occur on one rank only */
 static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
 {
   PC_BlockAMG   *amg = (PC_BlockAMG *)pc->data;
@@ -81,7 +81,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
   PetscCall(SetUpGetOperator(pc->pmat, &operator));
-  PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* the first has the near null space */
+  PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* pmat has the near null space */
   PetscCall(MatDestroy(&operator));
   PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
@@ -92,7 +92,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscFunctionReturn(0);
 }
 
-/* Frees hypre's memory before the finest level is converted */
+/* Converts the hierarchy; frees hypre's memory before the finest level is converted */
 static PetscErrorCode SetUpConvert(PC pc)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;

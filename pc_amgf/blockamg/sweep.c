@@ -1,13 +1,14 @@
 /*
-   The arithmetic of the cycle on this rank, in floats: sweeps that read a row of L once for the sweep and the
+   Arithmetic of the cycle on this rank, in floats: sweeps that read each row of L once for both the sweep and the
    residual, and interpolation
 */
 #include "blockamgimpl.h"
 #include "vec4.h"
 
 /*
-   x_i = W^T W (f - L x), then t += L^T x_i. The fourth place of x is zero for B = 3, that of t is not used. Blocks are
-   read in the direction of the sweep: memory that is read downwards throughout is fetched ahead by the processor.
+   One row of a sweep: x_i = W^T W (f - L x), then t += L^T x_i. For B = 3 the fourth place of x is zero and that of t
+   is unused. Blocks are read in the direction of the sweep, since processors prefetch memory that is read in one
+   direction.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
 {
@@ -28,7 +29,7 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
   xi = Vec4Sums(a);
   Vec4Store(l->x + 4 * (size_t)i, xi);
   for (int r = 0; r < B; r++) copies[r] = Vec4Same(Vec4Get(xi, r));
-  for (int k = k0; k < k1; k++) { /* the row is in the cache now */
+  for (int k = k0; k < k1; k++) { /* the row is now in the cache */
     const float *v = l->L + B * B * (size_t)k;
     Vec4         s = Vec4Load(l->t + l->col[k]);
 
@@ -80,7 +81,7 @@ void BlockSweepUp_Private(const BlockLevel *l)
 }
 
 /*
-  BlockRestrict_Private - coarse = -P^T t, with its ghosts
+   BlockRestrict_Private - coarse = -P^T t, including its ghosts
 */
 VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
 {
@@ -94,7 +95,7 @@ VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
 }
 
 /*
-  BlockInterpolateAdd_Private - x = x + P coarse, which has its ghosts
+   BlockInterpolateAdd_Private - x += P coarse; the ghosts of coarse must be up to date
 */
 VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float coarse[])
 {
@@ -109,7 +110,7 @@ VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float co
 }
 
 /*
-  BlockDenseMultiply_Private - n entries of W^T W b from the first on
+   BlockDenseMultiply_Private - x = n entries of W^T W b, starting at `first`
 */
 VEC4_CLONES void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[])
 {

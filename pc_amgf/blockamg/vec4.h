@@ -1,6 +1,5 @@
 /*
-   Four floats as one value: the vector extension of gcc and clang, which compiles for any processor, or an array
-   with other compilers
+   Four floats as one value: the vector extension of gcc and clang, or an array with other compilers
 */
 #ifndef AMGF_VEC4_H
 #define AMGF_VEC4_H
@@ -45,7 +44,7 @@ typedef int Vec4Places __attribute__((vector_size(16)));
     #define VEC4_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle(a, b, (Vec4Places){i, j, k, l})
   #endif
 
-/* The sums of the entries of each of four vectors */
+/* result[i]: sum of the entries of a[i] */
 VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
 {
   const Vec4 p = VEC4_SHUFFLE(a[0], a[1], 0, 4, 1, 5) + VEC4_SHUFFLE(a[0], a[1], 2, 6, 3, 7);
@@ -97,7 +96,7 @@ VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
 }
 #endif
 
-/* From and to any address */
+/* Loads from, or stores to, an unaligned address */
 VEC4_INLINE Vec4 Vec4Load(const float *p)
 {
   Vec4 a;
@@ -111,8 +110,8 @@ VEC4_INLINE void Vec4Store(float *p, Vec4 a)
   memcpy(p, &a, sizeof(a));
 }
 
-/* Compiles a function for several processors; the loader chooses. Not with sanitizers, which are not initialized when
-   the loader chooses */
+/* Compiles a function for several processors, among which the loader chooses. Not with sanitizers, which are not yet
+   initialized then */
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && \
   !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
   #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -1,4 +1,4 @@
-/* What -ksp_view says of PCBLOCKAMG */
+/* Output of -ksp_view for PCBLOCKAMG */
 #include "blockamgimpl.h"
 
 static PetscErrorCode ViewLevel(const BlockHierarchy *h, int i, PetscViewer viewer)

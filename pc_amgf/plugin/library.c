@@ -1,11 +1,11 @@
 /*
-   Whether the PETSc that runs is one like that the plugin was compiled with. The loader takes any: a plugin of 64-bit
-   integers in a program of 32-bit ones finds every function it calls, and computes garbage. What the running
-   library's numbers are is what it writes where it stores one.
+   Checks that the running PETSc matches the one that the plugin was compiled with. The loader does not check: a plugin
+   with 64-bit integers in a program with 32-bit ones finds every function, and computes garbage. The sizes of the
+   running library's numbers are found from the bytes that it writes.
 */
 #include "pc_amgf/amgfimpl.h"
 
-/* Room for a number of any PETSc: the largest is complex, in quadruple precision */
+/* Space for a number of any PETSc; the largest is complex in quadruple precision */
 typedef union {
   PetscInt    integer;
   PetscReal   real;
@@ -13,13 +13,13 @@ typedef union {
   _Alignas(32) unsigned char bytes[64];
 } LibraryNumber;
 
-/* A value that no byte of a zero has */
+/* Fills the number with a value that no byte of a zero has */
 static void LibraryMark(LibraryNumber *number)
 {
   for (size_t i = 0; i < sizeof(number->bytes); i++) number->bytes[i] = 0xff;
 }
 
-/* The library has stored a zero: as many bytes as its type has */
+/* Error unless the library, which has stored a zero, has overwritten exactly as many bytes as the compiled type has */
 static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const LibraryNumber *number)
 {
   size_t running = 0;

@@ -1,4 +1,4 @@
-/* Loading of the plugin: registers PCAMGF and TAOIPFILTER */
+/* Registers PCAMGF and TAOIPFILTER when the plugin is loaded */
 #include "pc_amgf/amgfimpl.h"
 
 static PetscBool initialized = PETSC_FALSE;
@@ -20,9 +20,8 @@ PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
   Called when the shared library is loaded with `-dll_append`. A program linked with the library calls it once
   after `PetscInitialize()`; further calls do nothing.
 
-  It is an error if the PETSc that runs differs in release, or in the size of `PetscInt`, `PetscReal` or
-  `PetscScalar`, from the one that the library was
-  compiled with.
+  It is an error if the PETSc that runs differs in release, or in the size of `PetscInt`, `PetscReal` or `PetscScalar`,
+  from the one that the library was compiled with.
 
   Where PETSc's scalars are complex, the library holds `PCAMGF` alone.
 

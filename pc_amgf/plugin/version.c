@@ -1,4 +1,4 @@
-/* Which release of the plugin runs, and what it was compiled with */
+/* Version of the plugin, and how it was compiled */
 #include "pc_amgf/amgfimpl.h"
 
 /*@C
@@ -16,8 +16,7 @@
 
   Note:
   `PETSCAMGF_VERSION_MAJOR`, `PETSCAMGF_VERSION_MINOR`, `PETSCAMGF_VERSION_SUBMINOR`, `PETSCAMGF_VERSION_LT()` and
-  `PETSCAMGF_VERSION_GE()` say at compile time which release a
-  program is compiled for.
+  `PETSCAMGF_VERSION_GE()` say at compile time which release a program is compiled for.
 
 .seealso: `PetscAMGFInitializePackage()`, `PCAMGF`, `TAOIPFILTER`
 @*/

@@ -1,14 +1,24 @@
 /*
-   Checkpoints, private: what the file that is written and read has in common.
+   Private header of checkpoints: what reading and writing have in common.
 */
 #ifndef CHECKPOINTIMPL_H
 #define CHECKPOINTIMPL_H
 
 #include <checkpoint.h>
 #include <scene.h>
+#include <elasticity.h>
 #include "src/output/outputimpl.h"
 
-/* read.c, write.c: numbers of a checkpoint that are attributes of its file; NULL ends them */
+/* fields.c: a field with all that is known of it; one that is not there is an error */
+PETSC_INTERN PetscErrorCode CheckpointFindField(Checkpoint, const char name[], const CheckpointField **);
+
+/* plastic.c: the plastic strains at the quadrature points, and where these are; read in any parts by the ranks */
+#define CHECKPOINT_PLASTIC_PLACES "plastic_places"
+#define CHECKPOINT_PLASTIC        "plastic_history"
+PETSC_INTERN PetscErrorCode CheckpointAddPlastic(Elasticity, Checkpoint);
+PETSC_INTERN PetscErrorCode CheckpointGetPlastic(MPI_Comm, Elasticity, Checkpoint);
+
+/* read.c, write.c: numbers of a checkpoint, stored as attributes of its file; ends with a NULL name */
 typedef struct {
   const char *name;
   size_t      offset;

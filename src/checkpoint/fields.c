@@ -1,5 +1,5 @@
-/* The fields of a checkpoint. */
-#include <checkpoint.h>
+/* Fields of a checkpoint. */
+#include "checkpointimpl.h"
 #include <string.h>
 
 const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
@@ -49,7 +49,7 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
 +  checkpoint - the checkpoint
 .  name       - of the field
 .  components - values a vertex
--  nvertices  - vertices of this rank
+-  nvertices  - vertices of this rank, or other records
 
    Output Parameter:
 .  values - to be filled, borrowed
@@ -66,10 +66,22 @@ PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], Pets
   PetscFunctionBegin;
   PetscCall(PetscRealloc((size_t)(checkpoint->nfields + 1) * sizeof(*checkpoint->fields), &checkpoint->fields));
   field             = &checkpoint->fields[checkpoint->nfields++];
+  field->n          = nvertices;
   field->components = components;
   PetscCall(PetscStrncpy(field->name, name, sizeof(field->name)));
   PetscCall(PetscCalloc1(components * nvertices, &field->values));
   *values = field->values;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CheckpointFindField(Checkpoint checkpoint, const char name[], const CheckpointField **field)
+{
+  PetscFunctionBegin;
+  *field = NULL;
+  for (PetscInt f = 0; f < checkpoint->nfields; ++f) {
+    if (!strcmp(checkpoint->fields[f].name, name)) *field = &checkpoint->fields[f];
+  }
+  PetscCheck(*field, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "the checkpoint has no field \"%s\"", name);
   PetscFunctionReturn(0);
 }
 
@@ -91,13 +103,10 @@ PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], Pets
 @*/
 PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], const PetscReal **values)
 {
-  const CheckpointField *found = NULL;
+  const CheckpointField *found;
 
   PetscFunctionBegin;
-  for (PetscInt f = 0; f < checkpoint->nfields; ++f) {
-    if (!strcmp(checkpoint->fields[f].name, name)) found = &checkpoint->fields[f];
-  }
-  PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_FILE_UNEXPECTED, "the checkpoint has no field \"%s\"", name);
+  PetscCall(CheckpointFindField(checkpoint, name, &found));
   *values = found->values;
   PetscFunctionReturn(0);
 }

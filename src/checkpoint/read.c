@@ -1,10 +1,10 @@
-/* Restores a checkpoint on the mesh it was written for, or on another mesh of the same bodies. */
+/* Restores a checkpoint on the mesh for which it was written, or on another mesh of the same bodies. */
 #include "checkpointimpl.h"
 #include <mesh.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Numbers of a checkpoint that are attributes of its file */
+/* Numbers of a checkpoint, stored as attributes of its file */
 const CheckpointNumberField CheckpointNumbers[] = {
   {"time", offsetof(struct _n_Checkpoint, time)},
   {"previous_time", offsetof(struct _n_Checkpoint, previous_time)},
@@ -20,30 +20,30 @@ PetscReal *CheckpointNumber(Checkpoint checkpoint, size_t i)
   return (PetscReal *)((char *)checkpoint + CheckpointNumbers[i].offset);
 }
 
-/* The mesh of the file, all of it on every rank */
+/* The mesh of the file, complete on every rank */
 typedef struct {
   PetscInt           ncells, nvertices;
   Vec                vertices;
   IS                 cells, body;
   const PetscScalar *x;
   const PetscInt    *c, *b;
-  PetscInt          *first, *nnodes; /* of each cell: where its nodes begin, and how many there are */
+  PetscInt          *first, *nnodes; /* for each cell: index of its first node, and number of nodes */
 } RestartMesh;
 
-/* Which cell of the file each vertex of this rank is in */
+/* The file's cell that contains each vertex of this rank */
 typedef struct {
   MPI_Comm     comm;
   const char  *file;
   PetscViewer  viewer;
   Scene        scene;
-  Output       output; /* the mesh of the run that goes on */
+  Output       output; /* the mesh of the continued run */
   RestartMesh  mesh;
   MeshLocator  locator; /* NULL: the vertices are those of the file in the same order */
   PetscScalar *x;       /* the vertices of this rank */
   PetscInt    *body;
 } Restart;
 
-/* nlocal: rows of this rank, or PETSC_DECIDE */
+/* Loads a dataset; nlocal: rows of this rank, or PETSC_DECIDE */
 static PetscErrorCode RestartLoad(Restart *r, const char name[], PetscInt nlocal, PetscInt components, Vec *v)
 {
   PetscFunctionBegin;
@@ -56,7 +56,7 @@ static PetscErrorCode RestartLoad(Restart *r, const char name[], PetscInt nlocal
   PetscFunctionReturn(0);
 }
 
-/* All of it on every rank */
+/* Loads a dataset completely on every rank */
 static PetscErrorCode RestartLoadAll(Restart *r, const char name[], PetscInt components, Vec *all)
 {
   Vec        v;
@@ -72,7 +72,7 @@ static PetscErrorCode RestartLoadAll(Restart *r, const char name[], PetscInt com
   PetscFunctionReturn(0);
 }
 
-/* Collective over the vector */
+/* Collective: checks that all values are finite numbers */
 static PetscErrorCode RestartCheckNumbers(Restart *r, const char name[], Vec v)
 {
   PetscReal sum;
@@ -147,7 +147,7 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Whether every rank has the vertices that stand in the file at the same place */
+/* same: whether every rank's vertices are at the same position in the file */
 static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
 {
   const PetscInt     n = r->output->nowned;
@@ -170,7 +170,7 @@ static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Node number `a` of a cell, of hexahedra in tensor order, which the file has in VTK's order */
+/* Node `a` of a cell, for hexahedra in tensor order; the file has VTK's order */
 static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt a)
 {
   static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
@@ -178,8 +178,8 @@ static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt
   return mesh->c[mesh->first[cell] + (mesh->nnodes[cell] == 8 ? vtk[a] : a)];
 }
 
-/* Where the nodes of each cell begin, and how many there are: 8, or as its kind says, which is before them. Each has
-   all its nodes, and they are vertices of the file */
+/* Finds the first node and the number of nodes of each cell: 8, or in mixed files given by the kind stored before
+   them. Error if a cell is incomplete or a node is not a vertex of the file */
 static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nindices)
 {
   RestartMesh *mesh = &r->mesh;
@@ -231,7 +231,7 @@ static PetscErrorCode RestartLoadMesh(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Each vertex has its place in a cell of the file, of the same body */
+/* Finds for each vertex the file's cell of the same body that contains it */
 static PetscErrorCode RestartLocate(Restart *r)
 {
   const MeshPlace *places;
@@ -256,14 +256,15 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Forces stay at their vertices: interpolation would change their sum */
+/* Interpolation weight of node a. Forces are moved to the nearest vertex instead, because interpolation would change
+   their sum */
 static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
 {
   if (!force) return place->N[a];
   return place->N[a] > 1 - PETSC_SQRT_MACHINE_EPSILON ? 1 : 0;
 }
 
-/* As it is, or interpolated in the file's cells */
+/* Reads a field directly, or interpolates it in the file's cells */
 static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt components, PetscBool force,
   Checkpoint checkpoint)
 {
@@ -300,11 +301,37 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
+/* Records that each rank takes a part of */
+static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt components, Checkpoint checkpoint)
 {
-  PetscBool rubs = PETSC_FALSE;
+  Vec                stored;
+  const PetscScalar *s;
+  PetscReal         *values;
+  PetscInt           n;
 
   PetscFunctionBegin;
+  PetscCall(RestartLoad(r, name, PETSC_DECIDE, components, &stored));
+  PetscCall(RestartCheckNumbers(r, name, stored));
+  PetscCall(VecGetLocalSize(stored, &n));
+  PetscCall(CheckpointAddField(checkpoint, name, components, n / components, &values));
+  PetscCall(VecGetArrayRead(stored, &s));
+  for (PetscInt i = 0; i < n; ++i) values[i] = PetscRealPart(s[i]);
+  PetscCall(VecRestoreArrayRead(stored, &s));
+  PetscCall(VecDestroy(&stored));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
+{
+  PetscBool rubs = PETSC_FALSE, yields = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < r->scene->nbodies; ++b)
+    yields = (PetscBool)(yields || r->scene->bodies[b].material.type == MATERIAL_J2);
+  if (yields) {
+    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
+    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, checkpoint));
+  }
   for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
@@ -324,12 +351,12 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Checks that the file is HDF5 and complete, on the first rank; the library would print a page. The file's end is at
-   byte 40 of a superblock of version 0 */
+/* Checks on the first rank that the file is complete HDF5; the library would print a page of errors. The end of the
+   file is stored at byte 40 of a version 0 superblock */
 static PetscErrorCode RestartCheckFile(const Restart *r)
 {
   unsigned char head[48]  = {0};
-  PetscInt64    length[2] = {0, 0}; /* of the file, and what it ought to be; negative: it is another one */
+  PetscInt64    length[2] = {0, 0}; /* actual and expected length of the file; negative: not HDF5 */
   PetscMPIInt   rank;
   FILE         *stream = NULL;
 
@@ -368,7 +395,7 @@ static PetscErrorCode RestartReadFile(Restart *r, Checkpoint checkpoint, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* The vertices of this rank, and their bodies */
+/* Gets the vertices of this rank, and their bodies */
 static PetscErrorCode RestartCreate(DM dm, Restart *r)
 {
   Vec                vertices;

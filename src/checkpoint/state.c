@@ -1,8 +1,8 @@
-/* The state of a simulation for a restart: displacement path and contact history. */
-#include <checkpoint.h>
+/* The state of a simulation for a restart: displacements and contact history. */
+#include "checkpointimpl.h"
 #include "src/measure/measureimpl.h"
 
-/* A field of a global vector; NULL: zero */
+/* Adds a field from a global vector; NULL: zeros */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
 {
   const PetscScalar *a;
@@ -32,7 +32,7 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* In a vector of its own, as u is, in the place of the one that was */
+/* Replaces *force by a new vector with the layout of u */
 static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[], Vec u, Vec *force)
 {
   PetscFunctionBegin;
@@ -111,6 +111,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
   if (sim->history.shear) PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
+  PetscCall(CheckpointAddPlastic(sim->elasticity, *checkpoint));
   PetscFunctionReturn(0);
 }
 
@@ -156,6 +157,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
+  PetscCall(CheckpointGetPlastic(sim->comm, sim->elasticity, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);

@@ -1,4 +1,4 @@
-/* A run's state on disk: a file that is whole or not there. */
+/* Writes a run's state to disk; the file is either complete or absent. */
 #include "checkpointimpl.h"
 #include <string.h>
 
@@ -10,14 +10,14 @@ struct _n_CheckpointWriter {
   FileCommit commit;
 };
 
-/* What is written: a state, of which scene, on which mesh */
+/* Contents of the file: a state, its scene and mesh */
 typedef struct {
   Checkpoint checkpoint;
   Scene      scene;
   Output     mesh;
 } CheckpointContents;
 
-/* One number a character, on the first rank: an attribute could not be as long */
+/* Writes a text, one character per number, on the first rank; an attribute could not be as long */
 static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], const char text[], PetscViewer viewer)
 {
   IS          is;
@@ -38,7 +38,7 @@ static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/* How the run was asked for, for people to read */
+/* Writes how the run was started, as text for people */
 static PetscErrorCode CheckpointWriteWords(const CheckpointContents *contents, PetscViewer viewer)
 {
   char *scene, *options;
@@ -80,11 +80,11 @@ static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
   PetscCall(FieldsWriteMesh(viewer, contents->mesh));
   for (PetscInt f = 0; f < contents->checkpoint->nfields; ++f) {
     const CheckpointField *field = &contents->checkpoint->fields[f];
-    const PetscInt         n     = field->components * contents->mesh->nowned;
+    const PetscInt         n     = field->components * field->n;
     Vec                    data;
     PetscScalar           *a;
 
-    PetscCall(DatasetCreate(contents->mesh->comm, field->name, contents->mesh->nowned, field->components, &data));
+    PetscCall(DatasetCreate(contents->mesh->comm, field->name, field->n, field->components, &data));
     PetscCall(VecGetArrayWrite(data, &a));
     for (PetscInt i = 0; i < n; ++i) a[i] = field->values[i];
     PetscCall(VecRestoreArrayWrite(data, &a));

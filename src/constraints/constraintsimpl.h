@@ -1,6 +1,6 @@
 /*
-   All that eliminates unknowns: prescribed displacements, symmetry planes, ties, hanging nodes, rigid bodies. Every
-   file builds on those before it.
+   Constraints, i.e. everything that eliminates unknowns: prescribed displacements, symmetry planes, ties, hanging
+   nodes, rigid bodies. Files are in the order in which they depend on each other.
 */
 #ifndef CONSTRAINTSIMPL_H
 #define CONSTRAINTSIMPL_H
@@ -8,28 +8,28 @@
 #include "src/loads/loadsimpl.h"
 #include "src/report/reportimpl.h"
 
-/* motions.c: rigid motions of faces and bodies at the factors of the ramps; the first displacement of a face or body
-   leads the others */
+/* motions.c: rigid motions of faces and bodies at given factors of the ramps. The scene's first displacement of a
+   face or body is its leader */
 typedef struct {
   PetscReal t[3], center[3]; /* [length] */
-  PetscReal turn[3][3];      /* rotation less identity */
+  PetscReal turn[3][3];      /* rotation matrix minus identity */
 } RigidMotion;
 
 PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
 PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
 PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
 
-/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1
+/* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1,
    and their ramps */
 typedef struct {
-  PetscReal value;  /* [length]; of a motion 1 where it drives, else 0 */
-  PetscInt  ramp;   /* of a motion 0 */
-  PetscInt  motion; /* displacement of the scene that leads it; PETSC_DECIDE: none */
+  PetscReal value;  /* displacement at factor 1 [length]; for rigid motions 1 if the row is driven, else 0 */
+  PetscInt  ramp;   /* for rigid motions 0 */
+  PetscInt  motion; /* leading displacement of the rigid motion; PETSC_DECIDE: none */
 } PrescribedValue;
 
 typedef struct {
   Scene            scene;
-  Vec              x; /* places of the nodes, borrowed */
+  Vec              x; /* coordinates of the nodes, borrowed */
   PetscInt         n;
   PetscInt        *rows;
   PrescribedValue *values;
@@ -41,44 +41,44 @@ PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, V
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
 
-/* Of rigid.c: a rigid body some of whose motions are free */
+/* rigid.c: a rigid body with free motions */
 typedef struct {
-  PetscInt  leader;        /* displacement of the scene */
-  PetscInt  n, motion[6];  /* those that are free: along, and about, the axes */
-  PetscInt  row[6];        /* global rows whose displacements carry them */
-  PetscReal inverse[6][6]; /* motions by the displacements of these rows; angles times size */
+  PetscInt  leader;        /* number of its displacement in the scene */
+  PetscInt  n, motion[6];  /* free motions: translations along, and rotations about, the axes */
+  PetscInt  row[6];        /* global rows whose displacements carry the motions */
+  PetscReal inverse[6][6]; /* motions in terms of the displacements of these rows; rotations are angle x body size */
   PetscReal size;          /* [length] */
 } RigidBody;
 
 typedef struct {
   PetscInt   n;
   RigidBody *bodies;
-  Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
-  Vec        elastic; /* 0 in the rows of these bodies, else 1 */
-  Vec given; /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows
+  Mat        R;       /* displacements of dependent rows in terms of the carrying rows; NULL: no motion is free */
+  Vec        elastic; /* 0 in the rows of these bodies, 1 elsewhere */
+  Vec        given;   /* displacement of their rows by prescribed motions, except in rows that are prescribed themselves
                 [length] */
-  Vec held;  /* stiffness of the rows that carry motions, about the centre of proximal.c; else 0 [force/length] */
+  Vec        held;    /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
 } RigidBodies;
 
-/* Of ties.c: the displacements of tied rows in terms of the others; C NULL where nothing is tied */
+/* ties.c: displacements of dependent rows in terms of the others; C NULL: no dependent rows */
 typedef struct {
-  Mat      C, K;    /* u = C x + o; stiffness of the bodies, K of the simulation being C^T K C */
-  Mat      hanging; /* that which hanging vertices have of C; NULL: there are none */
-  Mat      joined;  /* C = joined R, where forces drive rigid bodies; NULL: C = R */
-  Mat      elastic; /* C without the rows of such bodies, which have no stiffness; NULL: there are none */
-  Vec      o;       /* NULL: 0 [length] */
+  Mat      C, K;    /* C: u = C x + o; K: stiffness of the bodies, while the simulation's is C^T K C */
+  Mat      hanging; /* the part of C for hanging vertices; NULL: none */
+  Mat      joined;  /* C = joined R if forces drive rigid bodies; NULL: C = R */
+  Mat      elastic; /* C without the rows of such bodies, which have no stiffness; NULL: no such bodies */
+  Vec      o;       /* o [length]; NULL: 0 */
   PetscInt n, *rows;
   Vec      work;
 } Ties;
 
-/* What the files from here on work on: the bodies, and where their constraints are kept */
+/* Arguments of the functions from here on: the bodies, and their constraints */
 typedef struct {
   Bodies         bodies;
   Prescribed    *prescribed;
   const Springs *springs;
   RigidBodies   *rigid;
   Ties          *ties;
-  const Mat     *follows; /* slope of the pressures that follow their faces; a NULL one: there is none [force/length] */
+  const Mat     *follows; /* derivative of follower loads; points to NULL: none [force/length] */
 } Constraints;
 
 /* planes.c */

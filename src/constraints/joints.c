@@ -1,7 +1,8 @@
-/* Ties between faces: the displacements of one face's nodes as means of the other's, as rows of a matrix. */
+/* Ties between faces: displacements of one face's nodes as weighted means of those of the other, as rows of a
+   matrix. */
 #include "constraintsimpl.h"
 
-/* Adds up the ties; tied: which one owns a node, -1 none */
+/* Adds up all ties; tied: number of the tie of each node, -1: none */
 static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tied[])
 {
   MPI_Comm comm = c->bodies.comm;
@@ -35,7 +36,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
   PetscFunctionReturn(0);
 }
 
-/* A node to which others are tied must not be tied itself */
+/* Error if a node to which others are tied is tied itself */
 static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const PetscInt tied[])
 {
   Vec                is_tied, held;
@@ -64,7 +65,7 @@ static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const Pet
   PetscFunctionReturn(0);
 }
 
-/* It must not hang either: a uniform stress would not pass */
+/* Error if such a node hangs, because a uniform stress would not be transmitted */
 static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt tied[])
 {
   PetscInt start, end, hangs = -1;
@@ -88,7 +89,8 @@ static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt ti
   PetscFunctionReturn(0);
 }
 
-/* The matrix of the ties alone, and its rows that follow others; all: of nodes */
+/* Creates the matrix C of the ties alone, three rows per node, and marks dependent rows; all: the same, one row per
+   node */
 PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
   PetscBool follows[])
 {
@@ -122,7 +124,7 @@ PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[]
   PetscFunctionReturn(0);
 }
 
-/* NULL where no faces are tied */
+/* Creates C of the ties; NULL if no faces are tied */
 PetscErrorCode JointsCreate(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt n, *tied;

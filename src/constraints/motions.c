@@ -1,11 +1,11 @@
 /*
-   Rigid motions of faces and bodies: u = t + (R - 1) (X - c), with t and the rotation vector of R the sums over the
-   scene's entries of the same face or body, each times the factor of its ramp.
+   Rigid motions of faces and bodies: u = t + (R - 1) (X - c). t and the rotation vector of R are sums over the scene's
+   entries for the same face or body, each times the factor of its ramp.
 */
 #include "constraintsimpl.h"
 #include <string.h>
 
-/* The first entry of the same face or body, which stands for all of them */
+/* The first entry for the same face or body, which represents all of them */
 PetscInt MotionFindLeader(Scene scene, PetscInt d)
 {
   PetscInt leader = 0;
@@ -14,8 +14,8 @@ PetscInt MotionFindLeader(Scene scene, PetscInt d)
   return leader;
 }
 
-/* R - 1 by Rodrigues' formula, r = |rotation| n: sin r [n] + (1 - cos r) [n]^2, in which small angles keep their
-   digits */
+/* R - 1 by Rodrigues' formula with r = |rotation|, n = rotation / r: sin r [n] + (1 - cos r) [n]^2; accurate for
+   small angles */
 static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
 {
   PetscReal r[3], angle = 0.0, sine, versine;
@@ -34,7 +34,7 @@ static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
   }
 }
 
-/* factor: of each ramp */
+/* Computes the motion; factor: of each ramp */
 void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMotion *motion)
 {
   PetscReal degrees[3] = {0.0, 0.0, 0.0};

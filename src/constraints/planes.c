@@ -1,10 +1,10 @@
-/* Symmetry planes along no axis: n . u = 0 at their nodes. At each node as many components as there are planes follow
-   the others, by Gauss-Jordan elimination; those with the largest coefficients are chosen, and none that is
-   prescribed. */
+/* Symmetry planes in inclined directions: n . u = 0 at their nodes. At each node as many components as there are
+   planes depend on the others, by Gauss-Jordan elimination. Those with the largest coefficients are chosen, and none
+   that is prescribed. */
 #include "constraintsimpl.h"
 
 typedef struct {
-  PetscInt  n; /* planes through the node */
+  PetscInt  n; /* number of planes through the node */
   PetscReal a[3][3];
 } NodePlanes;
 
@@ -36,7 +36,7 @@ static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rst
   PetscFunctionReturn(0);
 }
 
-/* pivot[plane]: the component that follows, negative: none is left to */
+/* pivot[plane]: the dependent component; negative: none is left */
 static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], PetscInt pivot[3])
 {
   const PetscReal rounding = 1e-10;
@@ -65,8 +65,8 @@ static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], Pet
   }
 }
 
-/* The matrix u = C x of the planes alone, and its rows that follow others; given: prescribed displacements at the end
-   of the load program */
+/* Creates the matrix of u = C x for the planes alone, and marks dependent rows; given: prescribed displacements at
+   the end of the load program */
 static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes nodes[], const PetscBool prescribed[],
   Vec given, Mat *C, PetscBool follows[])
 {
@@ -109,7 +109,7 @@ static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes no
   PetscFunctionReturn(0);
 }
 
-/* C NULL where there are none; prescribed and follows: of this rank's rows */
+/* Creates C; NULL if there are no inclined planes. prescribed and follows: of this rank's rows */
 PetscErrorCode PlanesCreate(const Constraints *constraints, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt    n, rstart;

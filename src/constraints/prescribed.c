@@ -1,7 +1,7 @@
-/* Prescribed displacements: from faces and components of the scene to owned global rows and values. */
+/* Prescribed displacements: from the scene's faces and components to owned global rows and values. */
 #include "constraintsimpl.h"
 
-/* At factor 1 of its ramp, or of a motion so that it leads to its factors */
+/* The value of a row at factor 1 of its ramp; for rigid motions a reference to the leader */
 static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt component)
 {
   const SceneDisplacement *entry  = &scene->displacements[d];
@@ -48,7 +48,7 @@ static PetscErrorCode PrescribedCollect(DM dm, Scene scene, PetscInt *count, Pet
   PetscFunctionReturn(0);
 }
 
-/* What the rows are displaced by, in turn; factor: of each ramp */
+/* u: displacements of the rows; factor: of each ramp */
 static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal factor[], PetscReal u[])
 {
   const PetscScalar *x;
@@ -69,8 +69,8 @@ static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal fa
   PetscFunctionReturn(0);
 }
 
-/* Largest difference of what two faces prescribe of one row where all factors are the same; of motions beyond
-   rounding */
+/* worst: largest difference between two values prescribed for one row if all ramps have the factor `all`; for rigid
+   motions beyond rounding */
 static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
 {
   PetscReal *u, *factor, size = 0.0;
@@ -90,7 +90,7 @@ static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Faces share edges: one value per row remains. Two values that differ are an error on every rank */
+/* Keeps one value per row, since faces share edges. Two different values are an error on every rank */
 static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
 {
   PetscInt        unique   = 0;
@@ -100,7 +100,7 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
   PetscFunctionBegin;
   PetscCall(PetscSortIntWithDataArray(p->n, p->rows, p->values, sizeof(PrescribedValue), &work));
   PetscCall(PrescribedDiffer(p, 1.0, &worst[0]));
-  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* of motions that end where they began */
+  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* a second factor detects motions that end where they started */
   for (PetscInt k = 0; k < p->n; ++k) {
     if (unique && p->rows[unique - 1] == p->rows[k]) {
       if (p->values[unique - 1].ramp != p->values[k].ramp) worst[1] = 1.0;
@@ -130,7 +130,7 @@ PetscErrorCode PrescribedCreate(DM dm, Scene scene, const VertexPlaces *places, 
   PetscFunctionReturn(0);
 }
 
-/* u = what the time asks for on the prescribed rows; the other rows stay */
+/* Sets u to the prescribed values of this time in prescribed rows; other rows stay */
 PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
 {
   PetscScalar *a;
@@ -149,7 +149,7 @@ PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* One value on all prescribed rows */
+/* Sets all prescribed rows of v to one value */
 PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
 {
   PetscScalar *a;
@@ -163,8 +163,8 @@ PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sum of each component over the driven rows, whose prescribed value is not zero; over all prescribed rows if none is
-   driven. The sum over all rows would always be zero in equilibrium */
+/* Sums each component over driven rows, whose prescribed value is not zero; over all prescribed rows if none is
+   driven. The sum over all rows would always vanish in equilibrium */
 PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
 {
   const PetscScalar *a;

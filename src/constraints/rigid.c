@@ -1,11 +1,10 @@
 /*
-   Rigid bodies driven by forces. If a motion is free, the displacements of all nodes follow those of as many rows as
-   there are free motions: u = R x + o, where o comes from the prescribed motions. Free rotations are small, u = r x
-   (X - center).
+   Rigid bodies driven by forces. The displacements of all nodes depend on those of as many rows as there are free
+   motions: u = R x + o, where o comes from the prescribed motions. Free rotations are small, u = r x (X - center).
 */
 #include "constraintsimpl.h"
 
-/* Angle at which small rotations have an error of 6e-4 of the arm */
+/* angle at which small rotations have a relative error of 6e-4 */
 static const PetscReal largest_angle = 2.0; /* [degrees] */
 
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
@@ -16,7 +15,7 @@ static PetscBool RigidIsReleased(const SceneDisplacement *d)
   return released;
 }
 
-/* Component c at the place X of the body's free motions; angles times the body's size */
+/* row: component c of the body's free motions at X; rotations are angle x body size */
 static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const PetscScalar X[3], PetscInt c,
   PetscReal row[6])
 {
@@ -29,7 +28,7 @@ static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const
   }
 }
 
-/* Global rows of the first component of the nodes that this rank owns */
+/* First global row of each node that this rank owns */
 static PetscErrorCode RigidGetNodes(const Constraints *c, const RigidBody *body, IS *nodes)
 {
   PetscFunctionBegin;
@@ -50,7 +49,8 @@ static PetscErrorCode RigidMeasure(const Constraints *c, PetscInt rstart, const 
   PetscFunctionReturn(0);
 }
 
-/* The row with the largest component across those that carry motions already, unit[]; which becomes the next of them */
+/* Finds the row whose motions have the largest component orthogonal to those of the carrying rows, unit[]; it
+   becomes the next carrying row */
 static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
 {
@@ -90,7 +90,7 @@ static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, co
   PetscFunctionReturn(0);
 }
 
-/* inverse of a n x n matrix, by Gauss-Jordan elimination with pivoting by rows */
+/* Inverse of an n x n matrix by Gauss-Jordan elimination with row pivoting */
 static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
 {
   for (PetscInt i = 0; i < 36; ++i) inverse[i / 6][i % 6] = i / 6 == i % 6 ? 1.0 : 0.0;
@@ -123,7 +123,7 @@ static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
   }
 }
 
-/* Rows of R: those that carry the motions have a 1, which is put there exactly */
+/* Sets the rows of R; carrying rows are exact unit rows */
 static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
   PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
 {
@@ -180,7 +180,8 @@ static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, con
   PetscFunctionReturn(0);
 }
 
-/* After the prescribed rows. prescribed and follows: of this rank's rows; without such bodies nothing is created */
+/* Sets up rigid bodies driven by forces; call after the prescribed rows. prescribed and follows: of this rank's
+   rows. Without such bodies nothing is created */
 PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
 {
   RigidBodies *rigid = c->rigid;
@@ -218,7 +219,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscFunctionReturn(0);
 }
 
-/* o, what the motions that are prescribed displace the rows that follow by */
+/* o: displacements of dependent rows by prescribed motions */
 PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
 {
   RigidBodies       *rigid = c->rigid;
@@ -259,7 +260,7 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
   PetscFunctionReturn(0);
 }
 
-/* Springs on rigid bodies, the only stiffness that their own rows have: of the motions by C, u = C x */
+/* Adds springs on rigid bodies, whose own rows have no other stiffness; C: u = C x */
 static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness)
 {
   PetscInt n;
@@ -282,11 +283,11 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
   PetscFunctionReturn(0);
 }
 
-/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions to the centre of
-   proximal.c */
+/* Adds springs, and the proximal stiffness of the free motions (proximal.c), to a matrix that has all diagonal
+   entries */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = 1e-3; /* of that of an elastic body of this size */
+  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;
@@ -310,7 +311,7 @@ PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat 
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged if a free rotation is not small */
+/* Marks the solve as failed if a free rotation is not small */
 PetscErrorCode RigidTest(const Constraints *c, Vec u, StepReport *report)
 {
   const PetscScalar *a, *given;

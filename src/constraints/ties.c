@@ -1,12 +1,13 @@
 /*
-   Tied faces, inclined symmetry planes, hanging vertices and rigid bodies driven by forces. Displacements there
-   follow other displacements, u = C x + o, and are no unknowns. x has the entries of u, with meaningless numbers in
-   the dependent rows. Energy, forces and gaps are those of C x + o; forces become C^T f, the stiffness C^T K C with a
-   diagonal in the dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed rows are not tied.
+   Dependent displacements: tied faces, inclined symmetry planes, hanging vertices, and rigid bodies driven by forces.
+   They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u; its values in
+   dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the stiffness C^T
+   K C with a diagonal in dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed rows do not
+   become dependent.
 */
 #include "constraintsimpl.h"
 
-/* Whether a local row is prescribed */
+/* Marks local rows that are prescribed */
 static PetscErrorCode TiesMarkPrescribed(const Constraints *c, PetscInt rstart, PetscBool prescribed[])
 {
   PetscFunctionBegin;
@@ -14,7 +15,7 @@ static PetscErrorCode TiesMarkPrescribed(const Constraints *c, PetscInt rstart, 
   PetscFunctionReturn(0);
 }
 
-/* NULL where no vertex hangs; those of faces with prescribed displacements have theirs */
+/* Creates C of hanging vertices; NULL if none hangs. Vertices with prescribed displacements keep these */
 static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt start, end, *hangs;
@@ -38,7 +39,7 @@ static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool pr
   PetscFunctionReturn(0);
 }
 
-/* C = A C; C NULL: A */
+/* C = A C; if C is NULL, C = A */
 static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 {
   Mat product;
@@ -56,8 +57,8 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* Tied nodes follow nodes on symmetry planes and hanging ones, and may be such nodes themselves. So planes come first
-   and hanging nodes last, since these hang between nodes on planes */
+/* Composes C. Tied nodes may depend on nodes on symmetry planes and on hanging nodes, and may be such nodes
+   themselves. Therefore planes come first and hanging nodes, which may lie between nodes on planes, last */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
@@ -74,7 +75,7 @@ static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* The same number in the diagonal, and nothing beside it */
+/* Creates a diagonal matrix with a constant value */
 static PetscErrorCode TiesCreateDiagonal(Vec layout, PetscReal value, Mat *diagonal)
 {
   PetscInt start, end;
@@ -89,7 +90,7 @@ static PetscErrorCode TiesCreateDiagonal(Vec layout, PetscReal value, Mat *diago
   PetscFunctionReturn(0);
 }
 
-/* C, of all but rigid bodies, is the second factor to R, if there are any that forces drive */
+/* Multiplies C by R if forces drive rigid bodies */
 static PetscErrorCode TiesJoinRigid(const Constraints *c)
 {
   Ties *ties = c->ties;
@@ -108,7 +109,7 @@ static PetscErrorCode TiesJoinRigid(const Constraints *c)
   PetscFunctionReturn(0);
 }
 
-/* After the prescribed rows, before the stiffness */
+/* Creates C; call after the prescribed rows, before the stiffness */
 PetscErrorCode TiesCreate(const Constraints *c)
 {
   Ties      *ties = c->ties;
@@ -141,7 +142,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscFunctionReturn(0);
 }
 
-/* To what is prescribed at a time */
+/* Updates o to the prescribed motions of a time */
 PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
 {
   Ties *ties = c->ties;
@@ -153,7 +154,7 @@ PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* u = C u + o: the tied rows follow the others */
+/* u = C u + o: sets the dependent rows */
 PetscErrorCode TiesFollow(const Ties *ties, Vec u)
 {
   PetscFunctionBegin;
@@ -164,7 +165,7 @@ PetscErrorCode TiesFollow(const Ties *ties, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* f = C^T f: forces on the tied rows go to the others */
+/* f = C^T f: moves forces on dependent rows to the others */
 PetscErrorCode TiesGather(const Ties *ties, Vec f)
 {
   PetscFunctionBegin;
@@ -175,9 +176,9 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
 }
 
 /*
-   Moves forces on dependent rows to the others. ties: the forces on the bodies that result, except between hanging
-   vertices and their cells. rigid: on rigid bodies driven by forces, the forces that keep them rigid and to the
-   prescribed motions. NULL if nothing depends
+   Moves forces on dependent rows to the others. ties: the resulting forces on the bodies, except between hanging
+   vertices and their cells. rigid: forces on rigid bodies driven by forces that keep them rigid and to their prescribed
+   motions. NULL if there are none
 */
 PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *rigid)
 {
@@ -216,7 +217,7 @@ PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Prescribed and tied rows and columns hold nothing but the diagonal that they had */
+/* Clears prescribed and dependent rows and columns except for the given diagonal */
 static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied)
 {
   const Ties        *ties = c->ties;
@@ -242,8 +243,9 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
   PetscFunctionReturn(0);
 }
 
-/* C^T K C, with a place for every diagonal entry: that of the tied rows is not among the products */
-static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
+/* tied = C^T K C, with all diagonal entries allocated: those of dependent rows are not in the product. inert: rigid
+   bodies have entries in K */
+static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagonal, Mat *tied)
 {
   PetscBool aij;
   Mat       places, K = ties->K;
@@ -251,7 +253,7 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
-  PetscCall(MatPtAP(K, ties->elastic ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  PetscCall(MatPtAP(K, ties->elastic && !inert ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
   if (!aij) PetscCall(MatDestroy(&K));
   PetscCall(TiesCreateDiagonal(diagonal, 0.0, &places));
   PetscCall(MatAXPY(*tied, 1.0, places, DIFFERENT_NONZERO_PATTERN));
@@ -259,7 +261,8 @@ static PetscErrorCode TiesMultiply(const Ties *ties, Vec diagonal, Mat *tied)
   PetscFunctionReturn(0);
 }
 
-/* The bodies' stiffness at u less the slope of loads that follow, of the tied displacements where faces are tied */
+/* Assembles the tangent at u: stiffness minus the derivative of follower loads, multiplied by C if rows are
+   dependent */
 PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
 {
   Ties *ties = c->ties;
@@ -276,7 +279,7 @@ PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
   if (*c->follows) PetscCall(MatAXPY(ties->K, -1.0, *c->follows, SAME_NONZERO_PATTERN));
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
-  PetscCall(TiesMultiply(ties, diagonal, &tied));
+  PetscCall(TiesMultiply(ties, SceneIsDynamic(c->bodies.scene), diagonal, &tied));
   PetscCall(CouplingsAddStiffness(c->springs, ties->C, tied));
   if (c->rigid->R) PetscCall(RigidAddStiffness(c, ties->C, diagonal, tied));
   PetscCall(TiesClearRows(c, diagonal, tied));
@@ -288,7 +291,7 @@ PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* The stiffness that solvers have, AIJ where faces are tied; that of the bodies as they are is in ties.K then */
+/* Creates the solvers' stiffness matrix, AIJ if rows are dependent; the bodies' own stiffness is then ties.K */
 PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
 {
   PetscFunctionBegin;
@@ -299,7 +302,7 @@ PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
   PetscFunctionReturn(0);
 }
 
-/* Adds forces at this rank's rows, 3 numbers a body, and over the ranks */
+/* Adds the forces of this rank's rows to the bodies' sums, 3 numbers per body, and sums over the ranks */
 PetscErrorCode TiesMeasure(const Constraints *c, Vec forces, PetscReal bodies[])
 {
   const PetscScalar *a;

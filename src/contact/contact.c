@@ -1,12 +1,12 @@
 /* The contact object: creation, pairs of faces, options, search distances */
 #include "contactimpl.h"
 
-/* Default search distance, as a part of the size of the smaller face (the square root of its area) */
+/* default search distance, as a fraction of the square root of the smaller face's area */
 #define SEARCH_FRACTION 0.25
-/* largest penetration that is searched, as a part of the thickness of both bodies */
+/* search depth with a given distance: at most this fraction of the thickness of both bodies */
 #define THROUGH_FRACTION 0.9
-/* The product of two bilinear functions on parallelograms has degree 4; of that degree and of 5 the rules have 6 and
-   7 points */
+/* The integrand on parallelograms, a product of two bilinear functions, has degree 4. The rules of degree 4 and 5
+   have 6 and 7 points. */
 #define RULE_DEGREE 5
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
@@ -51,8 +51,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
   PetscFunctionReturn(0);
 }
 
-/* Penetration up to which facets of two bodies pair. If it were larger, a body's own faces, or those of thin bodies,
-   would pair through the bodies: two touching plates would do so at the sum of their thicknesses. */
+/* Search depth of a pair: penetration up to which facets pair. With a larger depth the far sides of thin bodies
+   would pair through the bodies; for two touching plates this would happen at the sum of their thicknesses. */
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
   const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
@@ -61,7 +61,7 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* Search distance and depth of a pair: constant lengths that do not depend on the mesh */
+/* Sets search distance and depth of all pairs: constant lengths that do not depend on the mesh */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;
@@ -111,8 +111,7 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
 
   Notes:
   A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error,
-  and so
-  is a negative search distance.
+  and so is a negative search distance.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -127,13 +126,9 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactCheckPairs(dm, npairs, pairs));
   PetscCall(PetscNew(&c));
   PetscCall(PetscObjectReference((PetscObject)dm));
-  c->dm            = dm;
-  c->comm          = PetscObjectComm((PetscObject)dm);
-  c->npairs        = npairs;
-  c->feature_angle = 35.0;
-  c->cosine        = -0.174;
-  c->overlap_drop  = 1e-8;
-  c->row_drop      = 1e-5;
+  c->dm     = dm;
+  c->comm   = PetscObjectComm((PetscObject)dm);
+  c->npairs = npairs;
   PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule));
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBoundaryCreate(dm, &boundary));
@@ -172,21 +167,12 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 + -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
 . -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand
                                        for, whatever the pair says
-. -contact_feature_angle <35>        - edges where neighbouring facets, undeformed, make more than these degrees stay
-                                       sharp
 . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the
                                        normals of the facets
 . -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every
                                        triangle of an overlap
-. -contact_search_distance <length>  - facets farther apart do not pair, whatever the pair says; 0: a quarter of the
-                                       square root of the smaller face's area
-. -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
-                                       body, or the
-                                       pair's own distance up to 0.9 of what both bodies are thick
-. -contact_normal_cosine <-0.174>    - facets pair when the cosine between their normals is at most this
-. -contact_overlap_drop <1e-8>       - overlaps below this part of the smaller facet's area are left out
-. -contact_row_drop <1e-5>           - rows whose 1-norm is below this part of the largest row's are left out
-- -contact_view                      - prints the contact after every linearization
+- -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
+                                       body, or the pair's own distance up to 0.9 of what both bodies are thick
 
   Level: beginner
 
@@ -194,11 +180,10 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 @*/
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
-  GapType   gap      = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
-  PetscReal distance = contact->npairs ? contact->pairs[0].given : 0.0;
-  PetscInt  degree   = contact->rule.degree;
-  PetscBool smooth   = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
-  PetscBool set_gap, set_distance, set_smooth;
+  GapType   gap    = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
+  PetscInt  degree = contact->rule.degree;
+  PetscBool smooth = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
+  PetscBool set_gap, set_smooth;
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
@@ -206,49 +191,24 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
   PetscCall(PetscOptionsBool("-contact_smooth", "Measure the gap of every pair between smooth surfaces",
     "ContactSetFromOptions", smooth, &smooth, &set_smooth));
-  PetscCall(PetscOptionsReal("-contact_feature_angle", "Angle between facets above which an edge stays sharp [degrees]",
-    "ContactSetFromOptions", contact->feature_angle, &contact->feature_angle, NULL));
   PetscCall(PetscOptionsEnum("-contact_normals", "Direction along which mortar gaps are measured",
     "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature",
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
     degree, &degree, NULL));
-  PetscCall(
-    PetscOptionsReal("-contact_search_distance", "Largest distance of facets that pair (0: from the size of the faces)",
-      "ContactSetFromOptions", distance, &distance, &set_distance));
   PetscCall(PetscOptionsReal("-contact_search_depth",
     "Largest penetration of facets that pair (0: from the thickness of the bodies)", "ContactSetFromOptions",
     contact->depth, &contact->depth, NULL));
-  PetscCall(
-    PetscOptionsReal("-contact_normal_cosine", "Facets pair if the cosine between their normals is at most this",
-      "ContactSetFromOptions", contact->cosine, &contact->cosine, NULL));
-  PetscCall(PetscOptionsReal("-contact_overlap_drop", "Relative area below which an overlap is ignored",
-    "ContactSetFromOptions", contact->overlap_drop, &contact->overlap_drop, NULL));
-  PetscCall(PetscOptionsReal("-contact_row_drop", "Relative 1-norm below which a row is ignored",
-    "ContactSetFromOptions", contact->row_drop, &contact->row_drop, NULL));
-  PetscCall(PetscOptionsViewer("-contact_view", "View the contact after every contact update", "ContactView", NULL,
-    NULL, NULL));
   PetscOptionsEnd();
-  PetscCheck(distance >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_search_distance must not be negative, but is %g", (double)distance);
   PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
-  PetscCheck(contact->feature_angle >= 0.0 && contact->feature_angle < 90.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_feature_angle must be in [0, 90) degrees, but is %g", (double)contact->feature_angle);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(contact->cosine >= -1.0 && contact->cosine < 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_normal_cosine must be in [-1, 0), but is %g", (double)contact->cosine);
-  PetscCheck(contact->overlap_drop >= 0.0 && contact->overlap_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_overlap_drop must be in [0, 1), but is %g", (double)contact->overlap_drop);
-  PetscCheck(contact->row_drop >= 0.0 && contact->row_drop < 1.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_row_drop must be in [0, 1), but is %g", (double)contact->row_drop);
   PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
     "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
     "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
-    if (set_distance) contact->pairs[p].given = distance;
     if (set_smooth) contact->pairs[p].smooth = smooth;
   }
   PetscCall(ContactSmoothReset(contact));
@@ -272,8 +232,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 
   Note:
   Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth
-  surface goes on as in a
-  mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+  surface goes on as in a mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
 
 .seealso: `ContactCreate()`, `ContactLinearize()`
 @*/
@@ -401,9 +360,6 @@ PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
 + contact - the contact
 - viewer  - an ASCII viewer; others are ignored
 
-  Options Database Key:
-. -contact_view - calls this after every linearization
-
   Level: intermediate
 
 .seealso: `ContactLinearize()`
@@ -428,10 +384,6 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
       pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
       nfacing, pair->gap != GAP_NODE ? "overlapping facets" : "vertices over a facet"));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "facets pair where the cosine of their normals is at most %g and they overlap by more than %g of the smaller; rows "
-    "below %g of the largest are left out\n",
-    (double)contact->cosine, (double)contact->overlap_drop, (double)contact->row_drop));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

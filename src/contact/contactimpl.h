@@ -1,17 +1,17 @@
 /*
-   Contact, private: all of it, from one facet to the object.
+   Private header of contact: everything from geometry to the contact object.
 */
 #ifndef CONTACTIMPL_H
 #define CONTACTIMPL_H
 
 #include "src/contact/gaps/gapsimpl.h"
 
-/* linearize.c: the surfaces and normals at a displacement */
+/* linearize.c: deforms surfaces and normals */
 PETSC_INTERN PetscErrorCode ContactDeform(Contact, Vec u);
 
-/* penetration.c: of vertices, public */
+/* penetration.c: only public functions */
 
-/* contact.c, linearize.c, initial_overlap.c: the object's life, its gap, and the error where bodies overlap deeper
-   than it looks, public */
+/* contact.c, linearize.c, initial_overlap.c: only public functions (the object, its gap, the check for deep initial
+   overlaps) */
 
 #endif

@@ -1,8 +1,7 @@
-/* Reports bodies that overlap at the start deeper than the contact search reaches; otherwise they would count as not
-   in contact */
+/* Reports bodies that overlap initially by more than the search depth. They would get no contact rows. */
 #include "contactimpl.h"
 
-/* A row that only a deeper search finds: its nonmortar vertex, and its point on the mortar face */
+/* A row that is found only by a deeper search: its nonmortar vertex, and its point on the mortar face */
 typedef struct {
   PetscReal pair, depth, x[3], y[3];
 } InitialOverlapRow;
@@ -16,7 +15,7 @@ static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal 
   return PETSC_TRUE;
 }
 
-/* The diagonal of the box about all bodies if the boxes of any pair's bodies overlap in more than a face; else 0 */
+/* Diagonal of the box around all bodies, if the boxes of any pair's bodies overlap in a volume; else 0 */
 static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
 {
   PetscReal low[3]  = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
@@ -44,14 +43,15 @@ static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, 
   return any ? diagonal : 0.0;
 }
 
-/* The rows that `wide` has and `usual` has not, deeper than their pair searches, if a body's box contains the other's
-   point; the caller frees `deep` */
+/* Finds the rows of `wide` that `usual` lacks, deeper than the search depth, where a body's box contains the other's
+   point. The caller frees `deep`. */
 static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
   ContactLinearization wide, PetscInt *n, InitialOverlapRow **deep)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *g;
-  PetscInt           k = 0, i = 0; /* of the row in usual and among all there may be; the order is the same */
+  PetscInt           k = 0, i = 0; /* index of the row in usual, and among all possible rows; both are in the same
+                                      order */
 
   PetscFunctionBegin;
   *n = 0;
@@ -80,7 +80,7 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
   PetscFunctionReturn(0);
 }
 
-/* All ranks' rows on every rank; replaces `deep` */
+/* Gathers the rows of all ranks on every rank; replaces `deep` */
 static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, InitialOverlapRow **deep)
 {
   PetscMPIInt        size, mine = DEEP_REALS * (PetscMPIInt)*n, *count, *start;
@@ -101,7 +101,7 @@ static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, Initi
   PetscFunctionReturn(0);
 }
 
-/* The deepest row whose point is inside the other body, not only behind its face; depth 0: none */
+/* Picks the deepest row whose point is inside the other body, not only behind its face; depth 0: none */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
 {
@@ -124,7 +124,7 @@ static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBo
   PetscFunctionReturn(0);
 }
 
-/* The deepest row that a search over this distance finds and the usual one does not */
+/* Finds the deepest row that only a search over this distance finds */
 static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
   PetscReal distance, ContactLinearization usual, InitialOverlapRow *deepest)
 {
@@ -160,10 +160,9 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth
-  and what widens
-  the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where they do
-  not.
+  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
+  what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
+  they do not.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/

@@ -3,7 +3,7 @@
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
 
-/* The surfaces and normals of a pair at the displacement of their vertices, local */
+/* Deforms the surfaces and normals of a pair; local: displacement of the vertices */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
 {
   ContactRows     *rows  = &contact->rows;
@@ -19,7 +19,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* The surfaces and normals at displacement u */
+/* Deforms the surfaces and normals of all pairs */
 PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
   Vec local, mean = NULL;
@@ -39,22 +39,6 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ContactViewFromOptions(Contact contact)
-{
-  PetscViewer       viewer;
-  PetscViewerFormat format;
-  PetscBool         wanted;
-
-  PetscFunctionBegin;
-  PetscCall(PetscOptionsCreateViewer(contact->comm, NULL, NULL, "-contact_view", &viewer, &format, &wanted));
-  if (!wanted) PetscFunctionReturn(0);
-  PetscCall(PetscViewerPushFormat(viewer, format));
-  PetscCall(ContactView(contact, viewer));
-  PetscCall(PetscViewerPopFormat(viewer));
-  PetscCall(PetscViewerDestroy(&viewer));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
@@ -67,56 +51,39 @@ static PetscErrorCode ContactViewFromOptions(Contact contact)
   Output Parameter:
 . lin - the linearized gap; may have no rows at all
 
-  Options Database Key:
-. -contact_view - prints the pairs, the search distances and the number of rows
-
   Level: beginner
 
   Notes:
   The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A over the part of the nonmortar face that a mortar
   face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
-  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face.
-  It is
-  positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
-  fixed.
-  With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
-  slide, but
-  facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
+  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It
+  is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
+  fixed. With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
+  slide, but facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
 
-  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets
-  that face
-  it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and m_A
-  is the
-  same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet, has no
-  row.
+  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that
+  face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and
+  m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
+  has no row.
 
-  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that
-  follow what the faces bend; the vertices of
-  others move with the mean displacement of the faces about them. J spreads forces so that a uniform pressure is the
-  same load as on the quadratic
-  face.
+  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that follow
+  what the faces bend; the vertices of others move with the mean displacement of the faces about them. J spreads forces
+  so that a uniform pressure is the same load as on the quadratic face.
 
   Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on
-  planes,
-  and on curved faces with -contact_normals facet.
+  planes, and on curved faces with -contact_normals facet.
 
   Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand
-  for: patches
-  through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as in a mirror
-  where a face ends on a
-  plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then measured along the normal of each
-  nonmortar facet, that of a
-  vertex along the normal of the mortar surface. lin->derivative is the gap's derivative to rounding, the normals'
-  turning with u included;
-  it reaches two facets far. J is the derivative with patches that keep their shape and turn with their facets, of the
-  mean gap of a row times
-  the area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and
-  they balance on both
-  bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
+  for: patches through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as
+  in a mirror where a face ends on a plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then
+  measured along the normal of each nonmortar facet, that of a vertex along the normal of the mortar surface.
+  lin->derivative is the gap's derivative to rounding, the normals' turning with u included; it reaches two facets far.
+  J is the derivative with patches that keep their shape and turn with their facets, of the mean gap of a row times the
+  area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and they
+  balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
 
   Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite
-  is an
-  error.
+  is an error.
 
   References:
 . * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,
@@ -130,7 +97,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN */
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
   PetscCall(ContactDeform(contact, u));
@@ -153,7 +120,6 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(ContactViewFromOptions(contact));
   PetscFunctionReturn(0);
 }
 

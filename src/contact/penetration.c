@@ -1,11 +1,11 @@
 /*
-   How deep vertices of one face are in the body behind the other. Mortar gaps are means: where the side that carries
-   the constraints is the coarser one they hold while vertices of the other side pass through it.
+   Penetration of vertices of one face below the other. Mortar gaps are weighted means: if the nonmortar side is the
+   coarser one, they may be zero while vertices of the mortar side penetrate.
 */
 #include "contactimpl.h"
 
-/* Depth of a vertex below the surface that a facet stands for [length]; 0: it is outside, or beside the facet by more
-   than it is below */
+/* Depth of a vertex below the (smooth) surface of a facet [length]; 0 if it is above, or farther beside the facet
+   than below */
 static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const ContactNearest *nearest,
   const PetscReal x[3])
 {
@@ -24,7 +24,7 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
   return height < 0.0 && 2.0 * height * height >= ContactDot(r, r) ? -height : 0.0;
 }
 
-/* Of the vertices of a surface, over the whole of the other one; deepest grows. Collective */
+/* Collective. deepest: raised to the largest depth of a vertex of `side` below `other` */
 static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const ContactSurface *side,
   const ContactSurface *other, PetscReal *deepest)
 {
@@ -47,7 +47,7 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
       const PetscReal *x = &side->x[12 * f + 3 * a];
       ContactNearest   nearest;
 
-      ContactFindNearest(&tree, &facets, contact->cosine, reach, x, n, &nearest);
+      ContactFindNearest(&tree, &facets, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
       if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(&facets, &nearest, x));
     }
   }

@@ -1,15 +1,19 @@
 /*
-   Ties: the displacement of a nonmortar vertex A is that of the mortar face in the mean, weighted by the dual
-   function psi_A,
-     u_A = sum_C int psi_A N2_C / int psi_A  u_C,    int psi_A N1_B = delta_AB int N1_B,
-   of undeformed faces. psi_A is a combination of the bilinear functions of each facet, over what of it is covered.
+   Ties. The displacement of a nonmortar vertex A is the mean of that of the mortar face, weighted by the dual function
+   psi_A:
+
+     u_A = sum_C int psi_A N2_C / int psi_A u_C,   int psi_A N1_B = delta_AB int N1_B,
+
+   on the undeformed faces. psi_A is a combination of the bilinear functions on each facet, restricted to its covered
+   part.
 */
 #include "contactimpl.h"
 
-/* Part of a facet that may stay uncovered, in all and at a vertex: rounding, or the sagitta of curved faces */
+/* fraction of a facet that may stay uncovered, in total and at a vertex, because of rounding or because facets cut
+   the corners of curved faces */
 static const PetscReal tie_uncovered = 1e-3, tie_uncovered_vertex = 0.3;
 
-/* What is added up: rows of nodes, and of each [covered, whole] area */
+/* Sums: matrix entries of nodes, and for each node its covered and its whole area */
 typedef struct {
   PetscInt     n, size, *row, *column;
   PetscScalar *value;
@@ -31,8 +35,8 @@ static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, P
   PetscFunctionReturn(0);
 }
 
-/* a = diag(w) mass^-1 of n vertices, w the row sums of mass: Gauss-Jordan with pivoting; false where a facet is
-   covered by next to nothing */
+/* a = diag(w) mass^-1 for n vertices, with the row sums w of mass, by Gauss-Jordan elimination with pivoting; false
+   if mass is singular, i.e. almost nothing is covered */
 static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
   PetscReal m[4][8];
@@ -68,7 +72,7 @@ static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
   return PETSC_TRUE;
 }
 
-/* Integrals of the n functions of a facet: a triangle's last one is the sum of two */
+/* Adds up the rows of the two functions of a triangle's last vertex */
 static void TieFold(PetscInt n, PetscReal rows[4][4])
 {
   for (PetscInt b = 0; n == 3 && b < 4; ++b) {
@@ -77,7 +81,7 @@ static void TieFold(PetscInt n, PetscReal rows[4][4])
   }
 }
 
-/* What they are with each other */
+/* The same for rows and columns of the mass matrix */
 static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
 {
   TieFold(n, mass);
@@ -87,7 +91,7 @@ static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
   }
 }
 
-/* One nonmortar facet against the candidates near it */
+/* Adds one nonmortar facet and the candidates near it */
 static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits,
   const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
 {
@@ -159,7 +163,7 @@ static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, 
   PetscFunctionReturn(0);
 }
 
-/* Rows of nodes divided by the covered areas; error where the nonmortar face reaches beyond the mortar one */
+/* Divides the rows by the covered areas; error if the mortar face does not cover the nonmortar face */
 static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie *tie, PetscReal distance,
   TieSums *sums, Mat *rows)
 {
@@ -205,7 +209,7 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscFunctionReturn(0);
 }
 
-/* Faces of order 2: rows and columns of their nodes in place of those of the facets' vertices */
+/* Faces of order 2: turns rows and columns of the facets' vertices into those of the nodes */
 static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const ContactSurface *nonmortar, Mat rows)
 {
   Mat correction;

@@ -1,11 +1,11 @@
 /*
-   Assembly of the tangent. Bodies with a constant tangent are assembled into a matrix once: later assemblies zero the
-   rows of the other bodies and add those bodies again. No second copy of any value is kept.
+   Assembly of the tangent. Bodies with a constant tangent are assembled once; later assemblies zero the rows of the
+   other bodies and add only those again. No second copy of values is kept.
 */
 #include "elasticityimpl.h"
 #include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
 
-/* Zeroes rows and columns of prescribed displacements; their diagonal keeps the stiffness's scale */
+/* Zeroes rows and columns of prescribed displacements in a cell's stiffness; the diagonal stays */
 static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, const PetscInt nodes[], PetscScalar K[])
 {
   const PetscInt width = 3 * n;
@@ -23,7 +23,7 @@ static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, con
   }
 }
 
-/* Whether the matrix still has the values of the last assembly */
+/* holds: whether the matrix still has the values of the last assembly */
 static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscBool *holds)
 {
   PetscObjectId    id;
@@ -36,7 +36,7 @@ static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscB
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the rows of the bodies that are not kept; their columns are in the same rows */
+/* Zeroes the rows of the bodies that are assembled again; their columns are in the same rows */
 static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt global[], Mat tangent)
 {
   PetscInt   n = 0, first, last, *rows;
@@ -56,15 +56,14 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
     }
   }
   PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN,
-    PETSC_TRUE)); /* options that were set before the first assembly are not passed to the blocks of an MPIBAIJ matrix
-                     */
+    PETSC_TRUE)); /* options set before the first assembly are not passed to the blocks of an MPIBAIJ matrix */
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
   PetscCall(PetscFree(rows));
   PetscFunctionReturn(0);
 }
 
-/* Adds the cells of all bodies, or of those that are not kept */
+/* Adds the cells of all bodies, or only of those that are assembled again */
 static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, const PetscInt global[], Mat tangent)
 {
   Vec                local;
@@ -79,11 +78,12 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
     if (e->bodies[e->cellbody[c]].kept && !all) continue;
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (!cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, cell.U, K)) {
+    if (!cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, cell.U, K)) {
       PetscReal rest[3][CELL_MAX_NODES] = {{0}};
 
-      (void)cell.body->element->stiffness(cell.body->basis, &cell.body->material, cell.X, rest, K);
+      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, rest, K);
     }
+    CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
     PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
@@ -111,12 +111,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies
-  with a constant
-  tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's tangent
-  is constant,
-  nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a type without
-  `MatZeroRows()` (sbaij).
+  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with
+  a constant tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's
+  tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
+  type without `MatZeroRows()` (sbaij).
 
   A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
 

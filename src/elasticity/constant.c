@@ -1,4 +1,4 @@
-/* Bodies with a constant tangent: whether all are, and which are kept when a tangent is assembled again */
+/* Bodies with a constant tangent: whether all have one, and which are kept when a tangent is assembled again */
 #include "elasticityimpl.h"
 
 /*@
@@ -26,7 +26,7 @@ PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
   PetscFunctionReturn(0);
 }
 
-/* Sets marks[v] at the nodes of the bodies that are not kept, also where only another rank has a cell of theirs */
+/* Sets marks[v] at the nodes of bodies that are assembled again, also if only another rank has their cells */
 static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks[])
 {
   Vec                local, global;
@@ -54,7 +54,8 @@ static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks
   PetscFunctionReturn(0);
 }
 
-/* A body stays kept only if none of its rows is zeroed for another body; that may exclude the next body, too */
+/* Finds the bodies that are kept: none of their rows may be zeroed for another body. Excluding one body may exclude
+   the next */
 PetscErrorCode ElasticitySetUpKept(Elasticity e)
 {
   PetscBool *marks;

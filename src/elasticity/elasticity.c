@@ -21,7 +21,7 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* The basis of cells with so many nodes, and the body's element on it */
+/* Sets the basis for cells with this many nodes, and the body's element */
 static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
 {
   const PetscInt order = MeshOrder(nnodes);
@@ -39,7 +39,7 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
   PetscFunctionReturn(0);
 }
 
-/* Nodes and body of every cell of this rank; the array grows if cells have more nodes than hexahedra of order 1 */
+/* Sets nodes and body of every cell of this rank; the array grows if cells have more nodes than linear hexahedra */
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;
@@ -111,10 +111,8 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 . nbodies   - number of bodies
 . materials - materials[b] belongs to the cells whose "body" label is b
 - elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as
-              Poisson's ratio
-              nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small strain;
-              `NULL` for
-              full integration everywhere
+              Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of
+              small strain; `NULL` for full integration everywhere
 
   Output Parameter:
 . elasticity - the new context
@@ -143,15 +141,17 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   for (PetscInt b = 0; b < nbodies; ++b) {
     BodyMaterial *m = &e->bodies[b].material;
 
-    PetscCall(MaterialGetModuli(&materials[b], &m->moduli, &m->isochoric));
+    e->bodies[b].given = materials[b];
+    PetscCall(MaterialGetModuli(&e->bodies[b].given, &m->moduli, &m->isochoric));
     PetscCall(MaterialGetLaw(&materials[b], &m->law));
     PetscCall(MaterialGetExpansion(&materials[b], e->bodies[b].expansion));
     for (int i = 0; i < 9; ++i)
       e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
-    PetscCheck(m->law->constant || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
+    PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
-    e->bodies[b].type = elements ? elements[b] : ELEMENT_FULL;
-    PetscCheck(m->law->constant || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
+    e->bodies[b].rigid = (PetscBool)(materials[b].type == MATERIAL_RIGID);
+    e->bodies[b].type  = elements ? elements[b] : ELEMENT_FULL;
+    PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
       "Body %" PetscInt_FMT
       ": incompatible modes are for small strain; under compression at finite strain they are unstable",
@@ -164,6 +164,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
   PetscCall(ElasticitySetUpKept(e));
+  PetscCall(ElasticitySetUpHistory(e));
   *elasticity = e;
   PetscFunctionReturn(0);
 }
@@ -181,8 +182,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
 
   Notes:
   The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
-  tangent is
-  assembled completely.
+  tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
 @*/
@@ -249,6 +249,9 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
+  PetscCall(PetscFree((*e)->light));
+  PetscCall(PetscFree((*e)->firstpoint));
+  PetscCall(PetscFree((*e)->history));
   PetscCall(VecDestroy(&(*e)->springs));
   PetscCall(MatDestroy(&(*e)->between));
   PetscCall(PetscFree(*e));

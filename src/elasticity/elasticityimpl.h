@@ -1,17 +1,23 @@
 /*
-   Elasticity, private: energy, forces and tangent of all bodies.
+   Private header of elasticity: energy, forces and tangent of all bodies.
 */
 #ifndef ELASTICITYIMPL_H
 #define ELASTICITYIMPL_H
 
 #include "src/elasticity/faces/facesimpl.h"
 
-/* constant.c: the bodies whose tangent is constant, and which of them are kept when a tangent is assembled again */
+/* constant.c: bodies with constant tangent, and which of them are kept in a new assembly */
 PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);
+
+/* history.c: allocates the history of points with plasticity, initially zero */
+PETSC_INTERN PetscErrorCode ElasticitySetUpHistory(Elasticity);
 
 /* preallocate.c: allocates all entries of the tangent and sets them to zero */
 PETSC_INTERN PetscErrorCode ElasticityPreallocate(Elasticity, Mat);
 
-/* tangent.c, assemble.c: the matrix and what is put into it, public */
+/* mass.c: what a cell adds to the tangent in dynamics */
+PETSC_INTERN void CellAddInertia(Elasticity, const CellState *, PetscScalar K[]);
+
+/* tangent.c, assemble.c: only public functions */
 
 #endif

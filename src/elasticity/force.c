@@ -1,4 +1,4 @@
-/* Energy and internal force by loops over the cells; no matrix */
+/* Energy and internal force by loops over the cells, without a matrix */
 #include "elasticityimpl.h"
 
 /*@
@@ -17,8 +17,7 @@
 
   Notes:
   The energy is `PETSC_INFINITY` on every rank where a point of a cell at which a finite strain law is evaluated is
-  turned inside
-  out (det F <= 0), so a line search that asks for a decrease steps back.
+  turned inside out (det F <= 0), so a line search that asks for a decrease steps back.
 
 .seealso: `ElasticityForce()`, `ElasticityTangent()`
 @*/
@@ -26,7 +25,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal          sums[2] = {0, 0}; /* energy, number of cells turned inside out */
+  PetscReal          sums[2] = {0, 0}; /* energy; number of inverted cells */
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(ELASTICITY_Force, u, 0, 0, 0));
@@ -36,7 +35,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
     PetscReal stored;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    stored = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    stored = cell.body->element->energy(cell.body->basis, cell.material, cell.X, cell.U);
     if (stored >= PETSC_INFINITY) sums[1] += 1;
     else sums[0] += stored;
   }
@@ -64,8 +63,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Notes:
   Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
-  `PETSC_INFINITY`
-  or more, and so the norm of the vector is infinite on every rank.
+  `PETSC_INFINITY` or more, and so the norm of the vector is infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/
@@ -87,7 +85,7 @@ PetscErrorCode ElasticityForce(Elasticity e, Vec u, Vec force)
     PetscBool valid;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    valid = cell.body->element->force(cell.body->basis, &cell.body->material, cell.X, cell.U, F);
+    valid = cell.body->element->force(cell.body->basis, cell.material, cell.X, cell.U, F);
     for (int a = 0; a < cell.n; ++a) {
       for (int i = 0; i < 3; ++i) fl[3 * cell.nodes[a] + i] += valid ? F[i][a] : PETSC_INFINITY;
     }

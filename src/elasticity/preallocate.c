@@ -1,7 +1,8 @@
-/* Sparsity of the tangent from the nodes' adjacency; DMCreateMatrix() takes as long as several assemblies */
+/* Nonzero pattern of the tangent from the nodes' adjacency; DMCreateMatrix() would take as long as several
+   assemblies */
 #include "elasticityimpl.h"
 
-/* Cells around each local node, in compressed rows */
+/* Lists the cells around each local node, in compressed rows */
 static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, PetscInt **cells)
 {
   PetscInt *first, *list;
@@ -22,7 +23,7 @@ static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, Pets
   PetscFunctionReturn(0);
 }
 
-/* Distinct nodes around each local node's cells, itself included, in compressed rows */
+/* Lists the distinct nodes of the cells around each local node, itself included, in compressed rows */
 static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, PetscInt **neighbours)
 {
   PetscInt *first = NULL, *cells = NULL, *start, *list = NULL, *seen, n = 0;
@@ -32,7 +33,7 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
   PetscCall(PetscMalloc1(e->nnodes, &seen));
   PetscCall(PetscMalloc1(e->nnodes + 1, &start));
   for (PetscInt v = 0; v < e->nnodes; ++v) seen[v] = -1;
-  for (PetscInt pass = 0; pass < 2; ++pass) { /* count, then fill */
+  for (PetscInt pass = 0; pass < 2; ++pass) { /* first count, then fill */
     if (pass) PetscCall(PetscMalloc1(n, &list));
     n = 0;
     for (PetscInt v = 0; v < e->nnodes; ++v) {
@@ -59,9 +60,9 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
 }
 
 /*
-   Numbers of neighbours of each owned node: on this rank, on others, and both again among the nodes not below itself.
-   Exact for a node whose cells are all here. For a node shared with other ranks their counts are added up: neighbours
-   in the interface count twice there, and MatAssemblyEnd() gives the surplus back.
+   Counts the neighbours of each owned node: on this rank, on others, and both again among the nodes not below itself.
+   Exact for a node whose cells are all on this rank. For a node shared with other ranks the counts are added up:
+   neighbours on the interface count twice, and MatAssemblyEnd() frees the surplus.
 */
 static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout, const PetscInt global[],
   const PetscInt start[], const PetscInt neighbours[], PetscInt nowned, PetscInt *owned[4])
@@ -98,8 +99,7 @@ static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout
   PetscFunctionReturn(0);
 }
 
-/* Puts explicit zeros at all entries, row by row in ascending columns: assembly then only adds, and never shifts rows
- */
+/* Inserts explicit zeros at all entries, row by row in ascending columns, so that assembly only adds values */
 static PetscErrorCode ElasticityInsertPattern(Elasticity e, Mat A, const PetscInt global[], const PetscInt start[],
   const PetscInt neighbours[])
 {

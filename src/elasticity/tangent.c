@@ -2,7 +2,7 @@
 #include "elasticityimpl.h"
 #include <mesh.h>
 
-/* 1 on free rows, 0 on prescribed ones */
+/* 1 in free rows, 0 in prescribed ones */
 static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
 {
   Vec          local;
@@ -18,8 +18,8 @@ static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
   PetscFunctionReturn(0);
 }
 
-/* The modes with zeros on prescribed rows, orthonormal again; a mode that the others span there is left out.
-   An AMG built on the zeroed modes needs fewer iterations the closer Poisson's ratio is to 1/2. */
+/* Zeroes the modes in prescribed rows and makes them orthonormal again; dependent modes are dropped. An AMG with
+   such modes needs fewer iterations the closer Poisson's ratio is to 1/2. */
 static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, MatNullSpace *restricted)
 {
   const PetscReal dependent = 1e-6;
@@ -38,7 +38,7 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
     PetscCall(VecDuplicate(rows, &kept[n]));
     PetscCall(VecPointwiseMult(kept[n], modes[i], rows));
     PetscCall(VecNorm(kept[n], NORM_2, &before));
-    for (PetscInt pass = 0; pass < 2; ++pass) { /* twice is enough for orthogonality to rounding */
+    for (PetscInt pass = 0; pass < 2; ++pass) { /* two passes are enough for orthogonality up to rounding */
       PetscCall(VecMDot(kept[n], n, kept, dots));
       for (PetscInt j = 0; j < n; ++j) dots[j] = -dots[j];
       PetscCall(VecMAXPY(kept[n], n, dots, kept));
@@ -136,8 +136,7 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 
   Notes:
   The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
-  much memory as six solutions, and PCHYPRE copies
-  them whether or not it makes use of them.
+  much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

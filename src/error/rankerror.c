@@ -1,9 +1,9 @@
-/* Errors of one rank, told to all */
+/* Makes errors of one rank known on all */
 #include <rankerror.h>
 #include <string.h>
 
-/* The call deepest inside, which raises the error, knows best what is wrong. For want of memory PETSc 3.18 gives the
-   line of the code and the function as number and message */
+/* Error handler: keeps the innermost error, which describes the cause best. If memory is exhausted, PETSc 3.18
+   passes the line and the function as error number and message */
 static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
   PetscErrorType type, const char *message, void *ctx)
 {

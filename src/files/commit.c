@@ -1,5 +1,5 @@
-/* Gives a file that was written under another name its own name: at once, or, if it must be on disk before, by a
-   thread of the first rank. A disk takes longer than a small load step; the thread uses neither MPI nor PETSc. */
+/* Renames a file that was written under another name: at once, or, if it must be on disk first, in a thread of the
+   first rank. Writing to disk may take longer than a small load step. The thread uses neither MPI nor PETSc. */
 #define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
 #include "filesimpl.h"
 #include <errno.h>
@@ -13,12 +13,11 @@ struct _n_FileCommit {
   MPI_Comm  comm;
   char      part[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN], folder[PETSC_MAX_PATH_LEN];
   pthread_t thread;
-  PetscBool begun; /* the thread, on the first rank */
-  int       error; /* errno of what went wrong */
+  PetscBool begun; /* whether the thread was started (first rank) */
+  int       error; /* errno of a failure */
 };
 
-/* error is the first rank's errno; code: PETSC_ERR_FILE_OPEN before there is anything to write, then
-   PETSC_ERR_FILE_WRITE */
+/* error: the first rank's errno. code: PETSC_ERR_FILE_OPEN before anything was written, else PETSC_ERR_FILE_WRITE */
 PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
 {
   PetscFunctionBegin;
@@ -27,7 +26,7 @@ PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, 
   PetscFunctionReturn(0);
 }
 
-/* What was written of a file, or the names in its folder, is on the disk */
+/* Waits until a file, or the names in its folder, are on disk */
 static int CommitSync(const char file[])
 {
   const int descriptor = open(file, O_RDONLY);
@@ -49,7 +48,7 @@ static void *CommitSafely(void *ctx)
   return NULL;
 }
 
-/* Signals are the program's; without a thread the caller waits */
+/* Starts the thread with signals blocked; without a thread the work is done at once */
 static void CommitBeginThread(FileCommit commit)
 {
   sigset_t all, kept;
@@ -80,7 +79,7 @@ PetscErrorCode FileCommitBegin(MPI_Comm comm, const char part[], const char file
   PetscFunctionReturn(0);
 }
 
-/* What is NULL has ended */
+/* Ends a commit; NULL: it has ended already */
 PetscErrorCode FileCommitEnd(FileCommit *commit)
 {
   FileCommit ended = *commit;

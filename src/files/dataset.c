@@ -1,18 +1,16 @@
 /*
-   One dataset of an HDF5 file, each rank's records behind those of the ranks before it.
-
-   Shaped as VecView() and ISView() do, so that VecLoad() and ISLoad() read it. These bring the whole file to the disk
-   after every dataset, of which a load step has twenty, and write zeros in its place beforehand. Here a file is on
-   the disk when it must be, once.
+   Writes one dataset of an HDF5 file, the ranks' records one after another. Its shape is that of VecView() and
+   ISView(), so that VecLoad() and ISLoad() can read it. These flush the whole file to disk after each dataset (a load
+   step has twenty) and write zeros first. Here a file is flushed once, when necessary.
 */
 #include "filesimpl.h"
 
 #define DATASET_HDF5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "HDF5 failed: %s", #call)
 
-/* Where the records go; they are contiguous, and nothing is written in their place beforehand */
+/* Position of the records; contiguous, and not filled beforehand */
 typedef struct {
-  hid_t   type, dataset, here, there; /* here: in memory, there: in the file */
-  hsize_t n, first;                   /* records of this rank, and before them */
+  hid_t   type, dataset, here, there; /* data spaces in memory (here) and in the file (there) */
+  hsize_t n, first;                   /* number of records of this rank, and of ranks before it */
 } DatasetPlace;
 
 static PetscErrorCode DatasetSelect(DatasetPlace *place, int dimensions, const hsize_t shape[2])
@@ -86,7 +84,7 @@ PetscErrorCode DatasetCreate(MPI_Comm comm, const char name[], PetscInt n, Petsc
   PetscFunctionReturn(0);
 }
 
-/* A scalar has no second dimension */
+/* Writes and destroys the field; scalars have no second dimension */
 PetscErrorCode DatasetWrite(Vec *field, PetscViewer viewer)
 {
   const PetscScalar *values;

@@ -1,4 +1,4 @@
-/* Files that appear whole or not at all */
+/* Files that appear complete or not at all */
 #define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), getpid() */
 #include "filesimpl.h"
 #include <errno.h>
@@ -6,14 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What the first rank finds out; the same on all ranks */
+/* Name under which a file is written, determined on the first rank */
 typedef struct {
   char      name[PETSC_MAX_PATH_LEN];
-  PetscBool renamed; /* it takes the file's name once it is whole */
+  PetscBool renamed; /* renamed to the file's name when complete */
 } FilePart;
 
-/* What is written and then renamed: a file of this process, as another one may write the same file. Links and devices
-   are written themselves, whose place no file may take */
+/* Gets the name for writing: one that contains the process id, since another process may write the same file. Links
+   and devices are written directly, because a new file must not replace them */
 static PetscErrorCode FileGetPart(MPI_Comm comm, const char file[], FilePart *part)
 {
   struct stat status;
@@ -34,7 +34,7 @@ static PetscErrorCode FileTry(MPI_Comm comm, const char file[], const FilePart *
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    FILE *stream = fopen(part->name, part->renamed ? "wb" : "ab"); /* what a link leads to stays as it is */
+    FILE *stream = fopen(part->name, part->renamed ? "wb" : "ab"); /* the target of a link is not changed */
 
     if (!stream) error = errno;
     else if (fclose(stream) || (part->renamed && remove(part->name))) error = errno;
@@ -110,7 +110,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
   SilenceOutputEnd(&mute);
   PetscCall(PetscPopErrorHandler());
-  /* A full disk may strike one rank in the middle of a collective write: it must not wait for the others */
+  /* if the disk is full, a rank may fail in the middle of a collective write; it must not wait for the others */
   if (ierr && part.renamed) (void)remove(part.name);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file,
     complaint);
@@ -119,7 +119,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscFunctionReturn(0);
 }
 
-/* The stream's text, and errno of what went wrong with it */
+/* Fills the stream; error: errno of a failure */
 static PetscErrorCode FileFill(FILE *stream, PetscErrorCode (*fill)(FILE *, const void *), const void *ctx, int *error)
 {
   PetscFunctionBegin;

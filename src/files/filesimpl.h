@@ -1,5 +1,5 @@
 /*
-   Files that appear whole or not at all, locks, and datasets of HDF5.
+   Files that appear complete or not at all, locks, and HDF5 datasets.
 */
 #ifndef FILESIMPL_H
 #define FILESIMPL_H
@@ -9,16 +9,15 @@
 #include <petscvec.h>
 #include <petscviewerhdf5.h>
 
-/* silence_output.c: standard output and error lead nowhere between the two */
+/* silence_output.c: suppresses standard output and error between the two calls */
 typedef struct {
-  int kept[2]; /* descriptors; negative: none was free, and the stream stays as it is */
+  int kept[2]; /* saved descriptors; negative: none was available, and the stream is not suppressed */
 } SilencedOutput;
 
 PETSC_INTERN void SilenceOutputBegin(SilencedOutput *);
 PETSC_INTERN void SilenceOutputEnd(SilencedOutput *);
 
-/* commit.c: a file takes its name once it is on the disk, while the run goes on; the end tells what went wrong, and
-   names the file */
+/* commit.c: renames a file once it is on disk, in the background; the end reports errors with the file's name */
 typedef struct _n_FileCommit *FileCommit;
 
 PETSC_INTERN PetscErrorCode FileRaise(MPI_Comm, const char file[], PetscErrorCode code, int error);
@@ -26,28 +25,36 @@ PETSC_INTERN PetscErrorCode FileCommitBegin(MPI_Comm, const char part[], const c
 PETSC_INTERN PetscErrorCode FileCommitEnd(FileCommit *);
 
 /*
-   file.c: a file appears whole or not at all: it is written under another name, <file>.<pid>.part, and renamed.
-   Collective; the error names the file.
+   file.c: files that appear complete or not at all: written as <file>.<pid>.part and renamed. Collective; errors name
+   the file
 */
-/* Every rank writes into the open viewer; commit: NULL, or, to be ended, what brings it to the disk before it takes
-   its name */
+/* Every rank writes to the open viewer. commit: NULL, or receives the commit that syncs and renames the file, to be
+   ended by the caller */
 PETSC_INTERN PetscErrorCode FileWriteHDF5(MPI_Comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *),
   void *ctx, FileCommit *commit);
-/* On the first rank fill() writes the stream; the others wait for the outcome */
+/* fill() writes to the stream on the first rank; the others wait for the result */
 PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
   const void *ctx);
-/* The same behind what the file holds; it stays as it was where there is no room for all of it */
+/* The same, appended to the file; if the disk is full the file is unchanged */
 PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
   const void *ctx);
 
-/* lock_file.c: collective; an error where another run holds the file. It is kept until the descriptor, of the first
-   rank, is closed. A file that does not exist is not kept */
+/* lock_file.c: collective; error if another run has locked the file. The lock lasts until the first rank's
+   descriptor is closed. A file that does not exist is not locked */
 PETSC_INTERN PetscErrorCode LockFileBegin(MPI_Comm, const char file[], int *descriptor);
 PETSC_INTERN void           LockFileEnd(int *descriptor);
 
-/* dataset.c: n records of this rank; written and destroyed */
+/* dataset.c: n records of this rank; Write also destroys them */
 PETSC_INTERN PetscErrorCode DatasetCreate(MPI_Comm, const char name[], PetscInt n, PetscInt components, Vec *);
 PETSC_INTERN PetscErrorCode DatasetWrite(Vec *, PetscViewer);
 PETSC_INTERN PetscErrorCode DatasetWriteIndices(IS, PetscViewer);
+
+/* script.c: the program's own Python scripts, on one rank. Run returns 0 if the script ended well; the last line that
+   it prints on the error stream is the sentence */
+#if !defined(CONTACT_PYTHON)
+  #define CONTACT_PYTHON "python3" /* the makefile sets the one that it found */
+#endif
+PETSC_INTERN PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t room);
+PETSC_INTERN int       ScriptRun(const char *const words[], char sentence[], size_t length);
 
 #endif

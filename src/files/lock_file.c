@@ -1,12 +1,12 @@
-/* Only one run at a time writes the files of a name: its first rank locks the mesh's file while it runs. It is a
-   record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
+/* Only one run at a time may write the files of a base name: its first rank locks the mesh file while it runs. It is
+   a record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
 #define _POSIX_C_SOURCE 200809L /* fcntl() */
 #include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <unistd.h>
 
-/* Locks a file that is there; descriptor negative: it is not. 1 where another process has it */
+/* Locks an existing file; descriptor negative: it does not exist. Returns 1 if another process has locked it */
 static int LockFileOpen(const char file[], int *descriptor)
 {
   struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -21,7 +21,7 @@ void LockFileEnd(int *descriptor)
   *descriptor = -1;
 }
 
-/* Negative on other ranks */
+/* The descriptor is negative on other ranks */
 PetscErrorCode LockFileBegin(MPI_Comm comm, const char file[], int *descriptor)
 {
   PetscMPIInt rank;

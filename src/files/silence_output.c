@@ -1,4 +1,4 @@
-/* Suppresses what libraries print while a file is written: HDF5 prints a page for each error, MPI's files a line. */
+/* Suppresses the output of libraries while a file is written: HDF5 prints a page for each error, MPI-IO a line. */
 #define _POSIX_C_SOURCE 200809L /* dup(), dup2() */
 #include "filesimpl.h"
 #include <fcntl.h>

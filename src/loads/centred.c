@@ -1,8 +1,8 @@
 /* Quadratic terms of the energy about a centre */
 #include "loadsimpl.h"
 
-/* energy and force += sign times those of 1/2 (x - centre)^T A (x - centre), A a matrix or, where that is NULL, this
-   diagonal; force may be NULL */
+/* Adds sign x 1/2 (x - centre)^T A (x - centre) to the energy and its derivative to force (may be NULL); A: a matrix
+   or, if NULL, this diagonal */
 PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force)
 {
   Vec         way, product;

@@ -1,11 +1,11 @@
 /*
-   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 of the nodes A of one face and the means
-   that a tie has of the other, a_A being the integral of A's shape function. Their stiffness joins nodes that share
-   no cell, and is a matrix of its own.
+   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 over the nodes A of one face. The means M
+   u of the other face are those of a tie; a_A is the integral of A's shape function. The springs couple nodes without a
+   common cell, so their stiffness is a separate matrix.
 */
 #include "loadsimpl.h"
 
-/* A matrix with three rows a node, in which there is room for the node's entries in another one and for the diagonal */
+/* Creates a matrix with three rows per node, preallocated for the node's entries in `nodes` and the diagonal */
 PetscErrorCode CouplingsReserve(const Bodies *bodies, Mat nodes, Mat *A)
 {
   PetscInt nlocal, start, end, *here, *elsewhere;
@@ -31,7 +31,7 @@ PetscErrorCode CouplingsReserve(const Bodies *bodies, Mat nodes, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* 1 - M, each entry for the three components, in the rows of one face; others are empty */
+/* stretch = 1 - M for the three components, in the rows of one face; other rows are empty */
 static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *stretch)
 {
   PetscInt start, end;
@@ -57,7 +57,7 @@ static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *s
   PetscFunctionReturn(0);
 }
 
-/* stretch^T (k a) stretch of one entry of the scene */
+/* stiffness = stretch^T (k a) stretch for one entry of the scene */
 static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *spring, Mat *stiffness)
 {
   const SceneTie tie = {.name = spring->name,
@@ -83,7 +83,7 @@ static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *
   PetscFunctionReturn(0);
 }
 
-/* NULL where no springs join two faces */
+/* Creates the stiffness of springs between faces; NULL: none */
 PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
 {
   PetscFunctionBegin;
@@ -101,7 +101,7 @@ PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
   PetscFunctionReturn(0);
 }
 
-/* Of displacements C x, added to their stiffness */
+/* Adds C^T S C to the stiffness, for displacements C x */
 PetscErrorCode CouplingsAddStiffness(const Springs *springs, Mat C, Mat stiffness)
 {
   Mat product;

@@ -1,4 +1,4 @@
-/* Dead loads: pressures and body forces of the scene, gathered by ramp. */
+/* Dead loads: pressures and body forces of the scene, summed by ramp. */
 #include "loadsimpl.h"
 
 static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, Vec *force)
@@ -48,7 +48,7 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   PetscFunctionReturn(0);
 }
 
-/* The load at a time, a new vector; NULL where the scene has none */
+/* The dead load at a time, a new vector; NULL: none */
 PetscErrorCode DeadLoadsGet(const DeadLoads *loads, PetscReal time, Vec *force)
 {
   PetscFunctionBegin;

@@ -1,5 +1,5 @@
 /*
-   What loads the bodies: dead loads, temperatures, springs. Every file builds on those before it.
+   Loads on the bodies: dead loads, temperatures, springs. Files are in the order in which they depend on each other.
 */
 #ifndef LOADSIMPL_H
 #define LOADSIMPL_H
@@ -10,18 +10,17 @@
 #include "src/mesh/query/queryimpl.h"
 #include <petsccompat.h>
 
-/* The bodies as they are discretized */
+/* The bodies and their discretization */
 typedef struct {
   MPI_Comm     comm;
   Scene        scene;
   DM           dm;
   Elasticity   elasticity;
   VertexPlaces places;
-  Vec          mass; /* lumped, of unit density: the layout of the unknowns, too [length^3] */
+  Vec          mass; /* lumped mass for unit density; also gives the layout of the unknowns [length^3] */
 } Bodies;
 
-/* loads.c: dead loads by ramp, at factor 1; NULL where nothing follows the ramp, and altogether where the scene has
-   no load */
+/* loads.c: dead loads by ramp, at factor 1; NULL for ramps without load, and if there is no load at all */
 typedef struct {
   Scene scene;
   Vec  *force; /* nramps [force] */
@@ -31,14 +30,14 @@ PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
-/* temperatures.c: of bodies that expand, by ramp at factor 1, as linear functions in the cells; now: NULL where the
-   scene has none */
+/* temperatures.c: temperatures by ramp at factor 1, as linear functions in the cells; now: at the present time,
+   NULL: none */
 typedef struct {
   MPI_Comm    comm;
   Scene       scene;
   Elasticity  elasticity; /* borrowed */
   PetscInt    n;
-  PetscReal **fits; /* nramps, NULL where nothing follows the ramp */
+  PetscReal **fits; /* nramps; NULL for ramps without temperature */
   PetscReal  *now;
 } Temperatures;
 
@@ -47,11 +46,11 @@ PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
 PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
 PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
 
-/* springs.c: stiffness a row; NULL where the scene has none */
+/* springs.c: stiffness per row; NULL: none */
 typedef struct {
-  Vec      stiffness, weak; /* of all springs to the ground; of the weak ones among them [force/length] */
-  Mat      between;         /* of those between two faces; NULL: there are none */
-  PetscInt nweak;           /* bodies that they hold */
+  Vec      stiffness, weak; /* of all springs to the ground; of the weak springs alone [force/length] */
+  Mat      between;         /* of springs between faces; NULL: none */
+  PetscInt nweak;           /* number of bodies with weak springs */
 } Springs;
 
 /* springs.c */

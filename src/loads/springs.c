@@ -1,8 +1,7 @@
-/* Springs: those of the scene between faces and the ground or other faces, and weak ones for bodies that move freely.
- */
+/* Springs: those of the scene to the ground or between faces, and weak springs on bodies that move freely. */
 #include "loadsimpl.h"
 
-/* Of every body, on all ranks; the mass is of unit density */
+/* volume of every body, on all ranks */
 PetscErrorCode SpringsMeasureVolumes(const Bodies *bodies, PetscReal volume[])
 {
   const PetscScalar *m;
@@ -33,7 +32,7 @@ PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Bodies as a whole by their size: so much of young x length, spread over their vertices by volume */
+/* stiffness: share x Young's modulus x length of each body, distributed to its vertices by volume */
 PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
 {
   Scene              scene = bodies->scene;
@@ -59,8 +58,7 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
   PetscFunctionReturn(0);
 }
 
-/* Weak springs on the bodies that are not held. They take almost nothing from the bodies' deformation, and carry the
-   forces that are out of balance */
+/* Creates weak springs on bodies that are not held. They hardly affect the deformation, and carry unbalanced forces */
 static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 {
   PetscBool   *unheld;
@@ -83,7 +81,7 @@ static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Before the first tangent */
+/* Call before the first tangent is created */
 PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 {
   PetscFunctionBegin;
@@ -104,7 +102,7 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Adds the springs' forces on the bodies, 3 each, and the sum of the sizes of the weak ones' */
+/* Adds the springs' forces on the bodies, 3 per body, and the sum of the magnitudes of the weak springs' forces */
 PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, PetscReal force[], PetscReal *weak)
 {
   const PetscScalar *k, *w = NULL, *v, *f;

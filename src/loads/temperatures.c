@@ -1,4 +1,4 @@
-/* Temperatures of the scene, gathered by ramp as linear functions in the cells */
+/* Temperatures of the scene, by ramp, as linear functions in the cells */
 #include "loadsimpl.h"
 #include <rankerror.h>
 
@@ -45,7 +45,7 @@ PetscErrorCode TemperaturesCreate(Scene scene, Elasticity elasticity, MPI_Comm c
   PetscFunctionReturn(0);
 }
 
-/* Energies, forces and stresses are those at this time from now on */
+/* Sets the temperature of this time for energies, forces and stresses */
 PetscErrorCode TemperaturesApply(Temperatures *temperatures, PetscReal time)
 {
   Scene scene = temperatures->scene;
@@ -64,7 +64,7 @@ PetscErrorCode TemperaturesApply(Temperatures *temperatures, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* Of all cells, without sign, at the time that was applied last */
+/* size: largest magnitude over all cells, at the time that was applied last */
 PetscErrorCode TemperaturesGetLargest(const Temperatures *temperatures, PetscReal *size)
 {
   PetscFunctionBegin;

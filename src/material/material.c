@@ -1,4 +1,4 @@
-/* Parameters of materials and the table of laws */
+/* Parameters of materials, and the table of laws */
 #include "materialimpl.h"
 
 #define MATERIAL_NAME(name, law, text) text,

@@ -1,5 +1,5 @@
 /*
-   Material, private: the laws, one a file; material.c has their table.
+   Private header of material: one law per file; material.c has their table.
 */
 #ifndef MATERIALIMPL_H
 #define MATERIALIMPL_H
@@ -11,7 +11,7 @@
 MATERIAL_LAWS(MATERIAL_LAW)
 #undef MATERIAL_LAW
 
-/* isotropic.c: Young's modulus and Poisson's ratio, of small strain with the thermal expansion; the moduli of them */
+/* isotropic.c: constants Young's modulus, Poisson's ratio and thermal expansion; moduli from these */
 #define MATERIAL_YOUNG \
   { \
     "young", 1, offsetof(Material, young), PETSC_TRUE, "Young's modulus", "E", 0, PETSC_INFINITY \
@@ -20,10 +20,14 @@ MATERIAL_LAWS(MATERIAL_LAW)
   { \
     "poisson", 1, offsetof(Material, poisson), PETSC_TRUE, "Poisson's ratio", "nu", -1, 0.5 \
   }
+#define MATERIAL_DENSITY \
+  { \
+    "density", 1, offsetof(Material, density), PETSC_FALSE, NULL, "rho", 0, 0 \
+  }
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
 
-/* orthotropic.c: rows are the material's axes, whether they are three */
+/* orthotropic.c: rows of R are the material's axes; false if they are not independent */
 PETSC_INTERN PetscBool OrthotropicAxes(const Material *, PetscReal R[3][3]);
 
 #endif

@@ -12,7 +12,7 @@
 */
 #include "materialimpl.h"
 
-/* The two neo-Hookean laws, of F and of cof F */
+/* Moduli of the two neo-Hookean laws, of F and of cof F */
 static void MooneyRivlinSplit(const MaterialModuli *m, MaterialModuli *first, MaterialModuli *second)
 {
   *first  = (MaterialModuli){.mu = m->mu * (1 - m->share), .bulk = m->bulk};
@@ -152,6 +152,7 @@ static const MaterialConstant constants[] = {
   {"c10", 1, offsetof(Material, c10), PETSC_TRUE, NULL, NULL, 0, 0},
   {"c01", 1, offsetof(Material, c01), PETSC_TRUE, NULL, NULL, 0, 0},
   {"bulk", 1, offsetof(Material, bulk), PETSC_TRUE, "a bulk modulus", NULL, 0, PETSC_INFINITY},
+  MATERIAL_DENSITY,
   {NULL},
 };
 

@@ -1,7 +1,7 @@
 /*
-   Compressible neo-Hookean: W = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2, I1 = tr(F^T F), kappa = lambda + 2 mu/3.
-
-   Everything is written in what vanishes at rest, H, theta = J - 1 and I1 - 3, so that small strains keep their digits.
+   Compressible neo-Hookean: W = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2, I1 = tr(F^T F), kappa = lambda + 2 mu/3. It
+   is computed from quantities that vanish without deformation (H, theta = J - 1, I1 - 3), so that small strains are
+   accurate.
 */
 #include "materialimpl.h"
 
@@ -41,9 +41,9 @@ static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k
 }
 
 /*
-   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), D without trace: det(I + D) = 1 +
-   q, q = det D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Where q nears -1 its own digits go, and none cancel
-   in the first form.
+   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), tr D = 0: det(I + D) = 1 + q, q = det
+   D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Near q = -1 this loses accuracy, and the first form, which does
+   not cancel there, is used.
 */
 static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
 {

@@ -1,6 +1,6 @@
 /*
-   A body of no strain, whose displacements are all prescribed: no energy and no stress. Its tangent gives the rows of
-   the matrix, which then hold nothing but their diagonal, the scale of the young modulus that it was given.
+   Rigid bodies: all displacements are prescribed; energy and stress are zero. The tangent provides the matrix rows, of
+   which only the diagonal is kept; its size comes from the assigned Young's modulus.
 */
 #include "materialimpl.h"
 
@@ -43,7 +43,7 @@ static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], Pe
   (void)pressure, (void)H, (void)A;
 }
 
-static const MaterialConstant none[] = {{NULL}};
+static const MaterialConstant constants[] = {MATERIAL_DENSITY, {NULL}};
 
 const MaterialLaw MaterialLawRigid = {
   .constant   = PETSC_TRUE,
@@ -54,6 +54,6 @@ const MaterialLaw MaterialLawRigid = {
   .cauchy     = MaterialCauchy_Rigid,
   .dilatation = MaterialDilatation_Rigid,
   .curvature  = MaterialCurvature_Rigid,
-  .constants  = none,
+  .constants  = constants,
   .moduli     = MaterialModuliIsotropic,
 };

@@ -1,10 +1,10 @@
 /*
    Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2. For large rotations at moderate
-   strain: it softens in compression, and is unstable below about 0.58 of the length.
+   strain. It softens in compression and is unstable below a stretch of about 0.58.
 */
 #include "materialimpl.h"
 
-/* E; returns det F, which small strains need no digits of */
+/* Computes E; returns det F, which need not be accurate for small strains */
 static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
 {
   PetscReal F[9];

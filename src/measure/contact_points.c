@@ -1,14 +1,15 @@
-/* Pressure, gap and status at the vertices of both sides of every pair. */
+/* Pressure, gap and status at the vertices of both sides of every contact pair. */
 #include "pair_rows.h"
 
-/* What the vertices of the mesh have, as far as they are in the pair: [area, force, gap x area]; [1 mortar side, -1
-   nonmortar, area that presses, -]; [closed area, length of facets x area, force that slips]; force */
+/* Values at the mesh's vertices that belong to the pair. carried: [area, force, gap x area]; sides: [1 mortar, -1
+   nonmortar side; area with pressure; -]; closing: [closed area; facet length x area; force of slipping rows];
+   force: vector */
 typedef struct {
   Vec carried, sides, closing, force;
-  Vec shear, way; /* of friction, on the mortar side [force], and slip x area; NULL without friction */
+  Vec shear, way; /* friction force on the mortar side [force], and slip x area; NULL without friction */
 } PairVertices;
 
-/* J^T (mass x pressure) of the pair's rows */
+/* force = J^T (mass x pressure) of the pair's rows */
 static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec force)
 {
   const PetscScalar *mass;
@@ -27,7 +28,7 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionReturn(0);
 }
 
-/* What friction has at the vertices, its forces among all, and in closing[2] the force that slips */
+/* Adds friction at the vertices: to the forces, and to closing[2] the force of slipping rows */
 static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
 {
   PetscReal   *slipping;
@@ -56,7 +57,7 @@ static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairR
   PetscFunctionReturn(0);
 }
 
-/* Both sides of a pair before anything is agglomerated */
+/* Computes the values of both sides of a pair before agglomeration */
 static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, PairVertices *vertices)
 {
   PetscFunctionBegin;
@@ -92,8 +93,8 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionReturn(0);
 }
 
-/* A component of the shear in place of the pressure, handed on and evened out as that is, so that one stays within
-   the other's law */
+/* Agglomerates and smooths one component of the friction stress like the pressure, so that the two stay consistent
+   with the friction law */
 static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone, PetscInt component)
 {
@@ -129,8 +130,8 @@ static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt fi
   PetscFunctionReturn(0);
 }
 
-/* Shear and slip of the points from number `first` on, slip in the means of what the vertices have of the other
-   side's cover, alone */
+/* Sets friction stress and slip of the points from number `first` on. Slip is the mean over the covered area before
+   agglomeration (alone) */
 static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone)
 {
@@ -167,13 +168,13 @@ static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt firs
   PetscFunctionReturn(0);
 }
 
-/* Half of it, but for rounding, is not most */
+/* Whether part is more than half of whole, beyond rounding */
 static PetscBool PairIsMostly(PetscReal part, PetscReal whole)
 {
   return (PetscBool)(2.0 * part > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * whole);
 }
 
-/* Appends the pair's points; alone: what they carried before it was agglomerated */
+/* Appends the pair's points; alone: values before agglomeration */
 static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows,
   const PairVertices *vertices, Vec alone)
 {
@@ -221,7 +222,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscFunctionReturn(0);
 }
 
-/* Areas are those of the nonmortar side's points. first: of the pair's points */
+/* Sums areas over the nonmortar side's points. first: the pair's first point */
 static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec sides, PetscInt first,
   PairReport *report)
 {

@@ -1,27 +1,28 @@
 /*
-   Whether there is an equilibrium at all. Forces in the contacts balance the loads on the bodies only if the loads,
-   with the sign turned, are in the cone of what such forces do on the free rigid motions of all bodies: of every row
-   its normal force, with as much friction as that allows. The point of the cone nearest to them is found by rays of it,
-   one after another: of all rows the one that works the most against what is left of the loads. Where none does and
-   something is left, that is a motion which the loads drive and no contact resists: there is no equilibrium (Farkas).
+   Tests whether an equilibrium exists. Contact forces can balance the loads on the bodies only if the negative loads
+   lie in the cone of the generalized contact forces on the free rigid motions of all bodies; each row contributes its
+   normal force with as much friction as that allows. The point of the cone nearest to the negative loads is found by
+   adding rays one by one: the row whose force does the most negative work on the remaining load. If no row does, and a
+   load remains, the remaining load defines a motion that the loads drive and no contact resists: there is no
+   equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
 
 #define EQUILIBRIUM_ROWS 3 /* linearizations */
 
-/* The rays that make up the nearest point so far, n numbers each, and how much of each */
+/* The rays that form the nearest point so far, n numbers each, and their amounts */
 typedef struct {
   PetscInt   n, nrays, nmax;
   PetscReal *ray, *normal; /* normal: of the row's normal force alone */
   PetscReal *amount;       /* [force] */
 } ContactCone;
 
-/* The row that works the most against a motion, and its friction, on all ranks */
+/* The row that resists a motion most, and its friction, on all ranks */
 typedef struct {
   PetscReal rate;     /* work of a unit of its force on the motion: negative */
-  PetscInt  row;      /* global; PETSC_DECIDE: there is no row */
-  PetscReal shear[2]; /* by normal force */
-  PetscReal normal;   /* 1; 0: friction alone, which needs next to none */
+  PetscInt  row;      /* global row; PETSC_DECIDE: none */
+  PetscReal shear[2]; /* friction force per normal force */
+  PetscReal normal;   /* 1; or 0: friction alone, which needs almost no normal force */
 } ConeRow;
 
 static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
@@ -39,7 +40,8 @@ static PetscErrorCode ConeFree(ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
-/* Coefficients without limit: whatever is asked for, as of pairs that stick, or have another limit */
+/* Finds the row. Without a limit of the coefficient (pairs that stick, or with a shear limit) any friction force is
+   allowed */
 static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
 {
   Vec                rates, slips = NULL;
@@ -90,7 +92,7 @@ static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLineari
   PetscFunctionReturn(0);
 }
 
-/* What a unit of a row's force does on the free motions; shear: with its friction */
+/* ray: generalized force of a unit of a row's force on the free motions; shear: including its friction */
 static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin, const ConeRow *row, PetscBool shear,
   PetscReal ray[])
 {
@@ -124,7 +126,7 @@ static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin,
   PetscFunctionReturn(0);
 }
 
-/* left = load + the rays' sum */
+/* left = load + sum of the rays */
 static void ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
 {
   for (PetscInt i = 0; i < cone->n; ++i) {
@@ -141,7 +143,7 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* Amounts, of any sign, with which the rays leave the least of the load: by their part across those before them */
+/* Amounts, of any sign, for which the rays leave the smallest remainder, by orthogonalization */
 static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[], PetscReal amount[])
 {
   const PetscInt  n = cone->n, nrays = cone->nrays;
@@ -171,7 +173,7 @@ static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[],
   PetscFunctionReturn(0);
 }
 
-/* Takes off the rays of which there is nothing */
+/* Removes rays with zero amount */
 static void ConeDrop(ContactCone *cone)
 {
   PetscReal largest = 0.0;
@@ -190,7 +192,7 @@ static void ConeDrop(ContactCone *cone)
   cone->nrays = kept;
 }
 
-/* The amounts, none of them negative, with which the rays leave the least of the load (Lawson and Hanson) */
+/* Non-negative amounts for which the rays leave the smallest remainder (Lawson and Hanson's algorithm) */
 static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 {
   PetscReal *wanted, part = 0.0;
@@ -214,8 +216,8 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 }
 
 /*
-   What contact leaves of the load, size: the sum of the sizes of the loads at the nodes. none: it is proved that there
-   is no equilibrium, or one only with contact forces that are a thousand times the loads
+   left: the load that contact leaves unbalanced; size: sum of the magnitudes of nodal loads. none: proof that no
+   equilibrium exists, or only one with contact forces a thousand times the loads
 */
 static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
   const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
@@ -252,7 +254,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Takes off a motion what opens the rows that press: bodies slide, and do not climb as friction would have it */
+/* Removes from a motion the part that opens rows with pressure: bodies slide and do not climb */
 static void ConeSlide(const ContactCone *cone, PetscReal motion[])
 {
   const PetscInt n   = cone->n;
@@ -278,7 +280,7 @@ static void ConeSlide(const ContactCone *cone, PetscReal motion[])
   }
 }
 
-/* The sum of the sizes of the loads at the nodes */
+/* Sum of the magnitudes of the nodal loads */
 static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
 {
   const PetscScalar *f;
@@ -296,8 +298,8 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* The rows of the last state: those within the usual reach; with forces that stand at the edges of the faces; and as
-   far as the bodies extend, for a body that moves away may meet others there */
+/* Linearizes contact at the last state: within the usual search distance; with dual functions, whose forces may act
+   at the edges of faces; and with a search distance of the bodies' size, as a moving body may meet other faces */
 static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
   Simulation sim = m->sim;
@@ -315,7 +317,7 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* How the bodies move that contact does not hold: motion, what it leaves of the loads on the free motions */
+/* Reports the motion of the bodies that contact does not hold; left: unbalanced load on the free motions */
 static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone *cone, const PetscReal left[],
   PetscBool rubs, StepReport *report)
 {
@@ -336,8 +338,8 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
 }
 
 /*
-   Of a solve that has found no solution: whether there is none, as is known of the loads and the places of the last
-   state. Then the report says which body moves, and how
+   Called after a solve without solution. none: whether no equilibrium exists for these loads and the positions of the
+   last state; the report then names the moving body and its motion
 */
 PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {

@@ -1,18 +1,19 @@
-/* If nothing stops a body, the energy falls without limit. Finds the body and describes its motion. */
+/* If nothing stops a body, the energy is unbounded below. Finds the body and describes its motion. */
 #include "measureimpl.h"
 
-/* Sums over the nodes of a body, at X, displaced by u; all of them reals, summed over ranks at once */
+/* Sums over the nodes of a body with coordinates X and displacements u; only reals, to be summed over ranks at once */
 typedef struct {
   PetscReal n, place[3], shift[3];    /* number of nodes, sums of X and u */
   PetscReal moment[3], inertia[3][3]; /* sums of X x u and of |X|^2 I - X X^T */
   PetscReal square;                   /* sum of |u|^2 */
 } RigidFitSums;
 
-/* The rigid motion t + w x (X - center) nearest to the displacements */
+/* The rigid motion t + w x (X - center) that fits the displacements best */
 typedef struct {
   PetscReal center[3], t[3], w[3];
-  PetscReal turned;   /* root of the mean square of w x (X - center) */
-  PetscReal residual; /* that of the displacements without the motion, over that of them all */
+  PetscReal turned;   /* root mean square of w x (X - center) */
+  PetscReal residual; /* root mean square of the displacements without the motion, relative to that of the
+                         displacements */
 } RigidFit;
 
 static void RigidFitCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
@@ -25,7 +26,7 @@ static PetscReal RigidFitDot(const PetscReal a[3], const PetscReal b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Collective. The body with the largest component of a displacement, and that */
+/* Collective. The body with the largest displacement component, and its value */
 static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
 {
   const PetscInt     nbodies = sim->scene->nbodies;
@@ -104,7 +105,7 @@ static void RigidFitFit(RigidFitSums *sums, RigidFit *flight)
     PetscSqrtReal(PetscMax(1.0 - (turned + RigidFitDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
 }
 
-/* Rounds to a power of ten below the unit, and avoids minus zero: rounding errors are not printed */
+/* Rounds x to a power of ten below the unit, and avoids minus zero, so that rounding errors are not printed */
 static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
 {
   const PetscReal power = PetscPowReal(10.0, PetscFloorReal(PetscLog10Real(unit)));
@@ -112,10 +113,10 @@ static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
   return PetscFloorReal(x / power + 0.5) * power + 0.0;
 }
 
-/* How a body moves that nothing stops: it turns over, moves away, or neither as a whole */
+/* Text for the motion of an unrestrained body: turns over, moves away, or neither as a whole */
 static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length)
 {
-  const PetscReal part = 0.1; /* of a motion, that counts */
+  const PetscReal part = 0.1; /* smallest part of a motion that is mentioned */
   PetscReal       axis[3], arm, radius, size;
   RigidFit        flight;
 
@@ -146,8 +147,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds to the reason of a step that failed so the body that moves the farthest at u, and what is known of
-   that */
+/* Collective. Appends to the reason of a failed step the body with the largest displacement, and `known` */
 PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], StepReport *report)
 {
   RigidFitSums sums;

@@ -1,4 +1,4 @@
-/* Forces and moments by pair, by face and by body. */
+/* Forces and moments of pairs, faces and bodies. */
 #include "measureimpl.h"
 #include <string.h>
 
@@ -7,7 +7,7 @@ typedef struct {
   PetscReal force[3], moment[3];
 } ForceSum;
 
-/* Deformed places of the vertices that this rank owns, and the forces at them */
+/* Deformed coordinates of the owned vertices, and the forces at them */
 typedef struct {
   PetscInt           rstart, n;
   const PetscScalar *x, *u, *force;
@@ -33,7 +33,7 @@ static PetscErrorCode ForceFieldRestore(Simulation sim, Vec u, Vec force, ForceF
   PetscFunctionReturn(0);
 }
 
-/* Adds the force of one row, shared by so many */
+/* Adds the force of one row, divided by the number of faces that share it */
 static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt sharers, ForceSum *sum)
 {
   const PetscInt  i = row - field->rstart, c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
@@ -44,7 +44,7 @@ static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt share
   sum->moment[e] -= PetscRealPart(field->x[v + d] + field->u[v + d]) * f;
 }
 
-/* Component by component of a face; sharers: of each row of this rank, NULL: one */
+/* Adds the forces on a face, for the given components; sharers: number of faces for each row of this rank, NULL: one */
 static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
   const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
 {
@@ -78,7 +78,7 @@ static PetscReal ForceSize(const PetscReal f[3])
   return PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
 }
 
-/* Place of a face among those with prescribed displacements; a new one is appended */
+/* Index of a face in the report; it is appended if it is new */
 static PetscInt ForcesFindFace(StepReport *report, const char name[])
 {
   PetscInt f = 0;
@@ -88,7 +88,7 @@ static PetscInt ForcesFindFace(StepReport *report, const char name[])
   return f;
 }
 
-/* Lists of pairs, faces and bodies, zero, in place of those that are there */
+/* Replaces the report's lists of pairs, faces and bodies by zeros */
 PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
 {
   Scene scene = sim->scene;
@@ -119,8 +119,8 @@ PetscErrorCode ForcesFree(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Sums over the two sides of a pair of J^T (mass x pressure) of its own rows, and of their friction; sides:
-   nonmortar, mortar */
+/* sides: sums of J^T (mass x pressure) of the pair's rows, and of their friction, over the nonmortar and the mortar
+   side */
 static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
   ForceSum sides[2])
 {
@@ -149,7 +149,7 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscFunctionReturn(0);
 }
 
-/* weighted: mass x pressure, one a row of sim->linearization; shear: forces of friction, or NULL */
+/* weighted: mass x pressure, one per row of sim->linearization; shear: friction forces, or NULL */
 PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
 {
   ForceSum *sides;
@@ -174,7 +174,7 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear
   PetscFunctionReturn(0);
 }
 
-/* How many faces prescribe each row */
+/* sharers: number of faces that prescribe each row */
 static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscInt sharers[])
 {
   PetscFunctionBegin;
@@ -198,8 +198,8 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Of a symmetry plane along no axis, or of a rigid body that forces drive: the forces at its nodes, which are there
-   no more then */
+/* Adds the forces at all nodes of a face (of an inclined symmetry plane, or of a rigid body driven by forces), and
+   zeroes them in `ties` */
 static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -226,8 +226,8 @@ static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char 
   PetscFunctionReturn(0);
 }
 
-/* reaction: its prescribed rows are; ties: on the bodies, rigid: on rigid bodies, NULL: none. What is left of the
-   ties are the joints' */
+/* reaction: forces in prescribed rows; ties: on bodies, rigid: on rigid bodies, NULL: none. The rest of ties belongs
+   to joints */
 PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum  *sums;
@@ -262,7 +262,7 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties,
   PetscFunctionReturn(0);
 }
 
-/* The body of a face, <body>.<face> */
+/* Report of the body of a face <body>.<face> */
 static BodyReport *ForcesFindBody(StepReport *report, const char face[])
 {
   for (PetscInt b = 0; b < report->nbodies; ++b) {
@@ -273,7 +273,7 @@ static BodyReport *ForcesFindBody(StepReport *report, const char face[])
   return NULL;
 }
 
-/* Adds to one of the body's sums, and its size to balance, which is divided at the end */
+/* Adds to one of the body's sums, and its magnitude to balance, which is normalized at the end */
 static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3])
 {
   PetscFunctionBegin;
@@ -332,8 +332,8 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* From the pairs and faces as they are reported, the springs, the ties and the loads; NULL: there are none. Forces
-   below rounding are in balance */
+/* Sums the bodies' forces from the pairs and faces as reported, springs, ties and loads (NULL: none). Forces below
+   rounding count as balanced */
 PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
   PetscReal largest = 0.0;

@@ -1,8 +1,8 @@
-/* The rigid motions of the bodies, all at once, that nothing but contact resists: neither prescribed displacements nor
-   springs nor ties do. */
+/* The rigid motions of the bodies that are resisted by contact only, not by prescribed displacements, springs or
+   ties. */
 #include "measureimpl.h"
 
-/* Where bodies are: those of small strain as their energy has them, undeformed */
+/* Coordinates of the nodes: undeformed for small-strain laws, as in their energy */
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
 {
   PetscBool linear;
@@ -43,7 +43,7 @@ static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
   PetscFunctionReturn(0);
 }
 
-/* w = the displacements of the bodies' motions, 6 each: translations, and angles times the body's size */
+/* w: displacements of the bodies' motions, 6 per body: translations, and angles x body size */
 static PetscErrorCode FreeMotionsDisplaceBodies(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
   const PetscScalar *x;
@@ -65,7 +65,7 @@ static PetscErrorCode FreeMotionsDisplaceBodies(const FreeMotions *m, const Pets
   PetscFunctionReturn(0);
 }
 
-/* The work of forces on the bodies' motions, 6 each */
+/* motion: work of forces on the bodies' motions, 6 per body */
 static PetscErrorCode FreeMotionsSumBodies(const FreeMotions *m, Vec force, PetscReal motion[])
 {
   const PetscScalar *x, *f;
@@ -90,7 +90,7 @@ static PetscErrorCode FreeMotionsSumBodies(const FreeMotions *m, Vec force, Pets
   PetscFunctionReturn(0);
 }
 
-/* The forces that displacements w meet where they are prescribed, sprung or tied, each of stiffness 1 or so */
+/* force: resistance to displacements w in prescribed, sprung and tied rows, each with a stiffness of about 1 */
 static PetscErrorCode FreeMotionsResist(const FreeMotions *m, Vec w, Vec resisted, Vec force)
 {
   Simulation sim = m->sim;
@@ -118,7 +118,7 @@ static PetscErrorCode FreeMotionsResist(const FreeMotions *m, Vec w, Vec resiste
   PetscFunctionReturn(0);
 }
 
-/* 1 in the rows that are prescribed or have a spring, else 0 */
+/* resisted: 1 in rows that are prescribed or have a spring, else 0 */
 static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec resisted)
 {
   PetscScalar       *a;
@@ -140,7 +140,7 @@ static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec resisted)
   PetscFunctionReturn(0);
 }
 
-/* resistance[6 nbodies x 6 nbodies], symmetric */
+/* resistance[6 nbodies x 6 nbodies]: symmetric matrix of the resistance to the bodies' motions */
 static PetscErrorCode FreeMotionsMeasureResistance(const FreeMotions *m, PetscReal resistance[])
 {
   const PetscInt size = 6 * m->nbodies;
@@ -168,10 +168,11 @@ static PetscErrorCode FreeMotionsMeasureResistance(const FreeMotions *m, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Eliminates one motion after another, that with the most resistance first; pivot[k]: the k-th */
+/* Gauss elimination with the largest resistance first; pivot[k]: the k-th motion; n: number of motions with
+   resistance */
 static void FreeMotionsEliminate(PetscInt size, PetscReal a[], PetscInt pivot[], PetscInt *n)
 {
-  const PetscReal none = 1e-9; /* beside a node or more that is held */
+  const PetscReal none = 1e-9; /* relative to the resistance of one held node or more */
   PetscBool       more = PETSC_TRUE;
 
   for (*n = 0; more && *n < size; *n += more) {
@@ -197,7 +198,7 @@ static void FreeMotionsEliminate(PetscInt size, PetscReal a[], PetscInt pivot[],
   }
 }
 
-/* The part of the newest motion across those before it, of length 1 */
+/* Makes the newest motion orthogonal to the earlier ones, and of length 1 */
 static void FreeMotionsOrthonormalize(PetscInt size, PetscInt n, PetscReal motion[])
 {
   PetscReal *v = &motion[size * n], square = 0.0;
@@ -213,7 +214,7 @@ static void FreeMotionsOrthonormalize(PetscInt size, PetscInt n, PetscReal motio
   for (PetscInt i = 0; i < size; ++i) v[i] /= PetscSqrtReal(square);
 }
 
-/* Those that meet no resistance: one for every motion that is left, with what the others then do */
+/* Finds the motions without resistance: one for each remaining unknown of the elimination */
 static PetscErrorCode FreeMotionsFind(FreeMotions *m)
 {
   const PetscInt size = 6 * m->nbodies;
@@ -250,7 +251,7 @@ PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
   PetscFunctionReturn(0);
 }
 
-/* w = the displacements of the free motions' sum */
+/* w: displacements of the sum of the free motions */
 PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
   const PetscInt size = 6 * m->nbodies;
@@ -266,7 +267,7 @@ PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[
   PetscFunctionReturn(0);
 }
 
-/* The work of forces on the free motions */
+/* motion: work of forces on the free motions */
 PetscErrorCode FreeMotionsSum(const FreeMotions *m, Vec force, PetscReal motion[])
 {
   const PetscInt size = 6 * m->nbodies;

@@ -1,8 +1,8 @@
-/* Work dissipated by friction: the work of its forces on the vertices. Covered areas and rows change from one load
-   step to the next; the forces on the vertices include all of them. */
+/* Work dissipated by friction: the work of the friction forces on the vertices. Vertex forces are used because
+   covered areas and rows change between load steps. */
 #include "measureimpl.h"
 
-/* Of a pair at this time: 0 without friction, PETSC_INFINITY where pressure does not limit it */
+/* Friction coefficient of a pair at this time: 0 without friction, PETSC_INFINITY if pressure does not limit it */
 PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt which, PetscReal *coefficient)
 {
   const SceneContactPair *pair   = &scene->pairs[which];
@@ -19,8 +19,8 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
   PetscFunctionReturn(0);
 }
 
-/* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
-   those before and now on the way from the last state to u */
+/* For one pair, at the owned vertices of both sides: force: present friction forces; work: minus the work of the
+   mean of the last and present forces on the motion from the last state to u */
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolution *sol, PetscInt pair, Vec force,
   PetscReal work[])
 {
@@ -45,7 +45,7 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolut
   PetscFunctionReturn(0);
 }
 
-/* sums[2 pair + 1] += the sizes of the rows' forces: of a row that is covered in part, that part */
+/* sums[2 pair + 1] += magnitudes of the rows' friction forces, in proportion to their covered part */
 static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSolution *sol, PetscReal sums[])
 {
   const PetscScalar *f, *mass;
@@ -62,7 +62,7 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
   PetscFunctionReturn(0);
 }
 
-/* Of every pair: the work since the start, if `sol` stands at u, and the sum of the sizes of the forces */
+/* For every pair: work since the start, up to the solution `sol` at u, and sum of the magnitudes of the forces */
 PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
 {
   const ContactHistory *m = &sim->history;
@@ -93,7 +93,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   PetscFunctionReturn(0);
 }
 
-/* What was dissipated on the way to u counts, and the forces there are the last ones */
+/* Adds the dissipation up to u to the history, and stores the forces at u */
 static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
 {
   ContactHistory    *m = &sim->history;
@@ -117,8 +117,8 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
   PetscFunctionReturn(0);
 }
 
-/* The solution at u is the new state of equilibrium: what was dissipated and slipped on the way to it counts, and the
-   next slip begins there */
+/* Makes the solution at u the new state of equilibrium: adds its dissipation and slip to the history; later slip is
+   counted from here */
 PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
 {
   ContactLinearization lin = sim->linearization;
@@ -147,7 +147,7 @@ PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
   PetscFunctionReturn(0);
 }
 
-/* After the state has been put back: the forces of the last solve are those of the state */
+/* After a state was restored: its friction forces become those of the last solve */
 PetscErrorCode FrictionRecall(Simulation sim)
 {
   ContactHistory *m = &sim->history;
@@ -157,7 +157,7 @@ PetscErrorCode FrictionRecall(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* force += the forces of friction at the vertices, of one pair or PETSC_DECIDE: of all */
+/* Adds the friction forces at the vertices, of one pair or of all (PETSC_DECIDE), to force */
 PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
 {
   PetscScalar *f;

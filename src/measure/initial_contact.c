@@ -1,15 +1,15 @@
-/* State of the contact pairs before anything moves, and warnings about what the scene does not declare. */
+/* State of the contact pairs at the start, and warnings about what the scene does not declare. */
 #include "measureimpl.h"
 #include <math.h>
 
 #define START_ROUNDING \
-  1e-6 /* overlap of faces that touch, relative to the square root of the area that faces the other side */
+  1e-6 /* overlap of faces in touch that counts as rounding, relative to the square root of their facing area */
 
-/* The nonmortar side of a pair, undeformed */
+/* The nonmortar side of a pair in the undeformed state */
 typedef struct {
-  PetscInt  n;              /* vertices that have the mortar face within reach */
-  PetscReal least, largest; /* gap; negative: overlap [length] */
-  PetscReal area, overlap;  /* of these vertices; of those that overlap [length^2] */
+  PetscInt  n;              /* number of vertices with the mortar face within the search distance */
+  PetscReal least, largest; /* smallest and largest gap; negative: overlap [length] */
+  PetscReal area, overlap;  /* area of these vertices; of those that overlap [length^2] */
 } PairStart;
 
 static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart starts[])
@@ -34,7 +34,7 @@ static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart start
   PetscFunctionReturn(0);
 }
 
-/* Overlaps that are rounding are none */
+/* Measures gaps and overlaps; overlaps within rounding are ignored */
 static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, PetscInt npairs, PairStart starts[])
 {
   PetscFunctionBegin;
@@ -53,7 +53,7 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
   PetscFunctionReturn(0);
 }
 
-/* The scene's word for an overlap, and what it says of this one; NULL: it stands */
+/* Advice for an overlap that the scene has not declared (correctly); NULL: it is fine */
 static const char *StartJudge(const SceneContactPair *pair, const PairStart *start)
 {
   if (start->overlap == 0.0) return pair->interference > 0.0 ? "which the scene says they do" : NULL;
@@ -64,7 +64,7 @@ static const char *StartJudge(const SceneContactPair *pair, const PairStart *sta
            : NULL;
 }
 
-/* Of nodes that are to stick while both faces are driven there, unlike one another */
+/* Warns of nodes that should stick although both faces are driven there by different displacements */
 static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair = &sim->scene->pairs[p];
@@ -81,7 +81,7 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* Of overlaps at the start that the scene has not declared, or otherwise, and of friction that cannot act; lin: at
+/* Warns of initial overlaps that the scene has not declared (correctly), and of friction that cannot act; lin: at
    zero displacement */
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
@@ -109,7 +109,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   PetscFunctionReturn(0);
 }
 
-/* After the last load step: of pairs that were not closed at the end of any */
+/* After the last load step: warns of pairs that were open in all load steps */
 PetscErrorCode StartWarnOfUnmet(Simulation sim)
 {
   const RunReport *run = &sim->report;

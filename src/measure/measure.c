@@ -1,12 +1,12 @@
-/* How good a state is, measured on the elements and the contact rows: forces, gaps, equilibrium, errors. */
+/* Measures a state from the elements and the contact rows: forces, gaps, equilibrium, errors. */
 #include "measureimpl.h"
 #include <math.h>
 
-/* q = J_full^T M z: the forces on the two sides cancel */
+/* With q = J_full^T M z: the relative sum of the contact forces on both sides */
 static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
 {
   const PetscScalar *a;
-  PetscReal          sums[4] = {0, 0, 0, 0}; /* the force, and the sum of the vertices' sizes */
+  PetscReal          sums[4] = {0, 0, 0, 0}; /* total force, and sum of the magnitudes of vertex forces */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -43,7 +43,7 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Squared errors of cells add up over the load steps */
+/* Adds the squared errors of cells to those of earlier load steps */
 static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
 {
   PetscInt cstart, cend;
@@ -56,7 +56,8 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
   PetscFunctionReturn(0);
 }
 
-/* In the energy norm, relative to that of the displacement; report->energy is set. moves: it is rounding's */
+/* Estimates the discretization error in the energy norm, relative to that of the displacement; report->energy must
+   be set. moves: the energy is only rounding */
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {
   const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
@@ -76,9 +77,9 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
 }
 
 /*
-   What of the energy is not the mesh's doing: sum m |gap z| (the duality gap), the work of the forces out of balance,
-   and that of the pressures on the difference of the true and the linearized gap; to first order in each, over twice
-   the energy. moves: there is no energy but rounding's, which nothing is relative to
+   Relative error in energy that the solver leaves: sum m |gap z| (duality gap), work of the residual forces, and work
+   of the pressures on the difference of true and linearized gap; each to first order, divided by twice the energy.
+   moves: the energy is only rounding, so nothing is relative to it
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
   PetscBool moves, StepReport *report)
@@ -108,29 +109,61 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* Contact forces that a time step has beside those of its end */
+static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
+{
+  const PetscReal more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPY(force, -more, contact));
+  PetscCall(VecAXPY(inertia, more, contact));
+  PetscFunctionReturn(0);
+}
+
+/* The plastic work, which is then no part of the energy, and the largest plastic strains */
+static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
+{
+  PetscReal *largest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &largest));
+  PetscCall(ElasticityPlasticWork(sim->elasticity, &report->plastic_work, largest));
+  report->energy -= report->plastic_work;
+  report->plastic_strain = 0.0;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    report->bodies[b].plastic_strain = largest[b];
+    report->plastic_strain           = PetscMax(report->plastic_strain, largest[b]);
+  }
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(0);
+}
+
 /*
-   All figures are computed from the elements and the contact rows, not taken from the solver: energy; residual of
-   equilibrium; reaction = internal - contact - dead force on the prescribed rows; at the end of a load step the
-   discretization error
+   Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
+   residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
+   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis
 */
-PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, const ContactSolution *sol,
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
   StepReport *report)
 {
   const Constraints constraints = SimulationConstraints(sim);
-  Vec               force, ties, rigid, contact = NULL, weighted = NULL;
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL, dead = load;
   PetscReal         size, residual, rounding;
-  PetscBool         moves; /* the bodies move as a whole, without stress */
+  PetscBool         moves; /* the bodies only move as a whole, without stress */
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
-  rounding *= 1e-11 * sim->stiffness; /* what may be left of the forces of a body that moves as a whole */
+  rounding *= 1e-11 * sim->stiffness; /* rounding level of the forces on such bodies */
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
+  PetscCall(MeasurePlastic(sim, report));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
   moves = (PetscBool)(size <= rounding);
-  if (load) PetscCall(VecAXPY(force, -1.0, load));
+  if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
+  if (inertia) dead = inertia; /* with it */
+  if (dead) PetscCall(VecAXPY(force, -1.0, dead));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
@@ -142,13 +175,15 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec u, con
     PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
-    if (!sim->history.shear) PetscCall(VecDestroy(&contact));
+    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
+    if (!sim->history.shear && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
+  if (inertia) PetscCall(MotionMeasure(sim, u, report));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, load, ties, rounding, report));
+  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));

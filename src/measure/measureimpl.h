@@ -1,6 +1,6 @@
 /*
-   What is measured of a state, which it leaves as it is: forces, work, contact results, fields, errors. Every file
-   builds on those before it.
+   Measurement of a state, which is not changed: forces, work, contact results, fields, errors. Files are in the order
+   in which they depend on each other.
 */
 #ifndef MEASUREIMPL_H
 #define MEASUREIMPL_H
@@ -17,13 +17,13 @@ PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 /* diagnose_rigid_motion.c */
 PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], StepReport *);
 
-/* free_motions.c: the rigid motions of all bodies that neither prescribed displacements nor springs nor ties resist */
+/* free_motions.c: rigid motions of all bodies that prescribed displacements, springs and ties do not resist */
 typedef struct {
   Simulation sim;
   PetscInt   nbodies, n;
-  Vec        x;             /* places of the nodes [length] */
-  PetscReal *center, *size; /* 3 a body, 1 a body [length] */
-  PetscReal *motion;        /* [6 nbodies n], orthonormal: of each body translations, and angles times its size */
+  Vec        x;             /* coordinates of the nodes [length] */
+  PetscReal *center, *size; /* 3 per body, 1 per body [length] */
+  PetscReal *motion;        /* [6 nbodies n], orthonormal: for each body translations, and angles x its size */
 } FreeMotions;
 
 PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);
@@ -42,18 +42,18 @@ PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec
   StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
-/* nodal_pressure.c: evens out, face by face of a pair, what the vertices at the edge of the other's cover carry:
-   [area, force, gap x area] a vertex */
+/* nodal_pressure.c: smooths the values of vertices at the edge of the other side's covered area, face by face:
+   [area, force, gap x area] per vertex */
 PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
-/* contact_points.c: pressure, gap and status on both sides of every pair; into sim->points and the report's pairs */
+/* contact_points.c: pressure, gap and status on both sides of every pair, stored in sim->points and the report */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
-/* penetration.c: of vertices, beside the gap, which of mortar pairs is a mean */
+/* penetration.c: penetration of vertices; gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
-/* pair_mesh.c, strain.c: what the meshes of the faces, and laws of small strain, are too coarse for */
+/* pair_mesh.c, strain.c: warnings about too coarse contact meshes, and about strains too large for small-strain laws */
 PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
 PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
 
@@ -72,8 +72,11 @@ PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
 
 /* measure.c */
-PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, Vec u, const ContactSolution *,
-  StepReport *);
+PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, Vec inertia, Vec u,
+  const ContactSolution *, StepReport *);
+
+/* motion.c */
+PETSC_INTERN PetscErrorCode MotionMeasure(Simulation, Vec u, StepReport *);
 
 /* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);

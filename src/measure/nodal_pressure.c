@@ -1,25 +1,29 @@
 /*
-   The pressure of a row is its force over the area that the other side covers about its vertex. If that area is tiny,
-   the pressure is the quotient of two small numbers. Such a vertex passes force and area on to the better covered
-   vertices of its facets, in proportion to their areas. Where the other side ends in an edge, the pressure is
-   singular, and vertices at and behind the edge over- and undershoot in turn. Vertices within two facets of partly
-   covered ones exchange force in proportion to their differences of pressure. Both keep the sums over a side, make no
-   pressure negative, and change nothing elsewhere.
+   Nodal contact pressure. The pressure of a row is its force divided by the area that the other side covers around its
+   vertex. If that area is tiny, both are small and the quotient is inaccurate. Such a vertex passes force and area to
+   the better covered vertices of its facets, in proportion to their areas. Where the other side ends in an edge, the
+   pressure is singular and oscillates at the vertices near the edge. Vertices within a few facets of partly covered
+   ones exchange force in proportion to their differences of pressure. Both steps preserve the sums over a side, keep
+   pressures non-negative, and change nothing elsewhere.
 */
 #include "measureimpl.h"
 
-static const PetscReal cover_ratio     = 0.3; /* of a vertex over a better covered one that it hands on to */
-static const PetscReal cover_partial   = 0.8; /* of a vertex's area: less is covered in part */
-static const PetscInt  cover_rings     = 4;   /* of facets about such vertices in which pressures are evened out */
+static const PetscReal cover_ratio     = 0.3; /* a vertex passes its values on if its cover is below this fraction of
+                                                 another one's */
+static const PetscReal cover_partial   = 0.8; /* a vertex is partly covered if less than this fraction of its area is
+                                                 covered */
+static const PetscInt  cover_rings     = 4;   /* number of rings of facets around such vertices in which pressures
+                                                 are smoothed */
 static const PetscInt  cover_exchanges = 3;
 static const PetscReal cover_rounding =
-  1e-8; /* by which a limit is missed to be missed: meshes of simple fractions meet it to the last digits */
+  1e-8; /* tolerance for these limits: meshes with simple fractions meet them exactly */
 
-/* The facets of both faces of a pair, those of order 2 cut at their nodes, and what is known of their vertices, in
-   the order of local vectors */
+/* Facets of both faces of a pair (those of order 2 divided at their nodes), and data of their vertices in the order
+   of local vectors */
 typedef struct {
-  PetscInt nfacets, *offset; /* [4 nfacets] of each vertex's first value */
-  Vec      cover; /* cover of the vertex's area; area covered; sum of the areas it hands on to, 0: it does not */
+  PetscInt nfacets, *offset; /* [4 nfacets] offset of each vertex's values */
+  Vec      cover; /* covered fraction of the vertex's area; covered area; sum of the areas it passes values to, 0:
+                     none */
 } CoverFacets;
 
 static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets)
@@ -48,8 +52,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscFunctionReturn(0);
 }
 
-/* Over all facets: each vertex passes its value on to the better covered ones; out = what they gain. carried NULL: out
-   = the sum of the areas to which a vertex passes on */
+/* Each vertex passes its values to better covered vertices of its facets; out: what they gain. carried NULL: out =
+   sum of the areas to which a vertex passes */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
   Vec                local[3]; /* cover, carried, out */
@@ -83,7 +87,7 @@ static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried,
   PetscFunctionReturn(0);
 }
 
-/* From the areas covered and those of the whole faces */
+/* Creates the data from covered areas and areas of the whole faces */
 static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, Vec carried, CoverFacets *facets)
 {
   Vec                whole;
@@ -122,7 +126,7 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
   PetscFunctionReturn(0);
 }
 
-/* The gains in place of what was handed on; left: the area that is still with vertices that hand on */
+/* Replaces the values that were passed on by the gains; left: area remaining at vertices that pass on */
 static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried, PetscReal *left)
 {
   const PetscScalar *g, *r;
@@ -148,7 +152,7 @@ static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried
   PetscFunctionReturn(0);
 }
 
-/* The cover grows with each vertex that something is handed on to, so that it comes to an end */
+/* Repeats until nothing is left to pass on; it terminates because covers only grow */
 static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gain, Vec carried)
 {
   PetscReal left = 1.0;
@@ -161,8 +165,8 @@ static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gai
   PetscFunctionReturn(0);
 }
 
-/* In `edge` the first value of the vertices covered in part, positive; then those of all vertices of facets that have
-   one, ring by ring */
+/* Sets the first value of `edge` to a positive number at partly covered vertices, then ring by ring at all vertices
+   of facets that contain such a vertex */
 static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
 {
   const PetscScalar *r, *e;
@@ -198,14 +202,14 @@ static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
   PetscFunctionReturn(0);
 }
 
-/* A triangle has its last vertex twice */
+/* Number of vertices: a triangle repeats its last one */
 static PetscInt CoverCountVertices(const PetscInt v[4])
 {
   return v[2] == v[3] ? 3 : 4;
 }
 
-/* What the vertices of a facet gain from each other: the off-diagonals of its mass matrix times the differences of
-   their pressures */
+/* Exchange between the vertices of a facet: off-diagonal entries of its mass matrix times the differences of their
+   pressures */
 static void CoverExchangeFacet(const PetscInt v[4], const PetscScalar c[], PetscScalar gain[])
 {
   const PetscInt n = CoverCountVertices(v);

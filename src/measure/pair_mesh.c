@@ -1,10 +1,10 @@
-/* Whether the mesh of a pair's faces can carry what the contact does: warnings. */
+/* Warnings about contact meshes that are too coarse. */
 #include "pair_rows.h"
 
-#define PAIR_COARSE 2.0 /* facets of the nonmortar side larger than this times those of the mortar side */
-#define PAIR_SWING  0.1 /* of the force from one load step to the next: less is no swing */
+#define PAIR_COARSE 2.0 /* warn if the nonmortar facets are larger than the mortar facets by this factor */
+#define PAIR_SWING  0.1 /* relative change of the force between load steps that counts as a swing */
 
-/* Mean over the contact of the nonmortar side's size of facets over that of the mortar side. Collective */
+/* Collective. Mean over the contact area of (nonmortar facet size / mortar facet size) */
 static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows, PetscReal *coarseness)
 {
   PetscReal sums[2] = {0.0, 0.0};
@@ -20,8 +20,8 @@ static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows,
   PetscFunctionReturn(0);
 }
 
-/* In [0] of local vertices 1 where the pair is closed, in [1] the corners of facets about them, in [2] those among
-   them that are closed all round */
+/* Values of local vertices: [0] 1 if the pair is closed there, [1] number of facets around it, [2] number of these
+   that are closed at all corners */
 static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const PetscScalar closed[],
   PetscScalar count[])
 {
@@ -58,8 +58,8 @@ static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const P
   PetscFunctionReturn(0);
 }
 
-/* Whether no closed vertex of the nonmortar face has closed ones all about it. The pair's points are those from number
-   `first` on. Collective */
+/* Collective. narrow: no closed vertex of the nonmortar face is completely surrounded by closed ones. first: the
+   pair's first point */
 static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, PetscInt first, PetscBool *narrow)
 {
   PetscSection       global;
@@ -106,7 +106,7 @@ static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Into the pair's report, which has its area. Collective */
+/* Collective. Sets coarseness and narrowness in the pair's report, whose area must be set */
 PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *rows, PetscInt first, PairReport *report)
 {
   PetscFunctionBegin;
@@ -115,7 +115,7 @@ PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *ro
   PetscFunctionReturn(0);
 }
 
-/* Whether a load program turns back: forces that do are its */
+/* Whether a load history turns back, which explains forces that do */
 static PetscBool PairLoadTurns(const RunReport *run)
 {
   for (PetscInt s = 1; s + 1 < run->nsteps; ++s) {
@@ -130,7 +130,8 @@ static PetscBool PairLoadTurns(const RunReport *run)
   return PETSC_FALSE;
 }
 
-/* How often the force turns back by more than a tenth while the contact is narrow; forces: the last two extremes */
+/* Number of times that the force turns back by more than a tenth while the contact is narrow; forces: the last two
+   extremes */
 static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal forces[2])
 {
   PetscInt  turns = 0, way = 0;
@@ -173,7 +174,7 @@ static PetscErrorCode PairWarnOfSwing(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* A coarse nonmortar side is worth a warning where it is not the softer one as well */
+/* Warns of a coarse nonmortar side, unless it is also the softer one */
 static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
@@ -195,7 +196,7 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* After the last load step */
+/* Call after the last load step */
 PetscErrorCode PairMeshWarn(Simulation sim)
 {
   PetscFunctionBegin;

@@ -1,15 +1,16 @@
 /*
-   Pressures that the mortar side does not resolve. A nonmortar side that is finer and stiffer than the facets it lies
-   on touches them in a few rows, which carry all of the force; the rows between have none over gaps that are a small
-   part of what the facets give. The mortar side feels only the means over its shape functions. So rows that
-   closed ones enclose, and those about them, take what the mortar vertices have, the mean of the rows' values over
-   the area that both share, interpolated back to the rows. The sum of value times area over the rows stays.
+   Pressures that the mortar side cannot resolve. If the nonmortar side is finer and stiffer than the mortar facets, few
+   rows carry all of the force; rows between them have no pressure, and gaps that are a small fraction of the mortar
+   facets' deformation. The mortar side only feels means over its shape functions. Therefore open rows that are
+   surrounded by closed ones, and the rows around them, get the pressure of the mortar vertices (means of the rows'
+   values over the shared area), interpolated back to the rows. The sum of value x area over the rows is preserved.
 */
 #include "pair_rows.h"
 
-static const PetscReal resolve_enclosed = 0.4; /* 0.57 at a straight border, about 0.2 between strips of contact */
+static const PetscReal resolve_enclosed = 0.4; /* about 0.57 at a straight border of contact, about 0.2 between
+                                                  strips of contact */
 
-/* The modulus of the body behind the mortar face; PETSC_INFINITY: it is rigid */
+/* Young's modulus of the body behind the mortar face; PETSC_INFINITY: rigid */
 static PetscReal ResolveModulus(Scene scene, PetscInt pair)
 {
   const Material *material = SceneFaceMaterial(scene, scene->pairs[pair].mortar);
@@ -17,7 +18,7 @@ static PetscReal ResolveModulus(Scene scene, PetscInt pair)
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }
 
-/* Size of the facets of the mortar side at its vertices [length], as first value */
+/* size: size of the mortar facets at their vertices [length], in the first value */
 static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
 {
   PetscScalar *a;
@@ -35,7 +36,7 @@ static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
   PetscFunctionReturn(0);
 }
 
-/* mean: of a value of the rows that are marked, over the mortar vertices and back. Collective */
+/* Collective. mean: values of the marked rows, averaged at the mortar vertices and interpolated back */
 static PetscErrorCode ResolveMean(Simulation sim, const PairRows *rows, const PetscReal mark[], const PetscReal value[],
   Vec sides, PetscReal mean[])
 {
@@ -71,7 +72,8 @@ static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mar
   PetscFunctionReturn(0);
 }
 
-/* Undeformed places of the rows' vertices from a point near them [length], n values a component, and the squares */
+/* place: undeformed coordinates of the rows' vertices relative to a nearby point [length], n values per component,
+   and their squares */
 static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscReal place[])
 {
   const PetscInt     n = rows->n;
@@ -107,8 +109,8 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
 }
 
 /*
-   Keeps of the open rows those that closed ones are all about: the centre of the closed rows within two facets of the
-   mortar side is as near to that of all rows there as a part of their spread. Beside the border of a contact it is not
+   Keeps those open rows that are surrounded by closed ones: the centre of the closed rows within two mortar facets is
+   close to that of all rows there, relative to their spread. Beside the border of a contact it is not
 */
 static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], Vec sides,
   PetscReal open[])
@@ -136,9 +138,8 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, cons
 }
 
 /*
-   mark: 1 at rows where the mortar side has pressure enough to close their gap by a strain of its facets, and that
-   share a mortar vertex with an open one of them that is enclosed; any: there is one on some rank. length: of these
-   facets
+   mark: 1 for rows where the mortar pressure would close the gap by a small strain of its facets, and which share a
+   mortar vertex with an enclosed open row; any: whether there is one on any rank. length: of these facets
 */
 static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec sides,
   const PetscReal length[], PetscReal mark[], PetscBool *any)
@@ -166,7 +167,7 @@ static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRow
   PetscFunctionReturn(0);
 }
 
-/* In place at the rows that are marked */
+/* Replaces the values of marked rows */
 static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const PetscReal mark[], Vec sides,
   PetscReal value[])
 {
@@ -182,7 +183,7 @@ static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const P
   PetscFunctionReturn(0);
 }
 
-/* Of friction; rows slip where most of their pressure is of rows that do */
+/* Does the same for friction; a row slips if most of its pressure comes from slipping rows */
 static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
   const PetscReal pressure[], Vec sides)
 {

@@ -1,7 +1,7 @@
-/* The rows of one contact pair: area, normal, pressure, gap, friction and status. */
+/* Rows of one contact pair: area, normal, pressure, gap, friction and status. */
 #include "pair_rows.h"
 
-/* vector: mass_A sum of a matrix's A_AB over the vertices B of the mortar side */
+/* vector = mass_A x sum of A_AB over the vertices B of the mortar side */
 static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
 {
   ContactLinearization lin = sim->linearization;
@@ -31,15 +31,15 @@ static PetscReal PairNorm(const PetscReal v[3])
 }
 
 /*
-   There is contact where the strain that the pressure is worth is more than that which the gap would be, of facets of
-   such a length: on the central path their product is the same at all rows, and tends to zero
+   Whether a row is in contact: the strain equivalent of the pressure (pressure/young) exceeds that of the gap
+   (gap/length). On the central path the product of the two is the same in all rows, and tends to zero
 */
 PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length)
 {
   return (PetscBool)(pressure / young > gap / length);
 }
 
-/* A row slips if the slip is larger than rounding of the displacements */
+/* Sets friction and slip; a row slips if its slip exceeds the rounding of displacements */
 static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;

@@ -1,27 +1,27 @@
-/* Rows of one contact pair, and what their vertices have of them: shared by the files that measure contact. */
+/* Rows of one contact pair, and values at their vertices; used by the files that measure contact. */
 #ifndef PAIR_ROWS_H
 #define PAIR_ROWS_H
 
 #include "measureimpl.h"
 
 /*
-   The rows of one pair: row A pushes its own side by z_A w_A n_A, w_A n_A = mass_A sum of J_AB over the vertices B of
-   the mortar side. w_A is the area that the mortar side covers about A. Rows of other pairs have w = 0. Over vertices
-   it is shared as the cover is, of which w_A is share_A times the sum, along the normal n_A that the cover has.
+   The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, with w_A n_A = mass_A x sum of J_AB over
+   the mortar vertices B; w_A is the area that the mortar side covers around A. Rows of other pairs have w = 0. Areas
+   are distributed to vertices by lin->cover, whose sum times share_A is w_A, with the normal n_A.
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *share, *normal; /* w [length^2]; 3 a row */
+  PetscReal *area, *share, *normal; /* w [length^2]; normal: 3 per row */
   PetscReal *pressure, *gap, *closed;
-  PetscReal *presses; /* closed before what the mortar side does not resolve was evened out */
-  PetscReal  young;   /* of the softer body [force/length^2] */
-  PetscReal *own;     /* size of the facets about the row [length] */
-  PetscReal *facing;  /* size of the mortar side's facets that the row faces [length] */
-  PetscReal *length;  /* of the facets that the row's gap is of; of the coarser side where it resolves no more */
+  PetscReal *presses; /* closed before unresolved pressures were smoothed */
+  PetscReal  young;   /* Young's modulus of the softer body [force/length^2] */
+  PetscReal *own;     /* size of the facets around the row [length] */
+  PetscReal *facing;  /* size of the mortar facets that the row faces [length] */
+  PetscReal *length;  /* facet size to which the row's gap belongs; of the coarser side where only that is resolved */
   PetscBool  rubs;    /* the pair has friction */
-  PetscReal *slips;   /* 1: its friction gives way */
+  PetscReal *slips;   /* 1: the row slips */
   PetscReal *shear,
-    *way; /* of friction, on the mortar side [force/length^2], and slip [length]; n values a component */
+    *way; /* friction stress on the mortar side [force/length^2], and slip [length]; n values per component */
 } PairRows;
 
 /* pair_rows.c */
@@ -29,8 +29,8 @@ PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, Pets
 PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
 
-/* pair_spread.c: from rows to vertices and back, in proportion to the area that both share. sides: first value of a
-   vertex 1 mortar side, -1 nonmortar side, 0 neither */
+/* pair_spread.c: from rows to vertices and back, in proportion to the shared area. sides: first value of a vertex: 1
+   mortar side, -1 nonmortar side, 0 neither */
 PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, Vec sides);
 PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);
 PETSC_INTERN Mat            PairCover(ContactLinearization);

@@ -1,7 +1,8 @@
-/* Values of the rows of a contact pair at the vertices of both sides, and those of the mortar vertices at the rows. */
+/* Transfers values of a contact pair's rows to the vertices of both sides, and from the mortar vertices back to the
+   rows. */
 #include "pair_rows.h"
 
-/* value at the rows of a face that belong to a component */
+/* Sets v[to] to 1 at the rows of a component of a face */
 PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscInt to, Vec v)
 {
   IS              is;
@@ -34,15 +35,15 @@ PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, Vec sides)
   PetscFunctionReturn(0);
 }
 
-/* In whose proportions areas are shared */
+/* The matrix by which areas are distributed */
 Mat PairCover(ContactLinearization lin)
 {
   return lin->cover ? lin->cover : lin->J;
 }
 
 /*
-   v[to] of the vertices B of both sides = sum of |mass_A cover_AB . n_A| share_A value_A, value NULL: 1. That is the
-   integral of the rows' field by B's shape function, and sums to that of w_A value_A over a side
+   v[to] at the vertices B of both sides = sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This is the
+   integral of the rows' field times B's shape function; over a side it sums to that of w_A value_A
 */
 PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
 {
@@ -79,7 +80,7 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* A value of the mortar vertices in direction c, 0 elsewhere */
+/* along: the value v[from] of mortar vertices in direction c, 0 elsewhere */
 static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
 {
   const PetscScalar *side, *a;
@@ -101,8 +102,8 @@ static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from
   PetscFunctionReturn(0);
 }
 
-/* value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B, over w_A: the mean of a field of
-   the mortar side over the row. 0 in rows of other pairs. Collective */
+/* Collective. value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B / w_A: the mean of
+   a mortar field over the row; 0 in rows of other pairs */
 PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v, PetscInt from, PetscReal value[])
 {
   ContactLinearization lin = sim->linearization;

@@ -1,9 +1,9 @@
-/* How deep vertices of one face of a pair are in the other body, beside the gap, which of mortar pairs is a mean. */
+/* Penetration of vertices of one face of a pair below the other; gaps of mortar pairs are means. */
 #include "measureimpl.h"
 
-#define PENETRATION_SHARE 0.01 /* of the largest displacement of the run: more is warned of */
+#define PENETRATION_SHARE 0.01 /* warn above this fraction of the largest displacement of the run */
 
-/* At the last state. Collective */
+/* Collective. Measures at the last state */
 PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
 {
   PetscReal *depth, *rounding;
@@ -21,13 +21,13 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Whether an overlap of the pair is to be left at the end of a load step */
+/* Whether the scene leaves an overlap of the pair at the end of a load step */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
   return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
 }
 
-/* After the last load step, of each pair. Not where the gap itself is not to be met */
+/* After the last load step: warns for each pair, unless the gap is not required to be closed */
 PetscErrorCode PenetrationWarn(Simulation sim)
 {
   const RunReport *run    = &sim->report;

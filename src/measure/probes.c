@@ -2,7 +2,7 @@
 #include "measureimpl.h"
 #include <math.h>
 
-/* Contact at the vertices: [pressure, gap, 1 closed]; [1 in a pair, -, -] */
+/* Contact at the vertices: values: [pressure, gap, 1 closed]; paired: [1 in a pair, -, -] */
 typedef struct {
   Vec values, paired;
 } ProbeContact;
@@ -24,7 +24,7 @@ PetscErrorCode ProbesDestroy(Probes *probes)
   PetscFunctionReturn(0);
 }
 
-/* At a vertex of several pairs: the mean pressure, the smallest gap, closed where any is */
+/* Fills the values; at a vertex in several pairs: mean pressure, smallest gap, closed if any is */
 static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], PetscScalar paired[])
 {
   PetscSection global;
@@ -53,7 +53,7 @@ static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], Pet
   PetscFunctionReturn(0);
 }
 
-/* Local vectors, for cells to be read from */
+/* Creates local vectors from which cells can be read */
 static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
 {
   Vec          global[2];
@@ -85,7 +85,7 @@ static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
   PetscFunctionReturn(0);
 }
 
-/* Sum over the nodes of a cell; n values a node, which stand at n times its number */
+/* Interpolates in a cell; n values per node, at n x the node's number */
 static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[],
   PetscReal result[])
 {
@@ -95,7 +95,7 @@ static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], Pets
   }
 }
 
-/* Fields of contact are those of faces: of a point all of whose nodes are in a pair */
+/* Contact values exist on faces only: at points whose nodes are all in a pair */
 static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[],
   ProbeReport *report)
 {
@@ -138,7 +138,7 @@ static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const Pro
   PetscFunctionReturn(0);
 }
 
-/* Where a point is known from the scene; the rank that has it knows the rest */
+/* Sets position and name from the scene; the rank that has the point sets the rest */
 static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 {
   PetscInt k = 0;
@@ -159,12 +159,10 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
   PetscFunctionReturn(0);
 }
 
-/* From the rank that has a point to all */
+/* Sends each point's values from its rank to all */
 static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
 {
-  enum {
-    values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal)
-  };
+  enum { values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal) };
   PetscReal *all;
 
   PetscFunctionBegin;
@@ -179,7 +177,7 @@ static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
   PetscFunctionReturn(0);
 }
 
-/* Points and lines have lists of their own */
+/* Distributes points to the reports of points and of lines */
 static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepReport *report)
 {
   PetscInt k = 0;
@@ -202,7 +200,7 @@ static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepRe
   PetscFunctionReturn(0);
 }
 
-/* At the last state, whose stress at the nodes and contact points are known. Collective */
+/* Collective. Measures at the last state, whose nodal stress and contact points must be known */
 PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
 {
   ProbeReport       *reports;

@@ -7,7 +7,7 @@ static PetscReal ResultsVonMises(const PetscReal s[6])
                        3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* Stress, von Mises stress and principal values */
+/* values: stress, von Mises stress, principal values */
 PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES])
 {
   PetscFunctionBegin;
@@ -17,7 +17,7 @@ PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRES
   PetscFunctionReturn(0);
 }
 
-/* Those of the nodes that this rank owns, in the order of the global vectors */
+/* Copies the values of the owned nodes, in the order of global vectors */
 static PetscErrorCode ResultsPickOwned(Simulation sim)
 {
   Results     *results = &sim->results;
@@ -44,13 +44,14 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* At the last state. What nobody asked for is neither computed nor kept */
+/* Computes the requested fields at the last state; others are not computed */
 PetscErrorCode ResultsMeasure(Simulation sim)
 {
   Results *results = &sim->results;
 
   PetscFunctionBegin;
   PetscCall(ResultsFree(results));
+  PetscCall(ElasticityCellPlastic(sim->elasticity, &results->plastic));
   if (!results->nodes && !results->points && !sim->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
   if (results->nodes || sim->probes.n)
@@ -70,6 +71,7 @@ PetscErrorCode ResultsFree(Results *results)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(results->recovered));
+  PetscCall(PetscFree(results->plastic));
   PetscCall(PetscFree(results->nodal));
   PetscCall(PetscFree(results->density));
   PetscCall(PetscFree(results->places));

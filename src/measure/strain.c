@@ -1,10 +1,11 @@
-/* Bodies of a small-strain law that are strained or turned far beyond its range: a warning. */
+/* Warns of bodies with a small-strain law that are strained or rotated far beyond its range. */
 #include "measureimpl.h"
 
-#define STRAIN_LIMIT   0.25 /* principal strain, mean over the body's strain energy */
+#define STRAIN_LIMIT   0.25 /* principal strain, averaged over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
 
-/* At the last state; once for a body, in the first load step that goes so far. A rigid body may turn. Collective */
+/* Collective. Checks the last state; warns once per body, in the first load step that exceeds a limit. Rigid bodies
+   may rotate */
 PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;

@@ -1,18 +1,19 @@
-/* Work of the external forces, of dead loads and of reactions at prescribed displacements, and of the contact forces.
-   */
+/* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
 
-/* Adds the mean of a force before and now, NULL: none, times the way between; what is now will have been before */
-static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *work)
+/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (displacement increment) to work; `now` becomes
+   `before` then */
+static PetscErrorCode WorkAddForce(Vec way, PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
-  Vec         forces[2] = {*before, *now};
-  PetscScalar product;
+  const PetscReal parts[2]  = {1.0 - part, part};
+  Vec             forces[2] = {*before, *now};
+  PetscScalar     product;
 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
     PetscCall(VecDot(forces[k], way, &product));
-    *work += 0.5 * PetscRealPart(product);
+    *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
   *before = *now;
@@ -20,14 +21,15 @@ static PetscErrorCode WorkAddForce(Vec way, Vec *before, Vec *now, PetscReal *wo
   PetscFunctionReturn(0);
 }
 
-/* Of a solve in which the loads have done this work, and the contacts have taken up that much of it */
+/* Updates the energy balance by a solve in which the loads did `work` and contact took up `taken` */
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
 {
-  const PetscReal at_rest = 1e-2; /* of the energy: a step that turns over less than that is measured by it */
-  const PetscReal stored  = report->energy - path->energy;
+  const PetscReal at_rest = 1e-2; /* relative to the energy: the imbalance of a step with less turnover is related to
+                                     this */
+  const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
-  path->energy = report->energy;
+  path->energy += stored;
   path->unbalanced += PetscAbsReal(work - stored - taken);
   path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
   report->normal_work = report->contact_work - report->dissipated;
@@ -36,7 +38,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   PetscFunctionReturn(0);
 }
 
-/* At the end of a load step, once a run */
+/* Warns at the end of a load step, once per run */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
   const PetscReal allowed = 1e-2;
@@ -52,9 +54,9 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 }
 
 /*
-   Of the way from the last state to u. unbalanced: internal less contact and dead forces, the reactions on the
-   prescribed rows; rigid: what moves rigid bodies that forces drive, NULL: none; contact: the forces in the contacts
-   where pairs rub, which end in WorkAdd(), NULL: none
+   Adds the work from the last state to u. unbalanced: internal - contact - dead forces, i.e. reactions in prescribed
+   rows; rigid: forces on rigid bodies driven by forces, NULL: none; contact: contact forces if there is friction
+   (consumed here), NULL: none
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
@@ -74,13 +76,14 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(VecWAXPY(way, -1.0, path->u, u));
-  PetscCall(WorkAddForce(way, &path->outside, &outside, &path->work));
+  PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
-  PetscCall(WorkAddForce(way, &path->contact, contact, &path->contact_work));
+  PetscCall(
+    WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
   PetscCall(VecDestroy(&way));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history.shear && !sim->temperatures.n)
+  if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
   PetscFunctionReturn(0);
 }

@@ -1,4 +1,4 @@
-/* One body at level 0: whether its parameters are sound, and its grid */
+/* One body at level 0: checks of its parameters, and its grid */
 #include "meshimpl.h"
 
 /*@
@@ -32,7 +32,7 @@ PetscErrorCode MeshCheckBody(MPI_Comm comm, const SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* The grid of a body with a shape; what it may fail for is want of memory */
+/* Creates the grid of a body with a shape; it can fail only for lack of memory */
 static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const Shape *shape, MeshBody *mesh)
 {
   RankError      error;

@@ -1,34 +1,34 @@
 /*
-   Checks that every body is held. Each body has six rigid modes. A prescribed displacement holds its component at the
-   vertices of its face. A contact pair, taken as closed, holds the relative motion along the normals of its nonmortar
-   facets; with friction all of it. A mode outside the span of these rows moves freely, and the stiffness is singular
-   for it.
+   Checks that every body is held. Each body has six rigid body modes. A prescribed displacement restrains its component
+   at the vertices of its face. A contact pair, assumed closed, restrains the relative motion along the normals of its
+   nonmortar facets; with friction all relative motion. A mode outside the span of these restraints is free, and the
+   stiffness is singular for it.
 */
 #include "meshimpl.h"
 
 #define SUPPORT_BLOCK 12 /* modes of two bodies */
 
-/* Rows of one displacement, spring, pair or tie */
+/* A link: the restraint rows of one displacement, spring, pair or tie */
 typedef struct {
-  PetscInt body[2]; /* the second one is negative where the first is held to the ground */
+  PetscInt body[2]; /* the second is negative if the first is held to the ground */
 } SupportLink;
 
 typedef struct {
   DM       dm;
-  PetscInt nbodies, n; /* n: 6 modes a body */
+  PetscInt nbodies, n; /* n: number of modes, 6 per body */
   PetscReal (*center)[3], *size;
   PetscInt     nlinks;
   SupportLink *links;
-  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* of each link the sum of its rows' outer products */
-  PetscReal row[SUPPORT_BLOCK];                     /* of the last link */
+  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link the sum of the outer products of its rows */
+  PetscReal row[SUPPORT_BLOCK];                     /* a row of the last link */
 } Support;
 
-/* Middle and half the largest side of every body's bounding box */
+/* Centre, and half of the largest side, of every body's bounding box */
 static PetscErrorCode SupportMeasureBodies(Support *support)
 {
   MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
   PetscInt   cstart, cend;
-  PetscReal *bounds; /* smallest of x, y, z, -x, -y, -z */
+  PetscReal *bounds; /* smallest x, y, z, -x, -y, -z */
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(support->n, &bounds));
@@ -58,8 +58,8 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Adds to the row the component along a direction of the body's rigid motion t + r x (x - center)/size at the point x
- */
+/* Adds sign times the component along `direction` of the body's rigid motion t + r x (x - center)/size at the point
+   x to the row */
 static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign)
 {
@@ -74,7 +74,7 @@ static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direc
   }
 }
 
-/* Takes the row into account with a weight, and clears it */
+/* Adds the row with a weight to the Gram matrix of the link, and clears it */
 static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 {
   PetscReal *gram = support->gram[support->nlinks - 1];
@@ -88,13 +88,14 @@ static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
   PetscFunctionReturn(0);
 }
 
-/* The rows that follow are of these bodies; b negative: of the first alone */
+/* Starts a link between these bodies; b negative: between body a and the ground */
 static void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
 {
   support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
 }
 
-/* Body of a face from its facets, and their number over all ranks; every face weighs the same */
+/* Body and facets of a face, and number of facets on all ranks, by which its rows are divided so that every face has
+   the same weight */
 static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *facets, PetscInt *body, PetscInt *total)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)support->dm);
@@ -116,7 +117,7 @@ static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *fa
   PetscFunctionReturn(0);
 }
 
-/* At the vertices of a point or an edge */
+/* Adds the restraints at the vertices of a point or an edge */
 static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *spot)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -143,7 +144,7 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscFunctionReturn(0);
 }
 
-/* The motions of a rigid body that are not free, where others are; on the first rank */
+/* Adds the motions of a rigid body that are not free, if others are; on the first rank */
 static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
   PetscBool *released)
 {
@@ -239,8 +240,8 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
-/* The relative motion along these axes, at the vertices of the nonmortar face: all of a tie, and of a contact pair
-   with friction */
+/* Adds the restraint of the relative motion along these axes at the vertices of the nonmortar face: a tie, or a
+   contact pair with friction */
 static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
   const PetscBool along[3])
 {
@@ -274,7 +275,7 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscFunctionReturn(0);
 }
 
-/* Takes the component along a unit vector out of a row */
+/* Makes a row orthogonal to a unit vector */
 static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
 {
   PetscReal dot = 0;
@@ -283,14 +284,14 @@ static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal r
   for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
 }
 
-/* Adds the block of a link's first or second body */
+/* Adds the diagonal block of a link's first or second body */
 static void SupportAddBlock(const Support *support, PetscInt link, PetscInt end, PetscReal block[36])
 {
   for (PetscInt k = 0; k < 36; ++k)
     block[k] += support->gram[link][(6 * end + k / 6) * SUPPORT_BLOCK + 6 * end + k % 6];
 }
 
-/* Whether a symmetric matrix without negative eigenvalues is well within full rank: Cholesky's pivots */
+/* Whether a positive semidefinite matrix has full rank, by its Cholesky pivots */
 static PetscBool SupportIsFull(const PetscReal block[36])
 {
   PetscReal A[36], largest = 0;
@@ -315,7 +316,7 @@ static PetscBool SupportIsFull(const PetscReal block[36])
   return PETSC_TRUE;
 }
 
-/* Where the links of each body are: those of body b are links[start[b]] to links[start[b + 1] - 1] */
+/* Lists the links of each body: links[start[b]] to links[start[b + 1] - 1] */
 static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start, PetscInt **links)
 {
   PetscFunctionBegin;
@@ -338,8 +339,8 @@ static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start,
   PetscFunctionReturn(0);
 }
 
-/* Bodies that the ground holds, and those that are held by bodies that are: one after another, which settles most
-   assemblies in time proportional to their links */
+/* Finds bodies held by the ground, then those held by bodies that are held, and so on. For most assemblies this
+   takes time proportional to the number of links */
 static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
 {
   PetscInt *start, *links, *queue, n = 0;
@@ -374,7 +375,8 @@ static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
   PetscFunctionReturn(0);
 }
 
-/* The Gram matrix of the bodies that are not known to be held; place: of each in it, negative of the others */
+/* Gathers the Gram matrix of the bodies that are not known to be held; place: position of each body in it, negative:
+   not in it */
 static void SupportGather(const Support *support, const PetscInt place[], PetscInt n, PetscReal gram[])
 {
   for (PetscInt l = 0; l < support->nlinks; ++l) {
@@ -391,8 +393,8 @@ static void SupportGather(const Support *support, const PetscInt place[], PetscI
   }
 }
 
-/* How much of each mode moves freely: 1 less its part in the span of the matrix's rows. Gram-Schmidt with pivoting:
-   the basis comes to stand in its first rows */
+/* outside: the part of each mode that is free, 1 minus its part in the span of the matrix's rows. Gram-Schmidt with
+   pivoting; the basis replaces the first rows */
 static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
 {
   PetscReal first = 0;
@@ -418,7 +420,7 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
       gram[best * n + i] = swap;
     }
     if (!rank) first = PetscSqrtReal(largest);
-    /* Once more, for orthogonality to rounding */
+    /* repeated, for orthogonality up to rounding */
     for (PetscInt q = 0; q < rank; ++q) SupportOrthogonalize(n, gram + q * n, pivot);
     largest = 0;
     for (PetscInt i = 0; i < n; ++i) largest += PetscSqr(pivot[i]);
@@ -431,7 +433,7 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
   }
 }
 
-/* How much of each mode of each body moves freely. Where bodies are known to be held the others are judged alone */
+/* outside: the free part of each mode of each body. Bodies that are known to be held are left out */
 static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
 {
   PetscBool *held;
@@ -454,8 +456,8 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
-/* Names a free motion: a mode that is free by itself; else a rotation, whose axis may be anywhere; else a translation.
-   PETSC_DECIDE: none */
+/* Chooses a free motion for the message: a mode that is free by itself; else a rotation (about an unknown axis);
+   else a translation. PETSC_DECIDE: none */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -493,7 +495,7 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
   PetscFunctionReturn(0);
 }
 
-/* A surface of a Gmsh file need not bound the body whose face it is said to be */
+/* Checks that a face's facets bound its body; a surface of a Gmsh file may not */
 static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
 {
   IS       facets;
@@ -510,7 +512,8 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscFunctionReturn(0);
 }
 
-/* An error if a body is not held, unless weak springs are requested. unheld, or NULL: the bodies that are not held */
+/* Error if a body is not held, unless weak springs are requested or unheld is not NULL; unheld: which bodies are not
+   held */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -614,6 +617,6 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
   }
-  PetscCall(SupportFindUnheld(dm, scene, NULL));
+  if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnheld(dm, scene, NULL));
   PetscFunctionReturn(0);
 }

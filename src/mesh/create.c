@@ -1,8 +1,9 @@
-/* MeshCreate: level 0, distribution, refinement, layout of the unknowns */
+/* MeshCreate(): level 0, distribution, refinement, layout of the unknowns */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* Level 0 is refined before it is distributed while it has fewer cells a rank: coarser partitions are badly balanced */
+/* level 0 is refined before distribution while it has fewer cells per rank, because coarse partitions are badly
+   balanced */
 #define MESH_MIN_CELLS_PER_RANK 32
 
 static PetscClassId  MESH_CLASSID;
@@ -58,8 +59,8 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
-/* The numbers of cells and vertices, refined so many times, against the ranks and PETSc's integers; ncells: at level
-   0 */
+/* Checks the numbers of cells and vertices after refinement against the number of ranks and PETSc's integers;
+   ncells: at level 0 */
 static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine,
   PetscInt64 *ncells)
 {
@@ -87,8 +88,8 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   PetscFunctionReturn(0);
 }
 
-/* Level 0. Many cells of a file are partitioned before the DMPlex is built; a small mesh of shapes, or one that
-   PETSc's partitioners shall partition, is not. Frees the bodies' grids */
+/* Creates level 0. Large meshes from files are partitioned before the DMPlex is built; meshes of shapes, or meshes
+   that a PETSc partitioner is to divide, are not. Frees the bodies' grids */
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
   PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {
@@ -114,7 +115,7 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscFunctionReturn(0);
 }
 
-/* Uniformly refined; where cells are refined locally that is done after it, before the mesh is distributed */
+/* Refines uniformly; if there is local refinement, it follows before the mesh is distributed */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine,
   const MeshLocalRefinement *local, DM *dm)
 {
@@ -198,18 +199,13 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 
   Notes:
   The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on
-  rank 0,
-  or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh files
-  before any rank makes a `DMPLEX` of them; refinement
-  is parallel. Refined
-  vertices of a curved body lie on its true surfaces, and those inside follow the shape's own map. Those of a body
-  from a Gmsh file
-  of second order follow its quadratic cells; of first order, arcs between the mean normals of the facets about its
-  vertices.
+  rank 0, or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh
+  files before any rank makes a `DMPLEX` of them; refinement is parallel. Refined vertices of a curved body lie on its
+  true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file of second order follow
+  its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
 
   Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order
-  open, 0, has order 1 of
-  hexahedra and order 2 of tetrahedra.
+  open, 0, has order 1 of hexahedra and order 2 of tetrahedra.
 
   It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is
   inverted or flat.
@@ -243,11 +239,9 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
 
   Notes:
   Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the
-  mesh is distributed; neighbours of
-  finer cells are refined with them until they differ by one refinement. Vertices that hang between coarser and finer
-  cells
-  are nodes as others are: `MeshGetHanging()` tells whose mean they are, and they lie there, also where the body is
-  curved.
+  mesh is distributed; neighbours of finer cells are refined with them until they differ by one refinement. Vertices
+  that hang between coarser and finer cells are nodes as others are: `MeshGetHanging()` tells whose mean they are, and
+  they lie there, also where the body is curved.
 
 .seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
 @*/

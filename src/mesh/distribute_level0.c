@@ -1,43 +1,36 @@
 /*
-   Distributes the grids of all bodies from the first rank before a DMPlex is built, which needs several times the
-   memory of the grids. So no rank holds more than its own part of the DMPlex. METIS partitions the cells by their
-   dual graph; each part is sent with its vertices, facets and curves.
+   Distributes the grids of all bodies from the first rank before a DMPlex is built, which needs several times their
+   memory. No rank then holds more than its part of the DMPlex. METIS partitions the cells by their dual graph; each
+   part is sent with its vertices, facets and curves.
 */
 #include "meshimpl.h"
 #include <metis.h>
 
-/* What a rank gets: sizes of each body's grid, its whole numbers and its reals, one after another, and the vertices'
-   owners */
+/* The part for a rank: sizes of each body's grid, its integers and reals one after another, and the vertices' owners */
 typedef struct {
   PetscInt   nints, nreals;
-  PetscInt  *sizes; /* DEAL_SIZES a body */
+  PetscInt  *sizes; /* DEAL_SIZES per body */
   PetscInt  *ints;
   PetscReal *reals;
 } DistributePart;
 
-enum {
-  DEAL_CELLS,
-  DEAL_VERTICES,
-  DEAL_FACETS,
-  DEAL_CURVE,
-  DEAL_SIZES
-};
+enum { DEAL_CELLS, DEAL_VERTICES, DEAL_FACETS, DEAL_CURVE, DEAL_SIZES };
 
-/* On the first rank; cells and vertices of all bodies are numbered one body after another */
+/* Data of the distribution on the first rank. Cells and vertices are numbered through all bodies */
 typedef struct {
   MPI_Comm    comm;
   PetscMPIInt nparts;
   PetscInt    nbodies, ncells, nvertices;
   MeshBody   *meshes;
-  PetscInt   *part;      /* of each cell */
-  PetscInt   *count;     /* cells of each part */
-  PetscInt   *facetpart; /* of each facet, one body after another */
-  PetscInt   *owner;     /* of each vertex: the first part that has it */
-  PetscInt   *place;     /* of each vertex among those of its owner */
-  PetscInt   *here;      /* of each vertex among those of the part at hand; PETSC_DECIDE: not in it */
+  PetscInt   *part;      /* part of each cell */
+  PetscInt   *count;     /* number of cells of each part */
+  PetscInt   *facetpart; /* part of each facet, numbered through all bodies */
+  PetscInt   *owner;     /* owner of each vertex: the first part that contains it */
+  PetscInt   *place;     /* number of each vertex within its owner */
+  PetscInt   *here;      /* number of each vertex within the current part; PETSC_DECIDE: not in it */
 } Distribute;
 
-/* The dual graph, cells that share a facet, and what METIS makes of it */
+/* Partitions the dual graph (cells that share a facet) by METIS */
 static PetscErrorCode DistributePartition(Distribute *deal)
 {
   idx_t     ne = (idx_t)deal->ncells, nn = (idx_t)deal->nvertices, common = 3, base = 0, *start, *nodes, *xadj, *adjncy;
@@ -73,7 +66,7 @@ static PetscErrorCode DistributePartition(Distribute *deal)
   PetscFunctionReturn(0);
 }
 
-/* Cells a part, and the first part that has a vertex */
+/* Counts the cells of each part, and finds the first part that contains each vertex */
 static PetscErrorCode DistributeOwners(Distribute *deal)
 {
   PetscInt cell = 0, vertex = 0;
@@ -97,7 +90,7 @@ static PetscErrorCode DistributeOwners(Distribute *deal)
   PetscFunctionReturn(0);
 }
 
-/* Has the cell all vertices of the facet? */
+/* Whether the cell has all vertices of the facet */
 static PetscBool DistributeCellHas(const ShapeGrid *grid, PetscInt c, const PetscInt facet[4])
 {
   for (PetscInt a = 0; a < 4; ++a) {
@@ -110,8 +103,8 @@ static PetscBool DistributeCellHas(const ShapeGrid *grid, PetscInt c, const Pets
   return PETSC_TRUE;
 }
 
-/* A facet belongs to the part of a cell that has it; candidates are the cells at its first vertex. first: first cell
-   and facet of the body in the numbering of all */
+/* Assigns each facet to the part of its cell, searched among the cells at its first vertex; firstcell, firstfacet:
+   offsets of the body */
 static PetscErrorCode DistributeFacets(Distribute *deal, const ShapeGrid *grid, PetscInt firstcell, PetscInt firstfacet)
 {
   const PetscInt n = grid->ncorners;
@@ -166,7 +159,7 @@ static PetscErrorCode DistributePrepare(Distribute *deal)
   PetscFunctionReturn(0);
 }
 
-/* Numbers the vertices of one body's cells in a part, in their old order; n: those of the part so far */
+/* Numbers the vertices of one body's cells in a part, in their original order; n: number in the part so far */
 static PetscErrorCode DistributeNumber(Distribute *deal, PetscInt part, const ShapeGrid *grid, PetscInt firstcell,
   PetscInt firstvertex, PetscInt *n)
 {
@@ -183,7 +176,7 @@ static PetscErrorCode DistributeNumber(Distribute *deal, PetscInt part, const Sh
   PetscFunctionReturn(0);
 }
 
-/* One body's share of a part, behind what the part has already; forgets the numbers of its vertices */
+/* Appends one body's part to the data of a part; then resets the numbers of its vertices */
 static PetscErrorCode DistributePack(Distribute *deal, PetscInt part, const ShapeGrid *grid, const PetscInt first[3],
   PetscInt body, DistributePart *to)
 {
@@ -217,7 +210,7 @@ static PetscErrorCode DistributePack(Distribute *deal, PetscInt part, const Shap
   PetscFunctionReturn(0);
 }
 
-/* Room for a part, as large as it may be */
+/* Allocates a part with its largest possible size */
 static PetscErrorCode DistributePartCreate(const Distribute *deal, PetscInt part, DistributePart *to)
 {
   PetscInt facets = 0, facet = 0, curve = 0;
@@ -258,7 +251,7 @@ static PetscErrorCode DistributeFill(Distribute *deal, PetscInt part, Distribute
   PetscFunctionReturn(0);
 }
 
-/* The grid of one body out of a part; at: how far its numbers have been read */
+/* Extracts the grid of one body from a part; at: positions already read */
 static PetscErrorCode DistributeUnpack(const DistributePart *part, PetscInt body, PetscInt ncorners, PetscInt at[2],
   ShapeGrid *grid, PetscSFNode owners[])
 {
@@ -312,7 +305,8 @@ static PetscErrorCode DistributeTake(PetscInt nbodies, const DistributePart *par
   PetscFunctionReturn(0);
 }
 
-/* From the first rank to another, which first reports whether it has memory. A part of size zero ends the transfer */
+/* Sends a part from the first rank to another, which first reports whether it has memory. A part of size zero ends
+   the transfer */
 static PetscErrorCode DistributeSend(MPI_Comm comm, PetscInt nbodies, const DistributePart *part, PetscMPIInt to)
 {
   PetscInt    counts[2] = {part->sizes ? part->nints : PETSC_DECIDE, part->nreals};
@@ -350,8 +344,8 @@ static PetscErrorCode DistributeReceive(MPI_Comm comm, PetscInt nbodies, Distrib
   PetscFunctionReturn(0);
 }
 
-/* Sends the parts one after another; the first rank keeps the first. If one cannot be made, the remaining ranks get
-   empty parts, because they wait for a message */
+/* Sends all parts; the first rank keeps its own. If a part cannot be created, the remaining ranks get empty parts,
+   because they wait for a message */
 static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
 {
   PetscErrorCode ierr;
@@ -370,7 +364,7 @@ static PetscErrorCode DistributeSendAll(Distribute *deal, DistributePart *own)
   PetscFunctionReturn(0);
 }
 
-/* On every rank; not collective except for its messages. Errors are passed to all ranks afterwards */
+/* The exchange on every rank, not collective except for its messages. Errors are raised on all ranks afterwards */
 static PetscErrorCode DistributeExchange(Distribute *deal, MeshOwners *owners)
 {
   DistributePart part = {.sizes = NULL};

@@ -1,8 +1,8 @@
-/* The mesh of all bodies at level 0 and its labels, of the grids that a rank has */
+/* The mesh of all bodies at level 0 and its labels, from the grids on each rank */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* The labels of all faces, on all ranks: those of a face without facets here are empty */
+/* Creates the labels of all faces on all ranks; they are empty where a face has no facets */
 static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[])
 {
   PetscFunctionBegin;
@@ -18,7 +18,7 @@ static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody 
   PetscFunctionReturn(0);
 }
 
-/* Sets the labels of one body's cells and facets; only on the rank that has them */
+/* Sets the labels of one body's cells and facets, on the rank that has them */
 static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt number, const MeshBody *mesh,
   PetscInt firstcell, PetscInt firstvertex)
 {
@@ -60,8 +60,8 @@ static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody b
   PetscFunctionReturn(0);
 }
 
-/* Adds the closure of its facets to every face's label, so that after distribution and refinement
-   a copy of a vertex on a rank without any of the face's facets knows the face too */
+/* Adds the closure of its facets to every face's label. After distribution and refinement, a rank that has a vertex
+   of the face but none of its facets then still knows it */
 static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[])
 {
   PetscFunctionBegin;
@@ -78,7 +78,7 @@ static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-/* The cells of all bodies as DMPlex points, on vertices numbered behind them */
+/* Creates the cells of all bodies as DMPlex points; vertices are numbered after the cells */
 static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells,
   PetscInt nvertices)
 {
@@ -110,7 +110,7 @@ static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody mes
   PetscFunctionReturn(0);
 }
 
-/* The vertices of all bodies on this rank; free coordinates */
+/* Joins the vertices of all bodies on this rank; the caller frees coordinates */
 static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[], PetscInt nvertices,
   PetscReal **coordinates)
 {
@@ -125,7 +125,7 @@ static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[]
   PetscFunctionReturn(0);
 }
 
-/* Vertices that other ranks own */
+/* Creates the star forest of vertices that other ranks own */
 static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners *owners)
 {
   PetscMPIInt  rank;
@@ -147,7 +147,7 @@ static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners
   PetscFunctionReturn(0);
 }
 
-/* The other ranks' parts are empty, unless the grids were distributed */
+/* Creates the level 0 mesh; it is on the first rank only, unless the grids were distributed */
 PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
   const MeshOwners *owners, DM *dm)
 {

@@ -1,4 +1,4 @@
-/* From the shapes' parameters to space */
+/* Maps the shapes' parameters to space */
 #include "meshimpl.h"
 #include <petscbt.h>
 
@@ -37,7 +37,7 @@ PetscErrorCode MeshMapNodes(DM dm, PetscInt nbodies, const SceneBody bodies[], P
   }
   PetscCall(VecRestoreArray(places.x, &x));
   PetscCall(PetscBTDestroy(&done));
-  /* Updates the global coordinates, if they exist, which are still those from before */
+  /* the global coordinates, if they exist, are out of date */
   if (!curved) PetscCall(DMSetCoordinatesLocal(dm, places.x));
   PetscFunctionReturn(0);
 }

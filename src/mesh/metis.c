@@ -5,8 +5,7 @@
 
 #define PETSCPARTITIONERMETIS "metis"
 
-/* Above this number of parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section
-   5.1) */
+/* for more parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section 5.1) */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
 /* Calls METIS on a whole graph; part[v] in [0, nparts) */
@@ -38,7 +37,7 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
   PetscFunctionReturn(0);
 }
 
-/* The graph from the degrees of its vertices, and what METIS makes of it; *part is allocated */
+/* Partitions a gathered graph, given by the degrees of its vertices; *part is allocated */
 static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const PetscInt degree[],
   const PetscInt adjacency[], const PetscInt weights[], PetscInt **part)
 {
@@ -54,8 +53,8 @@ static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const
   PetscFunctionReturn(0);
 }
 
-/* METIS's index type may be narrower than PetscInt; its graph is bounded here by what MPI can gather at once, which
-   fits either. Concatenates the ranks' arrays on rank 0; *all and *total matter there only */
+/* Gathers the ranks' arrays on rank 0; *all and *total are set there only. MPI's limit on a gather keeps the graph
+   within METIS's index type */
 static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[],
   PetscMPIInt displs[], PetscInt *total, PetscInt **all)
 {
@@ -86,7 +85,7 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
 }
 
 /* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without
-   vertices though `weighted` */
+   vertices even if `weighted` */
 static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
 {

@@ -1,7 +1,7 @@
-/* Points and edges of bodies as labels of their nodes, as faces have them: where displacements are prescribed. */
+/* Labels of the nodes at points and edges with prescribed displacements, like the labels of faces. */
 #include "meshimpl.h"
 
-/* Nodes are at a place that is off by less than this part of the mesh's size */
+/* tolerance for the position of nodes, relative to the mesh's size */
 static const PetscReal point_tolerance = 1e-6;
 
 static PetscReal PointLabelDistance(const SceneDisplacement *spot, const PetscReal x[3])
@@ -17,7 +17,7 @@ static PetscReal PointLabelDistance(const SceneDisplacement *spot, const PetscRe
   return PetscSqrtReal(distance);
 }
 
-/* Labels the nodes at the spot; nearest: distance and place of the nearest node of the body on this rank */
+/* Labels the nodes at the point or edge; nearest: distance and position of the nearest node of the body on this rank */
 static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, PetscReal tolerance, PetscReal nearest[4])
 {
   DMLabel            body, label;
@@ -58,7 +58,7 @@ static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, Pets
   PetscFunctionReturn(0);
 }
 
-/* Of the rank that has the nearest one, on all */
+/* Broadcasts `nearest` from the rank with the smallest distance */
 static PetscErrorCode PointLabelFindNearest(MPI_Comm comm, PetscReal nearest[4])
 {
   PetscReal   least = nearest[0];
@@ -73,7 +73,7 @@ static PetscErrorCode PointLabelFindNearest(MPI_Comm comm, PetscReal nearest[4])
   PetscFunctionReturn(0);
 }
 
-/* Of the displacements at points and edges; once a mesh. An error where there is no node */
+/* Labels the nodes at all points and edges with displacements, once per mesh; error if there is no node */
 PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)dm);

@@ -1,7 +1,7 @@
-/* Rigid bodies: a label for each, as for a face, of all points that have unknowns and the facets of the boundary */
+/* Rigid bodies: a label for each, like that of a face, with all points that have unknowns and the boundary facets */
 #include "meshimpl.h"
 
-/* boundary: of the facets, from number fstart on */
+/* Labels the points of a cell; boundary: of the facets, from number fstart on */
 static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[],
   DMLabel whole)
 {
@@ -18,7 +18,7 @@ static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, Pets
   PetscFunctionReturn(0);
 }
 
-/* After the last refinement */
+/* Call after the last refinement */
 PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
 {
   DMLabel    body, whole;

@@ -1,7 +1,7 @@
-/* Faces that a body names, cut out of its others by bounds */
+/* Parts of faces that a body names, cut out by bounds */
 #include "meshimpl.h"
 
-/* Each is of a face that comes before it, and its name is not taken */
+/* Checks that each part belongs to an earlier face, and that its name is not in use */
 PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
 {
   PetscInt n;
@@ -30,8 +30,8 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* Is the centroid of a facet's corners within the bounds, or on them but for rounding? Where the body is curved, its
-   vertices are still parameters */
+/* Whether the centroid of a facet's corners is within the bounds up to rounding. The vertices of curved bodies are
+   still parameters */
 static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid,
   PetscInt facet, PetscBool *inside)
 {

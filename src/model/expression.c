@@ -1,14 +1,13 @@
 /*
-   Numbers that follow time or the place: + - * / ^, brackets, functions, pi, and the variables t, time in load steps,
-   and s, the same from 0 to 1 over the whole program; or x, y, z. A sum is of products, a product of powers, a power
-   of values, as everywhere; -a^2 is -(a^2), a^b^c is a^(b^c).
+   Expressions of time or position: + - * / ^, brackets, functions, pi, and variables: t (time in load steps) and s
+   (time from 0 to 1 over the whole program), or x, y, z. Precedence as usual: -a^2 is -(a^2), a^b^c is a^(b^c).
 */
 #include "modelimpl.h"
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#define EXPRESSION_DEPTH 100 /* of brackets and signs */
+#define EXPRESSION_DEPTH 100 /* limit of nested brackets and signs */
 
 static PetscReal ExpressionSum(Expression *);
 
@@ -17,7 +16,7 @@ static void ExpressionFail(Expression *e)
   if (!e->wrong) e->wrong = e->at;
 }
 
-/* Takes this character, if it is next */
+/* Consumes this character if it is next */
 static PetscBool ExpressionTake(Expression *e, char c)
 {
   while (isspace((unsigned char)*e->at)) ++e->at;
@@ -40,11 +39,11 @@ static PetscReal ExpressionApply(const char name[], PetscReal x, PetscReal y)
   return PetscMax(x, y);
 }
 
-/* A variable, pi, or a function with its arguments */
+/* Evaluates a variable, pi, or a function with its arguments */
 static PetscReal ExpressionWord(Expression *e)
 {
   static const char *const functions[] = {"min", "max", "sin", "cos", "tan", "tanh", "exp", "log", "sqrt",
-    "abs"}; /* the first two of two arguments */
+    "abs"}; /* the first two take two arguments */
   char                     word[8]     = "";
   const char              *begin       = e->at;
   size_t                   n           = 0;
@@ -128,7 +127,7 @@ static PetscReal ExpressionSum(Expression *e)
   return value;
 }
 
-/* The whole text; e->wrong tells whether it makes sense */
+/* Evaluates the whole text; e->wrong points to the first error */
 PetscReal ExpressionEvaluate(Expression *e)
 {
   const PetscReal value = ExpressionSum(e);

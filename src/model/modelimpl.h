@@ -1,18 +1,18 @@
 /*
-   Model, private: what the reader of scenes needs of expressions besides.
+   Private header of model: expressions, for the scene reader.
 */
 #ifndef MODELIMPL_H
 #define MODELIMPL_H
 
 #include <model.h>
 
-/* expression.c: numbers that follow time or the place */
+/* expression.c: numbers as expressions of time or position */
 typedef struct {
   const char *at;
-  const char *names; /* of the variables, a letter each */
+  const char *names; /* the variables, one letter each */
   PetscReal   values[3];
   PetscInt    depth;
-  const char *wrong; /* where it stops making sense; NULL: nowhere so far */
+  const char *wrong; /* position of the first error; NULL: none so far */
 } Expression;
 
 PETSC_INTERN PetscReal ExpressionEvaluate(Expression *);

@@ -1,7 +1,7 @@
-/* An option that is misspelt, or has no value or a wrong one, ends a run before it computes. */
+/* Ends a run before it computes if an option is misspelt, or has no value or a wrong one. */
 #include "optionsimpl.h"
 
-/* The name that may have been meant; behind the prefixes of an object that of one of its options */
+/* guess: the name that may have been meant; after an object's prefix one of its options */
 static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[])
 {
   const char  *known[512], *nearest;
@@ -16,7 +16,7 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
   PetscFunctionReturn(0);
 }
 
-/* Whether PETSc reads the value as one of this kind */
+/* good: whether PETSc reads the value as one of this kind */
 static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], PetscBool *good)
 {
   PetscErrorCode ierr = 0;
@@ -47,7 +47,7 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
   PetscBool       good = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!OptionGetKind(name, &kind) || kind == OPTION_VIEWER) PetscFunctionReturn(0);
+  if (!OptionGetKind(name, &kind)) PetscFunctionReturn(0);
   PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, and needs %s", name,
     needs[kind]);
   if (missing) PetscFunctionReturn(0);

@@ -1,61 +1,46 @@
-/* The names of options that are known before anything asks for them. */
+/* Names of options that are known in advance. */
 #include "optionsimpl.h"
 #include <string.h>
 #include <strings.h>
 
-/* All that pc_amgf, tao_ipfilter, src and apps ask for; tests/doc/options.py holds the list against their sources */
+/* All options of pc_amgf, tao_ipfilter, src and apps; tests/doc/options.py compares the list with the sources */
 const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
-  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_feature_angle",
-  "contact_free", "contact_gap", "contact_gap_tol", "contact_normal_cosine", "contact_normals", "contact_overlap_drop",
-  "contact_penalty", "contact_quadrature", "contact_row_drop", "contact_search_depth", "contact_search_distance",
-  "contact_smooth", "contact_update_tol", "contact_updates", "contact_view", "displacement_bounds", "effects_view",
-  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_monitor", "load_steps",
-  "load_warm_start", "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_amg_lag_ratio", "pc_amgf_cycle",
-  "pc_amgf_detect", "pc_amgf_factor", "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks",
-  "progress_every", "quiet", "refine", "report", "restart", "scene_check", "summary", "tao_ipfilter_acceptable_it",
-  "tao_ipfilter_acceptable_tol", "tao_ipfilter_barrier", "tao_ipfilter_bound_push", "tao_ipfilter_compl_inf_tol",
-  "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_equality", "tao_ipfilter_delta_first", "tao_ipfilter_delta_grow",
-  "tao_ipfilter_delta_grow_first", "tao_ipfilter_delta_max", "tao_ipfilter_delta_shrink", "tao_ipfilter_delta_switch",
-  "tao_ipfilter_direct", "tao_ipfilter_direct_memory", "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init",
-  "tao_ipfilter_equality", "tao_ipfilter_eta_phi", "tao_ipfilter_filter_switch", "tao_ipfilter_filter_threshold",
-  "tao_ipfilter_forcing", "tao_ipfilter_forcing_last", "tao_ipfilter_forcing_max", "tao_ipfilter_forcing_reduce",
-  "tao_ipfilter_gamma_alpha", "tao_ipfilter_gamma_phi", "tao_ipfilter_gamma_theta", "tao_ipfilter_gradient_max",
-  "tao_ipfilter_kappa_curvature", "tao_ipfilter_kappa_dual", "tao_ipfilter_kappa_epsilon", "tao_ipfilter_kappa_mu",
-  "tao_ipfilter_kappa_progress", "tao_ipfilter_kappa_sigma", "tao_ipfilter_kappa_soc", "tao_ipfilter_kkt",
-  "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions",
-  "tao_ipfilter_mu_reductions_first", "tao_ipfilter_obj_max_inc", "tao_ipfilter_predict_forcing",
-  "tao_ipfilter_predict_mu", "tao_ipfilter_proximal", "tao_ipfilter_row_ratio", "tao_ipfilter_s_phi",
-  "tao_ipfilter_s_theta", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
-  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tau_min", "tao_ipfilter_theta_max_fact",
-  "tao_ipfilter_theta_min_fact", "tao_ipfilter_theta_mu", "tao_ipfilter_tol", "tao_ipfilter_unbounded_factor",
-  "tao_ipfilter_warm_mu", "traceback", NULL};
+  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
+  "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
+  "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "effects_view",
+  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start",
+  "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor",
+  "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report",
+  "restart", "scene_check", "summary", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
+  "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_max", "tao_ipfilter_direct", "tao_ipfilter_direct_memory",
+  "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init", "tao_ipfilter_equality", "tao_ipfilter_eta_phi",
+  "tao_ipfilter_filter_switch", "tao_ipfilter_forcing", "tao_ipfilter_gamma_phi", "tao_ipfilter_kkt",
+  "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions_first",
+  "tao_ipfilter_proximal", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
+  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tol", "traceback", NULL};
 
-/* Of them those that are true or false; without a value true. Those of no list below need a number */
+/* Boolean options among them; without a value true. Options in none of the lists below need a number */
 static const char *const OptionsSwitches[] = {"accuracy_adaptive", "accuracy_view", "contact_free", "contact_smooth",
-  "effects_view", "error_estimate", "load_monitor", "load_warm_start", "output_gauss", "quiet", "scene_check",
-  "tao_ipfilter_direct", "tao_ipfilter_monitor", "traceback", NULL};
+  "effects_view", "error_estimate", "load_warm_start", "output_gauss", "quiet", "scene_check", "tao_ipfilter_direct",
+  "tao_ipfilter_monitor", "traceback", NULL};
 
-/* Those that need a whole number */
+/* Options that need an integer */
 static const char *const OptionsCounts[] = {"accuracy_order", "checkpoint_every", "contact_quadrature",
   "contact_updates", "displacement_bounds", "elasticity_quadrature", "load_max_cuts", "load_steps",
-  "pc_amgf_filter_ranks", "refine", "tao_ipfilter_acceptable_it", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions",
-  "tao_ipfilter_mu_reductions_first", "tao_ipfilter_subspace_max", NULL};
+  "pc_amgf_filter_ranks", "refine", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions_first",
+  "tao_ipfilter_subspace_max", NULL};
 
-/* Those that need a word or a name */
+/* Options that need a word or a name */
 static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact_gap", "contact_normals",
   "elasticity_mat_type", "model", "output", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_factor", "pc_amgf_filter_file",
   "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
   "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
 
-/* Those that may have any value, and need none */
-static const char *const OptionsViewers[] = {"contact_view", NULL};
-
-/* Of PETSc's objects that are made later */
+/* Prefixes of PETSc objects that are created later */
 static const char *const OptionsPrefixes[] = {"tao_ipfilter_augmented_", "tao_ipfilter_direct_", "tao_ipfilter_",
   "amgf_amg_", "amgf_factor_", "amgf_filter_", "elasticity_", "penalty_", NULL};
 
-/* How PETSc's own options begin. They are as many as its objects and their types: what is misspelt among them shows
-   with -options_left */
+/* Beginnings of PETSc's own options, which are too many to list; a misspelt one is found by -options_left */
 static const char *const OptionsKinds[] = {"adapt", "ao_", "blas_", "characteristic_", "check_pointer",
   "checkfunctionlist", "citations", "coarse_", "cuda", "debug", "default_device", "device_", "display", "dll_", "dm_",
   "draw_", "error_output", "esteig_", "fieldsplit_", "fp_trap", "get_total_flops", "help", "hip", "history", "info",
@@ -64,7 +49,7 @@ static const char *const OptionsKinds[] = {"adapt", "ao_", "blas_", "characteris
   "root_device", "saws", "sf_", "shared_tmp", "skip_petscrc", "snes_", "start_in_debugger", "stop_for_debugger", "sub_",
   "sycl", "tao_", "thread", "tmp", "ts_", "use_gpu", "vec", "version", "viewer", "x_", "xml", NULL};
 
-/* Those of PETSc that may be meant by a misspelt name */
+/* PETSc options that are suggested for misspelt names */
 const char *const OptionsUsual[] = {"help", "info", "ksp_max_it", "ksp_monitor", "ksp_rtol", "ksp_type", "ksp_view",
   "log_view", "malloc_debug", "mat_type", "options_file", "options_left", "options_view", "pc_type", "snes_rtol",
   "tao_gatol", "tao_max_it", "tao_monitor", "tao_type", "tao_view", "version", NULL};
@@ -77,7 +62,7 @@ static PetscBool OptionIsOneOf(const char name[], const char *const list[])
   return PETSC_FALSE;
 }
 
-/* The length of the first in the list that the name begins with; 0: none */
+/* Length of the first entry of the list with which the name begins; 0: none */
 static size_t OptionBeginning(const char name[], const char *const list[])
 {
   for (; *list; ++list) {
@@ -103,8 +88,8 @@ size_t OptionPrefixLength(const char name[])
   return OptionBeginning(name + all, OptionsAMGF) ? all : 0;
 }
 
-/* PETSc switches off with -no_, too. Behind the prefix of an object stand PETSc's options, of ours those of PCAMGF
-   alone */
+/* Whether a name is known, also with -no_. After the prefix of an object PETSc's options are allowed, and of ours
+   those of PCAMGF */
 PetscBool OptionIsKnown(const char name[])
 {
   const char *rest = name + OptionAllPrefixes(name);
@@ -123,7 +108,6 @@ PetscBool OptionGetKind(const char name[], OptionKind *kind)
   if (OptionIsOneOf(ours, OptionsSwitches)) *kind = OPTION_SWITCH;
   else if (OptionIsOneOf(ours, OptionsCounts)) *kind = OPTION_COUNT;
   else if (OptionIsOneOf(ours, OptionsWords)) *kind = OPTION_WORD;
-  else if (OptionIsOneOf(ours, OptionsViewers)) *kind = OPTION_VIEWER;
   else *kind = OPTION_NUMBER;
   return OptionIsOneOf(ours, OptionsOurs);
 }

@@ -1,4 +1,4 @@
-/* What was meant by a misspelt name. */
+/* Finds the name that was meant by a misspelt one. */
 #include "optionsimpl.h"
 
 /*@C

@@ -1,4 +1,4 @@
-/* What -accuracy chose and reached, as a table for people */
+/* Prints what -accuracy chose and reached */
 #include "outputimpl.h"
 
 /*@C
@@ -41,7 +41,7 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* how: the error of the mesh is known */
+/* Prints the state of an adapted mesh; how: text on how the error of the mesh is known */
 static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[], PetscViewer viewer)
 {
   const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];

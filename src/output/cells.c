@@ -1,13 +1,13 @@
-/* Cells as ParaView shows them: hexahedra of 8 nodes, tetrahedra of 4 or 10. The nodes of a hexahedron of order 2 cut
-   it into 8, which have its values of a cell */
+/* Cells for ParaView: hexahedra with 8 nodes, tetrahedra with 4 or 10. The nodes of a hexahedron of order 2 divide
+   it into 8, which all get its cell values */
 #include "outputimpl.h"
 #include <mesh.h>
 
-/* Around the bottom, around the top */
+/* VTK's order: around the bottom, then around the top */
 static const PetscInt around[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},
   {0, 1, 1}};
 
-/* The pieces of a cell, as points of the mesh that carry nodes, in VTK's order */
+/* Divides a cell into pieces, as mesh points with nodes, in VTK's order */
 PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *pieces)
 {
   PetscInt nnodes, nodes[MESH_MAX_NODES], width;
@@ -26,8 +26,8 @@ PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *piece
   PetscFunctionReturn(0);
 }
 
-/* Those of this rank's cells, and whether those of any rank are others than hexahedra; then the numbers that they are
-   written with, a kind before each */
+/* Counts the pieces of this rank's cells, whether there are other cells than hexahedra on any rank, and the integers
+   needed to describe them (for mixed cells a kind before each) */
 PetscErrorCode OutputCountPieces(Output output)
 {
   PetscInt     cstart, cend, total = 0;
@@ -49,13 +49,13 @@ PetscErrorCode OutputCountPieces(Output output)
   PetscFunctionReturn(0);
 }
 
-/* The dataset that has them */
+/* Name of the dataset of cells */
 const char *OutputCellsName(Output output)
 {
   return output->mixed ? "mixed_cells" : "cells";
 }
 
-/* XDMF's number of the kind of cell that a piece with so many nodes is; the nodes of such a kind, 0: none */
+/* Kind: XDMF's number for a piece with this many nodes. Nodes: number of nodes of a kind, 0: unknown */
 PetscInt OutputPieceKind(PetscInt nnodes)
 {
   return nnodes == 4 ? 6 : nnodes == 10 ? 38 : 9;

@@ -4,7 +4,7 @@
 #include <rankerror.h>
 #include <math.h>
 
-/* Number of a local node among all, whoever owns it */
+/* Global number of a local node */
 static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, PetscInt *number)
 {
   PetscInt offset;
@@ -15,7 +15,7 @@ static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Of the nodes of this rank, each of which has a cell here */
+/* body: of each node of this rank, from a cell that contains it */
 static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
 {
   PetscSection global;
@@ -37,7 +37,7 @@ static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
   PetscFunctionReturn(0);
 }
 
-/* Undeformed; body: of each, or NULL */
+/* field: undeformed coordinates of this rank's nodes; body: of each, or NULL */
 PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
 {
   Vec coordinates, global;
@@ -53,7 +53,7 @@ PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
   PetscFunctionReturn(0);
 }
 
-/* The mesh keeps them for the next file */
+/* Writes the nodes; the mesh keeps them for the next file */
 static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
 {
   Vec field;
@@ -69,8 +69,8 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The columns of the dataset come from the block size, which ISSetBlockSize() would keep for blocks of consecutive
-   indices. The mesh keeps it for the next file */
+/* Stores indices for the next file. The number of columns is taken from the block size; ISSetBlockSize() would keep
+   it only for blocks of consecutive indices */
 static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt n, PetscInt components,
   PetscInt *indices)
 {
@@ -152,14 +152,14 @@ static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, P
   Vec field;
 
   PetscFunctionBegin;
-  /* A plain vector: those of a DMPlex are viewed in PETSc's own file layout */
+  /* a plain vector, since those of a DMPlex are written in PETSc's own layout */
   PetscCall(DatasetCreate(output->comm, "displacement", output->nowned, 3, &field));
   PetscCall(VecCopy(displacement, field));
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
 
-/* Fields of contact at nodes: the same of all pairs, and of each alone where there are several */
+/* Contact fields at nodes: of all pairs together, and of each pair if there are several */
 typedef struct {
   Vec          pressure, gap, area, status, force;
   PetscScalar *p, *g, *a, *s, *f;
@@ -180,7 +180,7 @@ static PetscErrorCode FieldsCreateContact(Output output, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/* The first point at a vertex, or another one of another pair */
+/* Adds a point at a vertex, which may already have one of another pair */
 static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint *point)
 {
   const PetscReal area = PetscRealPart(fields->a[v]) + point->area;
@@ -198,7 +198,7 @@ static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint
   fields->l[v] = point->slip_path;
 }
 
-/* At this rank's vertices: the points of a pair, or of all pairs where it is negative */
+/* Fills the fields at this rank's vertices with the points of a pair, or of all pairs (negative) */
 static PetscErrorCode FieldsFillPair(Output output, const StepState *state, PetscInt pair, FieldsContact *fields)
 {
   PetscSection global;
@@ -218,7 +218,7 @@ static PetscErrorCode FieldsFillPair(Output output, const StepState *state, Pets
   PetscFunctionReturn(0);
 }
 
-/* The fields of friction, where any pair has it */
+/* Creates the fields of friction if any pair has friction */
 static PetscErrorCode FieldsCreateFriction(Output output, const char suffix[], FieldsContact *fields)
 {
   PetscFunctionBegin;
@@ -240,7 +240,7 @@ static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer vie
   PetscFunctionReturn(0);
 }
 
-/* pair negative: of all; else the name of its fields ends with it */
+/* Writes the fields of a pair, with its name as suffix, or of all pairs (negative) */
 static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[],
   PetscViewer viewer)
 {

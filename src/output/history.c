@@ -1,29 +1,28 @@
-/* The history of a run: a table of comma-separated values, a line a load step, a column for every number of its
-   report. */
+/* The history of a run: a CSV table with a row per load step and a column for each number of its report. */
 #define _POSIX_C_SOURCE 200809L /* getline() */
 #include "outputimpl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What a line is made of: the names of its columns, or the values of a step */
+/* Context of a row: names of columns, or values of a step */
 typedef struct {
   Output             output;
   const StepReport  *report;
   FILE              *stream;
   PetscBool          heading;
-  PetscBool          first;   /* nothing stands in the line so far */
-  PetscInt           npoints; /* of a line of the scene's probes */
+  PetscBool          first;   /* nothing has been written to the row yet */
+  PetscInt           npoints; /* number of points of a line probe */
   const ProbeReport *points;
 } HistoryLine;
 
-/* The table of an earlier run, and how many load steps of it stay */
+/* The table of an earlier run, and the number of its load steps to keep */
 typedef struct {
   const char *file;
   PetscInt    step;
 } HistoryOlder;
 
-/* A name with a comma or a quote, as Gmsh files may have it, stands in quotes */
+/* Writes a column's name, quoted if it contains a comma or a quote, which is possible in Gmsh files */
 static void HistoryPutName(HistoryLine *line, const char owner[], const char name[], const char component[])
 {
   const char *const pieces[] = {owner, owner[0] ? "." : "", name, component[0] ? "_" : "", component};
@@ -58,7 +57,7 @@ static double HistorySum(PetscInt n, const PetscInt values[])
 
 static void HistoryPutRecord(HistoryLine *, const ReportRecord *, const void *record, const char owner[]);
 
-/* owner: the pair, face, body, ... whose value it is; "" of the whole */
+/* owner: the pair, face, body, ... of the value; "": none */
 static void HistoryPutField(HistoryLine *line, const ReportField *field, const void *record, const char owner[])
 {
   const void *value = SchemaAt(field, record);
@@ -81,7 +80,7 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
         *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
     break;
   case FIELD_LIST:
-    if (field->record == &SchemaLines) break; /* they have files of their own */
+    if (field->record == &SchemaLines) break; /* lines have files of their own */
     for (PetscInt i = 0; i < SchemaCount(field, record); ++i) {
       const char *item = *(const char *const *)value + (size_t)i * field->record->size;
 
@@ -89,11 +88,11 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
     }
     break;
   case FIELD_RECORD: HistoryPutRecord(line, field->record, value, field->name); break;
-  default: /* a text is no number */ break;
+  default: /* texts are not numbers */ break;
   }
 }
 
-/* A list's records begin with their names */
+/* Writes the fields of a record; records of a list begin with their names */
 static void HistoryPutRecord(HistoryLine *line, const ReportRecord *type, const void *record, const char owner[])
 {
   for (const ReportField *field = type->fields; field->name; ++field) HistoryPutField(line, field, record, owner);
@@ -127,7 +126,7 @@ static PetscErrorCode HistoryBegin(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* A point of a line: which load step it is of, and all that it has */
+/* Writes a point of a line: its load step and all its values */
 static void HistoryPutPoint(HistoryLine *line, const ProbeReport *point)
 {
   line->first = PETSC_TRUE;
@@ -159,7 +158,7 @@ static PetscErrorCode HistoryBeginLine(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* The lines of load steps that an earlier run has done; on the first rank alone */
+/* Copies the rows of load steps that an earlier run has finished; on the first rank only */
 static PetscErrorCode HistoryCopyOlder(FILE *to, const void *ctx)
 {
   const HistoryOlder *older   = (const HistoryOlder *)ctx;
@@ -178,7 +177,7 @@ static PetscErrorCode HistoryCopyOlder(FILE *to, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* Whether the table goes on that an earlier run began; what that has written of later load steps goes */
+/* goes_on: whether the table of an earlier run is continued; its rows of later load steps are removed */
 static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBool *goes_on)
 {
   const HistoryOlder older = {.file = file, .step = output->continued};
@@ -192,7 +191,7 @@ static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* The first step that an output gets begins a new file, unless it goes on with another run's */
+/* Writes a row; the first step of an output starts a new file unless it continues an earlier run */
 static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[],
   PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
 {
@@ -207,7 +206,7 @@ static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[
   PetscFunctionReturn(0);
 }
 
-/* The points of a line follow one another */
+/* Writes the history; the points of a line are consecutive */
 PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
 {
   HistoryLine line = {.output = output, .report = report};

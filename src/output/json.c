@@ -1,4 +1,4 @@
-/* The report of a run as JSON: its fields as the schema has them. */
+/* The report of a run as JSON, with the fields of the schema. */
 #include "outputimpl.h"
 #include <math.h>
 
@@ -13,7 +13,7 @@ static void JSONString(FILE *stream, const char text[])
   fputc('"', stream);
 }
 
-/* JSON knows neither NaN nor infinity */
+/* Writes a number; JSON has neither NaN nor infinity */
 static void JSONNumber(FILE *stream, double value)
 {
   if (PetscIsInfOrNanReal((PetscReal)value)) fputs("null", stream);
@@ -46,7 +46,7 @@ static void JSONTexts(FILE *stream, PetscInt n, const char *const text[])
   fputc(']', stream);
 }
 
-/* An object with the bodies' names as keys; of integers or of reals, which may be missing */
+/* Writes an object with the bodies' names as keys; integers or reals, which may be missing */
 static void JSONBodies(FILE *stream, const RunReport *run, const PetscInt ints[], const PetscReal reals[])
 {
   fputc('{', stream);
@@ -97,7 +97,7 @@ static void JSONValue(FILE *stream, const RunReport *run, const ReportField *fie
   }
 }
 
-/* On one line or on one line a field; a record that is not there leaves no key */
+/* Writes a record on one line, or with a line per field; a missing record leaves out its key */
 static void JSONRecord(FILE *stream, const RunReport *run, const ReportRecord *type, const void *record, int indent)
 {
   PetscBool first = PETSC_TRUE;

@@ -1,7 +1,7 @@
-/* How the mesh of an output is laid out */
+/* Layout of an output's mesh */
 #include "outputimpl.h"
 
-/* Nodes are numbered as the DM's global vectors are */
+/* Counts nodes and cells; nodes are numbered as in the DM's global vectors */
 static PetscErrorCode OutputCount(Output output)
 {
   Vec      global;

@@ -1,8 +1,8 @@
-/* What the files of an output are called */
+/* Names of the files of an output */
 #include "outputimpl.h"
 #include <string.h>
 
-/* A base name that is a folder would give files without a name */
+/* Error if the base name is a folder: the files would have no name */
 PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
 {
   const char     *slash = strrchr(base, '/'), *last = slash ? slash + 1 : base;

@@ -1,9 +1,9 @@
-/* The life of an output: a mesh file, one file a load step, and an XDMF file that ties them together */
+/* An output: a mesh file, a file per load step, and an XDMF file that refers to them */
 #define _POSIX_C_SOURCE 200809L /* lstat() */
 #include "outputimpl.h"
 #include <sys/stat.h>
 
-/* As the first rank sees it */
+/* exists: whether the first rank finds the file */
 static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool *exists)
 {
   PetscFunctionBegin;
@@ -12,7 +12,7 @@ static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Writes the mesh, in the place of an earlier run's */
+/* Writes the mesh, replacing that of an earlier run */
 static PetscErrorCode OutputBegin(Output output)
 {
   char file[PETSC_MAX_PATH_LEN];
@@ -105,13 +105,14 @@ PetscErrorCode OutputSetUnits(Output output, const char units[])
   PetscFunctionReturn(0);
 }
 
-/* The first step decides which fields the steps have. A single pair has its fields without its name */
+/* Determines the fields of all steps from the first step. A single pair has fields without its name */
 static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 {
   const StepReport *report = state->report;
 
   PetscFunctionBegin;
-  output->nodes = (PetscBool)(state->nodal != NULL);
+  output->nodes   = (PetscBool)(state->nodal != NULL);
+  output->plastic = (PetscBool)(state->plastic != NULL);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   for (PetscInt p = 0; p < report->npairs; ++p)
@@ -167,8 +168,8 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
   PetscFunctionReturn(0);
 }
 
-/* Files of later steps belong to an older run of the same name. Only the first rank looks. Links and devices stay,
-   because somebody put them there */
+/* Removes files of later steps of an older run with the same name, on the first rank only. Links and devices are
+   kept, because somebody created them */
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
   char        file[PETSC_MAX_PATH_LEN];
@@ -208,9 +209,8 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
 
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them:
-   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress,
-   the three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with
-   gauss_stress.
+   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the
+   three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with gauss_stress.
 
    The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
    The points of each line of the scene's probes are added to <basename>_<line>.csv.

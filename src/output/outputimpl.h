@@ -1,7 +1,6 @@
 /*
-   The map of src/output: its files in the order in which they build on one another, each with what it offers to those
-   below it. The fields of bodies and surfaces go to HDF5 (output.c), the report of a run to JSON and to the terminal
-   (json.c, view.c).
+   src/output: files in the order in which they depend on each other, with what they offer. Fields of bodies and
+   surfaces are written to HDF5 (output.c); the report is written to JSON and printed (json.c, view.c).
 */
 #ifndef OUTPUTIMPL_H
 #define OUTPUTIMPL_H
@@ -19,25 +18,27 @@ typedef struct {
 struct _n_Output {
   MPI_Comm comm;
   DM       dm;
-  char    *base; /* of the file names */
+  char    *base; /* base name of the files */
   int      lock; /* descriptor of the lock on the mesh's file */
   PetscInt nbodies;
   char   **bodynames;
-  char    *units;  /* the scene's note; NULL: none */
-  PetscInt npairs; /* of contact, that have fields of their own; of the steps written */
+  char    *units;  /* units of the scene; NULL: none */
+  PetscInt npairs; /* number of contact pairs with fields of their own */
   char   **pairnames;
   PetscInt nvertices, ncells; /* global */
   PetscInt nowned, ncellslocal,
-    first;         /* nodes and cells of this rank; number of its first node. A hexahedron of order 2 counts as 8 */
-  PetscBool mixed; /* not all cells are hexahedra */
+    first;         /* nodes and cells of this rank (a hexahedron of order 2 counts as 8), and its first node */
+  PetscBool mixed; /* there are other cells than hexahedra */
   PetscInt  nindices,
-    nindiceslocal; /* numbers that describe the cells: 8 nodes each, or where they are mixed the kind and its nodes */
-  PetscBool   friction;    /* the steps have shear and slip */
-  PetscBool   nodes;       /* the steps have stress at nodes and strain energy */
-  PetscInt    nquadrature; /* quadrature points of all ranks, of the steps that have stress there */
+    nindiceslocal;         /* number of integers that describe the cells: 8 nodes each, or in mixed files a kind and its
+                      nodes */
+  PetscBool   friction;    /* friction stress and slip are written */
+  PetscBool   plastic;     /* plastic strain is written */
+  PetscBool   nodes;       /* nodal stress and strain energy are written */
+  PetscInt    nquadrature; /* quadrature points on all ranks, in steps with stress there */
   PetscBool   meshed;      /* the mesh has been written */
-  PetscBool   begun;       /* a step has been written */
-  PetscInt    continued;   /* load steps of the run that this one goes on with; 0: none */
+  PetscBool   begun;       /* a load step has been written */
+  PetscInt    continued;   /* load steps of the earlier run that is continued; 0: none */
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };
@@ -47,8 +48,8 @@ PETSC_INTERN PetscErrorCode OutputCheckBase(MPI_Comm, const char base[]);
 PETSC_INTERN PetscErrorCode OutputGetMeshFile(Output, char file[], size_t length);
 PETSC_INTERN PetscErrorCode OutputGetStepFile(Output, PetscInt step, char file[], size_t length);
 
-/* cells.c: a cell of the mesh as a hexahedron of 8 nodes, or those that the nodes of order 2 cut it into; or as a
-   tetrahedron of 4 or 10 */
+/* cells.c: a cell as pieces for VTK: a hexahedron with 8 nodes, or those into which nodes of order 2 divide it; or a
+   tetrahedron with 4 or 10 nodes */
 typedef struct {
   PetscInt n, nnodes, nodes[8][10];
 } OutputPieces;
@@ -58,15 +59,15 @@ PETSC_INTERN const char    *OutputCellsName(Output);
 PETSC_INTERN PetscInt       OutputPieceKind(PetscInt nnodes);
 PETSC_INTERN PetscInt       OutputKindNodes(PetscInt kind);
 
-/* stress.c: of what a state does not have nothing is written */
+/* stress.c: fields that the state does not have are not written */
 PETSC_INTERN PetscErrorCode StressWriteCells(Output, const StepState *, PetscViewer);
 PETSC_INTERN PetscErrorCode StressWriteNodes(Output, const StepState *, PetscViewer);
 PETSC_INTERN PetscErrorCode StressWriteQuadrature(Output, const StepState *, PetscViewer);
 
-/* layout.c: an output that only knows its mesh */
+/* layout.c: creates an output that only has its mesh */
 PETSC_INTERN PetscErrorCode OutputCreateMesh(DM, Output *);
 
-/* fields.c: the mesh of an output into an open file, its nodes on this rank with their bodies; its files */
+/* fields.c: writes the mesh and the fields of a step; gets the nodes on this rank and their bodies */
 PETSC_INTERN PetscErrorCode FieldsGetVertices(Output, Vec *vertices, PetscInt body[]);
 PETSC_INTERN PetscErrorCode FieldsWriteMesh(PetscViewer, void *output);
 PETSC_INTERN PetscErrorCode OutputWriteMesh(Output);
@@ -75,14 +76,14 @@ PETSC_INTERN PetscErrorCode OutputWriteFields(Output, const StepState *);
 /* xdmf.c */
 PETSC_INTERN PetscErrorCode OutputWriteXDMF(Output);
 
-/* history.c: <base>.csv, one line a load step */
+/* history.c: <base>.csv, a row per load step */
 PETSC_INTERN PetscErrorCode OutputWriteHistory(Output, const StepReport *);
 
-/* output.c, on top of these, has no more than what output.h offers */
+/* output.c: only public functions */
 
 /* schema.c */
 
-/* How a member of a report is stored */
+/* Type of a report's member */
 typedef enum {
   FIELD_INT,        /* PetscInt */
   FIELD_REAL,       /* PetscReal */
@@ -94,13 +95,13 @@ typedef enum {
   FIELD_VECTOR,     /* PetscReal[3] */
   FIELD_INTS,       /* PetscInt *, counted */
   FIELD_BODY_INTS,  /* PetscInt *, one a body */
-  FIELD_BODY_REALS, /* PetscReal *, one a body; NULL: not known */
+  FIELD_BODY_REALS, /* PetscReal *, one per body; NULL: unknown */
   FIELD_LIST,       /* an array of records, counted */
   FIELD_RECORD,
-  FIELD_POINTER, /* to a record; NULL: there is none */
+  FIELD_POINTER, /* pointer to a record; NULL: none */
 } ReportType;
 
-/* The tables for people. TABLE_EVERY: all those of load steps; the fallbacks make a sentence, the phases a row each */
+/* The printed tables. TABLE_EVERY: all tables of load steps; the fallbacks form a sentence, the phases a row each */
 typedef enum {
   TABLE_NONE,
   TABLE_EVERY,
@@ -109,6 +110,7 @@ typedef enum {
   TABLE_PAIRS,
   TABLE_FACES,
   TABLE_BALANCE,
+  TABLE_PLASTICITY,
   TABLE_TRUTH,
   TABLE_FALLBACKS,
   TABLE_ERRORS,
@@ -124,35 +126,35 @@ typedef enum {
   SHOWN_MEAN,
   SHOWN_SQUARE,
   SHOWN_PERCENT,
-  SHOWN_SHARE /* of the total time, in per cent */
+  SHOWN_SHARE /* percentage of the total time */
 } ReportShown;
 
 typedef struct {
   ReportTable table;
-  const char *head[2]; /* one above the other */
-  int         width;   /* in characters; negative: to the left; 0: as wide as what it says */
-  int         blanks;  /* before it, beyond the one that every column has */
-  const char *format;  /* of a double, NULL: that of its type; of a FIELD_BOOL the word that says it is true */
+  const char *head[2]; /* heading, two lines */
+  int         width;   /* in characters; negative: left-aligned; 0: as wide as its text */
+  int         blanks;  /* extra blanks before it, in addition to the one before every column */
+  const char *format;  /* format of a double, NULL: default of its type; for a FIELD_BOOL the word printed if true */
   ReportShown shown;
-  PetscBool   with_unit; /* in the heading */
-  PetscBool   behind;    /* printed behind the other columns of its table */
+  PetscBool   with_unit; /* unit in the heading */
+  PetscBool   behind;    /* printed after the other columns of its table */
 } ReportColumn;
 
 typedef struct _n_ReportRecord ReportRecord;
 
 typedef struct {
   const char         *name; /* its key; NULL ends a list of fields */
-  const char         *unit; /* in the scene's own units of force and length, seconds, bytes; "": a number */
+  const char         *unit; /* in the scene's units of force and length, seconds, bytes; "": dimensionless */
   ReportType          type;
   size_t              offset, count;
-  const ReportRecord *record;     /* of a list or a record */
-  const char         *absent;     /* what a table says for NaN, or for false; "": nothing at all; NULL: the number */
-  ReportColumn        columns[2]; /* in the tables; the summary has every field */
+  const ReportRecord *record;     /* record type of a list or record */
+  const char         *absent;     /* text in tables for NaN or false; "": empty; NULL: the number */
+  ReportColumn        columns[2]; /* columns in the tables; the summary has every field */
 } ReportField;
 
 struct _n_ReportRecord {
   size_t             size;
-  PetscBool          one_line; /* of the summary */
+  PetscBool          one_line; /* of the summary: on one line */
   const ReportField *fields;
 };
 
@@ -171,6 +173,6 @@ PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const 
 PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record,
      char text[], size_t length);
 
-/* json.c, accuracy.c, view.c have no more than what output.h offers */
+/* json.c, accuracy.c, view.c: only public functions */
 
 #endif

@@ -1,16 +1,16 @@
 /*
-   The fields of a report: their keys, units, places and types, and their columns in the tables for people. The
-   summary has them in this order. A new field is a member in report.h and a line here.
+   The fields of a report: keys, units, members and types, and their columns in printed tables. The summary has them in
+   this order. A new field is a member in report.h and a line here.
 */
 #include "outputimpl.h"
 #include <math.h>
 
-/* Last the unit, and what else there is to say */
+/* The last arguments are the unit and further members */
 #define FIELD(record, member, stored, ...) \
   { \
     .name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__ \
   }
-/* The same behind the heading: the width, then what else */
+/* After the heading: width, then further members */
 #define COLUMN(place, above, below, ...) \
   { \
     .table = place, .head = {above, below}, .width = __VA_ARGS__ \
@@ -106,9 +106,22 @@ static const ReportField body_fields[] = {
   FIELD(BodyReport, load, FIELD_VECTOR, "force"),
   FIELD(BodyReport, residual, FIELD_VECTOR, "force"),
   FIELD(BodyReport, balance, FIELD_REAL, ""),
+  FIELD(BodyReport, plastic_strain, FIELD_REAL, ""),
   END,
 };
 static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_fields};
+
+static const ReportField motion_fields[] = {
+  FIELD(MotionReport, name, FIELD_TEXT, ""),
+  FIELD(MotionReport, kinetic_energy, FIELD_REAL, "force length"),
+  FIELD(MotionReport, total_energy, FIELD_REAL, "force length"),
+  FIELD(MotionReport, damping_work, FIELD_REAL, "force length"),
+  FIELD(MotionReport, numerical_dissipation, FIELD_REAL, "force length"),
+  FIELD(MotionReport, momentum, FIELD_VECTOR, "force time"),
+  FIELD(MotionReport, angular_momentum, FIELD_VECTOR, "force length time"),
+  END,
+};
+static const ReportRecord SchemaMotions = {sizeof(MotionReport), PETSC_TRUE, motion_fields};
 
 static const ReportField step_fields[] = {
   FIELD(StepReport, step, FIELD_INT, "", .columns = {COLUMN(TABLE_EVERY, "step", "", 5)}),
@@ -133,6 +146,10 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, energy, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_WORK, "energy", "", 15, .format = "%.8e", .blanks = 1),
       COLUMN(TABLE_BALANCE, "stored", "", 13, .format = "%.5e", .behind = PETSC_TRUE)}),
+  FIELD(StepReport, plastic_work, FIELD_REAL, "force length",
+    .columns = {COLUMN(TABLE_PLASTICITY, "plastic", "work", 13, .format = "%.5e")}),
+  FIELD(StepReport, plastic_strain, FIELD_REAL, "",
+    .columns = {COLUMN(TABLE_PLASTICITY, "largest", "plastic strain", 14, .format = "%.5e")}),
   FIELD(StepReport, work, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_BALANCE, "work", "", 13, .format = "%.5e")}),
   FIELD(StepReport, dissipated, FIELD_REAL, "force length",
@@ -177,6 +194,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
+  FIELD(StepReport, motions, FIELD_LIST, "", .count = offsetof(StepReport, nmotions), .record = &SchemaMotions),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
   FIELD(StepReport, weak_spring_force, FIELD_REAL, "force"),
   FIELD(StepReport, probes, FIELD_LIST, "", .count = offsetof(StepReport, nprobes), .record = &SchemaProbes),
@@ -289,7 +307,7 @@ const void *SchemaAt(const ReportField *field, const void *record)
   return (const char *)record + field->offset;
 }
 
-/* Of a field that is a number or a truth */
+/* Value of a numeric or boolean field */
 double SchemaNumber(const ReportField *field, const void *record)
 {
   const void *value = SchemaAt(field, record);
@@ -310,7 +328,7 @@ const char *SchemaText(const ReportField *field, const void *record)
   return field->type == FIELD_CHARS ? (const char *)value : *(const char *const *)value;
 }
 
-/* How many values a list of this record's has */
+/* Number of values of a list */
 PetscInt SchemaCount(const ReportField *field, const void *record)
 {
   return *(const PetscInt *)((const char *)record + field->count);

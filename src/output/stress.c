@@ -2,7 +2,7 @@
 #include "outputimpl.h"
 #include <mesh.h>
 
-/* n values of a record in the dataset's order, from records of `stride` */
+/* Writes n values of each record in the dataset's order; `stride`: length of a record */
 static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components,
   const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
@@ -21,11 +21,11 @@ static PetscErrorCode StressWriteValues(Output output, const char name[], PetscI
 }
 
 static const int identity[] = {0, 1, 2, 3, 4, 5};
-static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* XDMF's xx xy xz yy yz zz of xx yy zz xy yz zx */
+static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* XDMF's order xx xy xz yy yz zz in terms of xx yy zz xy yz zx */
 static const int mises[]    = {6};
 static const int highest[]  = {7, 8, 9};
 
-/* As StressWriteValues(), from records of the mesh's cells, whose pieces all have them */
+/* As StressWriteValues(), from records of the mesh's cells; all pieces of a cell get its values */
 static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[],
   PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
@@ -51,6 +51,10 @@ PetscErrorCode StressWriteCells(Output output, const StepState *state, PetscView
   PetscFunctionBegin;
   PetscCall(StressWritePieces(output, "stress", 6, tensor6, 7, state->stress, viewer));
   PetscCall(StressWritePieces(output, "von_mises", 1, mises, 7, state->stress, viewer));
+  if (state->plastic) {
+    PetscCall(StressWritePieces(output, "plastic_strain", 6, tensor6, 7, state->plastic, viewer));
+    PetscCall(StressWritePieces(output, "equivalent_plastic_strain", 1, mises, 7, state->plastic, viewer));
+  }
   if (state->density)
     PetscCall(StressWritePieces(output, "strain_energy_density", 1, identity, 1, state->density, viewer));
   PetscFunctionReturn(0);
@@ -68,7 +72,7 @@ PetscErrorCode StressWriteNodes(Output output, const StepState *state, PetscView
   PetscFunctionReturn(0);
 }
 
-/* ParaView shows points that are cells */
+/* Writes a cell for each point, since ParaView only shows points that are cells */
 static PetscErrorCode StressWritePointCells(Output output, PetscInt n, PetscViewer viewer)
 {
   IS        is;

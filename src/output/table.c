@@ -1,4 +1,4 @@
-/* A table for people: a row a record, its columns as the schema has them. */
+/* A printed table: a row per record, columns from the schema. */
 #include "outputimpl.h"
 #include <math.h>
 #include <string.h>
@@ -43,7 +43,7 @@ static void TableVector(const char format[], const PetscReal v[3], char text[], 
   (void)snprintf(text, length, "%s %s %s", number[0], number[1], number[2]);
 }
 
-/* What a cell says, in `text` where it is a number; NULL: nothing at all */
+/* Text of a cell, in `text` if it is a number; NULL: empty */
 static const char *TableText(const RunReport *run, const ReportField *field, const ReportColumn *column,
   const void *record, char text[], size_t length)
 {
@@ -63,7 +63,7 @@ static const char *TableText(const RunReport *run, const ReportField *field, con
   return text;
 }
 
-/* A column as wide as what it says leaves no blanks where that is nothing */
+/* Prints a cell; a column as wide as its text leaves no blanks if that is empty */
 static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int width, const char text[],
   PetscViewer viewer)
 {
@@ -73,7 +73,7 @@ static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int 
   PetscFunctionReturn(0);
 }
 
-/* One column a body, headed by its name; record NULL: the heading */
+/* Prints a column per body, headed by its name; record NULL: the heading */
 static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field, const ReportColumn *column,
   const void *record, PetscViewer viewer)
 {
@@ -103,7 +103,7 @@ static PetscErrorCode TableHead(const ReportField *field, const ReportColumn *co
   PetscFunctionReturn(0);
 }
 
-/* The row of a record; NULL: a line of the heading */
+/* Prints the row of a record; NULL: a line of the heading */
 static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const ReportField fields[], const void *record,
   PetscInt line, PetscViewer viewer)
 {
@@ -147,7 +147,7 @@ PetscErrorCode TableViewRows(const RunReport *run, ReportTable table, const Repo
   PetscFunctionReturn(0);
 }
 
-/* The only column that a field has in a table, as text; NULL: it has none there, or says nothing */
+/* Text of the only column that a field has in a table; NULL: no column, or empty */
 const char *TableGetText(const RunReport *run, ReportTable table, const ReportField *field, const void *record,
   char text[], size_t length)
 {

@@ -1,7 +1,7 @@
-/* The report of a run for people: its tables, and sentences between them. */
+/* The printed report of a run: tables, and sentences between them. */
 #include "outputimpl.h"
 
-/* A table of the load steps, under one heading line or two */
+/* Prints a table of the load steps under one or two heading lines */
 static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, PetscInt lines, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -10,7 +10,7 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
-/* Forces at the end: a row per contact pair, a row per face that is held or driven */
+/* Prints forces at the end: a row per contact pair, and per face that is held or driven */
 static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -30,7 +30,7 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Where there is friction: the work of the loads since the start, where it has gone, and what of each step's is left */
+/* Prints, if there is friction, the work of the loads since the start, where it went, and the imbalance of each step */
 static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -44,7 +44,17 @@ static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Load steps whose linear systems the Krylov method solved alone are not listed */
+/* Where a body has yielded */
+static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (!report->nsteps || !(report->steps[report->nsteps - 1].plastic_strain > 0.0)) PetscFunctionReturn(0);
+  PetscCall(ViewSteps(report, TABLE_PLASTICITY, 2, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(0);
+}
+
+/* Prints load steps whose linear systems needed more than the Krylov method */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -73,7 +83,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Load steps whose column of AMG applications counts solves with factors */
+/* Prints load steps in which the column of AMG applications counts solves with factors */
 static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 {
   PetscInt n = 0, first = 0;
@@ -101,7 +111,7 @@ static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Turned round: a row a phase, the total last */
+/* Prints the times: a row per phase, the total last */
 static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -118,7 +128,7 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The reference cost without contact, beside the largest count of any Newton system */
+/* Prints the cost without contact, compared with the largest count of any Newton system */
 static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
 {
   PetscInt  largest = 0;
@@ -141,7 +151,7 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
   PetscFunctionReturn(0);
 }
 
-/* Where the peak comes from: the growth of the resident set in each phase, per unknown */
+/* Prints the growth of resident memory in each phase, per unknown */
 static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 {
   const double n = report->dofs ? 1e3 * (double)report->dofs : 1.0;
@@ -207,6 +217,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewForces(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewBalance(report, viewer));
+  PetscCall(ViewPlasticity(report, viewer));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));
   PetscCall(ViewErrors(report, viewer));

@@ -1,8 +1,8 @@
-/* The XDMF file: what is in the HDF5 files, one grid a load step */
+/* The XDMF file: describes the HDF5 files, one grid per load step */
 #include "outputimpl.h"
 #include <string.h>
 
-/* Files stand in one folder, so the XDMF file names them without */
+/* File name without folder, since all files are in the same folder */
 static const char *XDMFFileName(const char path[])
 {
   const char *slash = strrchr(path, '/');
@@ -10,7 +10,7 @@ static const char *XDMFFileName(const char path[])
   return slash ? slash + 1 : path;
 }
 
-/* Text of an XML attribute or element */
+/* Writes text for an XML attribute or element */
 static void XDMFWriteEscaped(FILE *stream, const char text[])
 {
   for (const char *c = text; *c; ++c) {
@@ -54,7 +54,7 @@ static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
   XDMFWriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
 }
 
-/* Of all pairs together, or of one, after whose name they are called */
+/* Writes the contact fields of all pairs together, or of one pair, whose name they contain */
 static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char file[], const char pair[])
 {
   static const struct {
@@ -132,6 +132,10 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
       PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));
     XDMFWriteAttribute(stream, file, "stress", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
     XDMFWriteAttribute(stream, file, "von_mises", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    if (output->plastic) {
+      XDMFWriteAttribute(stream, file, "plastic_strain", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
+      XDMFWriteAttribute(stream, file, "equivalent_plastic_strain", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
+    }
     if (output->nodes) XDMFWriteNodalStress(stream, output, file);
     fputs("      </Grid>\n", stream);
   }

@@ -1,10 +1,10 @@
-/* PETSc's log events of a run, and the times of its phases that they tell. */
+/* PETSc's log events of a run, and times of its phases from them. */
 #include "reportimpl.h"
 #include <petsctime.h>
 
 PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;
 
-/* The events of the phases: ours, the preconditioner's, the estimator's */
+/* Events of the phases: ours, the preconditioner's, the error estimator's */
 static const struct {
   const char *event;
   size_t      time;
@@ -38,7 +38,7 @@ PetscErrorCode StepEventsRegister(void)
   PetscFunctionReturn(0);
 }
 
-/* The clock as the total, and each phase since PETSc's start, 0 where PETSc does not log; of this rank */
+/* Reads the clock (total), and the time of each phase since PETSc's start, on this rank; 0 without PETSc's logging */
 PetscErrorCode StepEventsRead(RunTimes *times)
 {
   PetscBool logs;
@@ -59,7 +59,7 @@ PetscErrorCode StepEventsRead(RunTimes *times)
   PetscFunctionReturn(0);
 }
 
-/* Since a start that was read, the largest over the ranks; "other" is what remains of the total */
+/* Times since `start`, largest over the ranks; "other" is the rest of the total */
 PetscErrorCode StepEventsGetTimes(MPI_Comm comm, const RunTimes *start, RunTimes *times)
 {
   PetscLogDouble sum = 0.0;

@@ -1,8 +1,8 @@
-/* What a solve adds to the report of its load step. */
+/* Adds the results of a solve to the report of its load step. */
 #include "reportimpl.h"
 #include <stdarg.h>
 
-/* Collective. A warning: printed on stderr at once, and kept for the summary */
+/* Collective. Issues a warning: printed on stderr at once, and kept for the summary */
 PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
 {
   char    sentence[512];
@@ -18,7 +18,7 @@ PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[],
   PetscFunctionReturn(0);
 }
 
-/* The last solve's end is the load step's */
+/* Sets convergence and reason; those of the last solve are the load step's */
 PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])
 {
   PetscFunctionBegin;
@@ -38,7 +38,7 @@ PetscErrorCode ReportIterations(StepReport *report, PetscInt n, const PetscInt i
   PetscFunctionReturn(0);
 }
 
-/* What the preconditioner has done so far; zeros where it does not count */
+/* Counts of the preconditioner so far; zeros if it does not count */
 PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
 {
   PC        pc;
@@ -52,8 +52,7 @@ PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-/* What the preconditioner did since `before`: amgf counts for itself, any other PC is applied once an iteration of
-   the whole step */
+/* Adds what the preconditioner did since `before`: amgf counts; any other PC is applied once per iteration */
 PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepReport *report)
 {
   PC           pc;

@@ -1,5 +1,5 @@
 /*
-   The report of a run, private: what its parts add to it, and PETSc's log events, which tell the times of its phases.
+   Private header of the report: functions that add to it, and PETSc's log events for the times of its phases.
 */
 #ifndef REPORTIMPL_H
 #define REPORTIMPL_H

@@ -1,4 +1,4 @@
-/* Chooses tolerances and mesh for a requested accuracy, and no more than that. */
+/* Chooses tolerances and mesh for a requested accuracy. */
 #include <accuracy.h>
 #include <math.h>
 
@@ -21,12 +21,7 @@
          than a Newton step */
 
 /* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
-typedef enum {
-  ACCURACY_ENERGY,
-  ACCURACY_FORCE,
-  ACCURACY_PRESSURE,
-  ACCURACY_DISPLACEMENT
-} AccuracyTarget;
+typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C
@@ -323,7 +318,7 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   for (PetscInt s = 0; s < report->nsteps; ++s) {
     const StepReport *step = &report->steps[s];
 
-    level->energy[s] = step->energy;
+    level->energy[s] = step->energy + step->plastic_work;
     level->amg_applications += step->amg_applications;
     largest = PetscMax(largest, step->energy);
     PetscCall(AccuracyRecordForces(step, npairs, level->force + 2 * npairs * s, level->pressure + npairs * s));

@@ -8,6 +8,7 @@ typedef enum {
   EFFECT_FRICTION,
   EFFECT_FILTER,
   EFFECT_FINITE_STRAIN,
+  EFFECT_PLASTICITY,
   EFFECT_RIGID,
   EFFECT_BBAR,
   EFFECT_INCOMPATIBLE,
@@ -32,6 +33,7 @@ static const char *const EffectNames[] = {
   [EFFECT_FRICTION]      = "friction",
   [EFFECT_FILTER]        = "AMG filter",
   [EFFECT_FINITE_STRAIN] = "finite strain",
+  [EFFECT_PLASTICITY]    = "plasticity",
   [EFFECT_RIGID]         = "rigid bodies",
   [EFFECT_BBAR]          = "mean dilatation",
   [EFFECT_INCOMPATIBLE]  = "incompatible modes",
@@ -70,13 +72,14 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
   Scene    scene  = sim->scene;
-  PetscInt finite = 0, planes = 0, rubbing = 0, rigid = 0, mean = 0, modes = 0, second = 0, *orders;
+  PetscInt finite = 0, planes = 0, rubbing = 0, plastic = 0, rigid = 0, mean = 0, modes = 0, second = 0, *orders;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &orders));
   PetscCall(MeshGetOrders(sim->dm, scene->nbodies, orders));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
+    if (scene->bodies[b].material.type == MATERIAL_J2) ++plastic;
     if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
@@ -100,6 +103,8 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     !finite          ? ""
     : sim->quadratic ? ", one tangent a load step"
                      : ", true energy"));
+  PetscCall(EffectSet(report, EFFECT_PLASTICITY, (PetscBool)(plastic > 0),
+    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law that yields", plastic, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_RIGID, (PetscBool)(rigid > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
   PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0),
@@ -155,6 +160,7 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
   report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
   report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
   report->effects[EFFECT_RESULTS].time  = report->time.results;
+  if (report->effects[EFFECT_PLASTICITY].on) report->effects[EFFECT_PLASTICITY].time = report->time.assembly;
   if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
   PetscFunctionReturn(0);
 }

@@ -21,6 +21,8 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
+  PetscCheck(sim->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->comm, PETSC_ERR_SUP,
+    "-contact_penalty is not for scheme impact of dynamics: leave the option out, or take generalized_alpha");
   PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
     "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
     "quadratic");
@@ -38,6 +40,8 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(StiffnessSetType(sim));
   constraints = SimulationConstraints(sim);
   PetscCall(TiesCreate(&constraints));
+  PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->dynamics));
+  if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path.outside));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(TiesCreateTangent(&constraints, &sim->K));
   if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));

@@ -88,7 +88,7 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 
    Input Parameters:
 +  sim     - the simulation, before SimulationSetFromOptions()
--  monitor - the answer, unless the option -load_monitor says otherwise
+-  monitor - the answer
 
    Level: intermediate
 @*/
@@ -134,18 +134,15 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 +  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
                                 coarser mesh ended with; default true
 .  -load_max_cuts <5>         - how often a load step that fails is halved
-.  -load_monitor              - say why a load step is cut, and how the gap changes when it is linearized again
 .  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 .  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
 .  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
                                 linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
-                                TAOIPFILTER: the
-                                stiffness of the contact, as a multiple of that of the bodies at a row. Its PETSc
-                                solvers have
-                                the prefix penalty_. The faces penetrate by about pressure times the bodies'
-                                flexibility over this
+                                TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row.
+                                Its PETSc solvers have the prefix penalty_. The faces penetrate by about pressure times
+                                the bodies' flexibility over this
 
    Level: beginner
 
@@ -159,9 +156,6 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
     "SimulationStep", sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
     "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
-  PetscCall(PetscOptionsBool("-load_monitor",
-    "Print why a load step is cut, and the change of the gap with each contact update", "SimulationStep", sim->monitor,
-    &sim->monitor, NULL));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
     sim->progress.every, &sim->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
@@ -244,6 +238,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
     PetscCall(PetscFree(s->report.steps[i].body_errors));
     PetscCall(PetscFree(s->report.steps[i].ramps));
+    PetscCall(PetscFree(s->report.steps[i].motions));
     PetscCall(PetscFree(s->report.steps[i].probes));
     PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
@@ -273,6 +268,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
   PetscCall(TiesDestroy(&s->ties));
+  PetscCall(DynamicsDestroy(&s->dynamics));
   PetscCall(MatDestroy(&s->follows));
   PetscCall(RigidDestroy(&s->rigid));
   PetscCall(VertexPlacesDestroy(&s->places));

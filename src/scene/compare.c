@@ -1,11 +1,11 @@
-/* Compares a scene with the text of another one. What may change between two runs of one simulation is left out. */
+/* Compares a scene with the text of another one, ignoring what may change between two runs of the same simulation. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream() */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Top level keys that say how a simulation goes on, and how it is solved */
+/* Top level keys that may differ: they concern how a simulation continues, and how it is solved */
 static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model",
   "contact_updates", "displacement_bounds", "solver"};
 
@@ -43,11 +43,11 @@ PetscErrorCode SceneGetText(Scene scene, char **text)
 }
 
 typedef struct {
-  const char *next;                           /* the line after this one */
-  char        line[512], top[64], entry[128]; /* the line; the list and its entry that it stands in */
+  const char *next;                           /* start of the next line */
+  char        line[512], top[64], entry[128]; /* the current line; the list and the entry that contain it */
 } SceneLines;
 
-/* The next line that counts; false at the end */
+/* Advances to the next line that is compared; false at the end */
 static PetscBool SceneLinesAdvance(SceneLines *lines)
 {
   while (*lines->next) {

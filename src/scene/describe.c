@@ -1,17 +1,17 @@
-/* What a scene will simulate, in words: for a look before the solve */
+/* Describes what a scene will simulate, before the solve */
 #include "sceneimpl.h"
 #include <mesh.h>
 #include <petscbt.h>
 #include <petscviewer.h>
 #include <string.h>
 
-/* A body as it is meshed, of all ranks */
+/* Sizes of a body's mesh, on all ranks */
 typedef struct {
   PetscInt  ncells, ntetrahedra, nnodes;
   PetscReal lower[3], upper[3]; /* [length] */
 } BodyMesh;
 
-/* Nodes are counted where they are owned; bodies share none */
+/* Counts nodes where they are owned; bodies share none */
 static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cell, PetscBT met, BodyMesh *mesh)
 {
   PetscInt     n, nodes[MESH_MAX_NODES], first, offset;
@@ -146,7 +146,7 @@ static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nf
   PetscFunctionReturn(0);
 }
 
-/* Faces are the labels with a dot, by name */
+/* Prints the faces, which are the labels with a dot, sorted by name */
 static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
 {
   PetscInt     nlabels, n = 0, nfacets, *order;
@@ -241,7 +241,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* The nonmortar side should be the finer one */
+/* Compares the facet sizes of a pair's sides; the nonmortar side should be the finer one */
 static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscViewer viewer)
 {
   PetscInt  n[2];
@@ -285,7 +285,7 @@ static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Where cells are refined more often, and how many vertices hang between coarser and finer cells */
+/* Prints where cells are refined locally, and how many vertices hang between coarser and finer cells */
 static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscInt nhanging;
@@ -312,7 +312,7 @@ static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer
   PetscFunctionReturn(0);
 }
 
-/* An error where one is in no body */
+/* Prints the probes; error if a point is outside all bodies */
 static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscInt   n;
@@ -339,7 +339,7 @@ static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* One line a step, one column a ramp */
+/* Prints the load program: a row per step, a column per ramp */
 static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -355,7 +355,7 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Bodies that have an effect, as: on, slab block */
+/* Prints the bodies that use an effect, as in: on, slab block */
 static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[],
   PetscBool (*has)(const SceneBody *, PetscInt order), const PetscInt orders[], const char off[])
 {

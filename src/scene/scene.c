@@ -1,5 +1,6 @@
-/* The life of a scene */
+/* Creation and destruction of a scene */
 #include "sceneimpl.h"
+#include "src/mesh/gmsh/gmshimpl.h"
 #include <string.h>
 
 #define SCENE_CONTACT_UPDATES 20
@@ -17,7 +18,7 @@ static PetscErrorCode SceneDefaultName(const char file[], char **name)
   PetscFunctionReturn(0);
 }
 
-/* The command line wins over the file */
+/* Applies command line options, which override the file */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt  nsteps = scene->nsteps, bounds = scene->displacement_bounds;
@@ -45,7 +46,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
-/* Lists in the order of the table; what follows from them where it is needed next */
+/* Reads the lists in the order of the table; quantities derived from a list are computed before they are needed */
 static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 {
   PetscFunctionBegin;
@@ -55,7 +56,10 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
     else if (list->entries)
       PetscCall(
         SceneReadList(keys, scene, list, (PetscInt *)((char *)scene + list->count), (char *)scene + list->entries));
-    if (!strcmp(list->name, "bodies")) PetscCall(SceneScaleRigid(scene));
+    if (!strcmp(list->name, "bodies")) {
+      PetscCall(SceneScaleRigid(scene));
+      PetscCall(GmshConvert(keys->comm, scene->nbodies, scene->bodies));
+    }
   }
   PetscFunctionReturn(0);
 }
@@ -104,6 +108,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(PetscNew(&s));
   keys->top          = SceneLists[0].rows;
   s->contact_updates = SCENE_CONTACT_UPDATES;
+  PetscCall(SceneReadDynamics(keys, s, SceneFindList("dynamics")));
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
@@ -143,6 +148,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
       PetscCall(PetscFree(s->bodies[b].subfaces[f].of));
     }
     PetscCall(PetscFree(s->bodies[b].subfaces));
+    PetscCall(GmshRemoveConverted(&s->bodies[b]));
     PetscCall(PetscFree(s->bodies[b].gmsh.file));
     PetscCall(PetscFree(s->bodies[b].gmsh.volume));
   }

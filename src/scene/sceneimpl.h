@@ -1,5 +1,6 @@
 /*
-   Scene, private: the map of src/scene. From the file's keys to the scene, every file builds on those before it.
+   Private header of src/scene. From the file's keys to the scene; files in the order in which they depend on each
+   other.
 */
 #ifndef SCENEIMPL_H
 #define SCENEIMPL_H
@@ -7,9 +8,9 @@
 #include <scene.h>
 #include "src/scene/sections/sectionsimpl.h"
 
-/* validate.c. Collective: what a scene must satisfy beyond its grammar */
+/* validate.c. Collective: checks a scene beyond its syntax */
 PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
 
-/* view.c, describe.c, scene.c: what a scene says, what it will simulate, and its life, public */
+/* view.c, describe.c, scene.c: only public functions */
 
 #endif

@@ -1,4 +1,4 @@
-/* What a scene must satisfy beyond its grammar. Every rank holds the same scene, so every rank finds the same error. */
+/* Checks of a scene beyond its syntax. Every rank has the same scene, so every rank finds the same error. */
 #include "sceneimpl.h"
 #include <mesh.h>
 
@@ -29,6 +29,10 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
       "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable "
       "under compression, so it takes full or bbar",
       file, body->name, MaterialTypes[body->material.type]);
+    SceneRequire(scene->model != MODEL_QUADRATIC || body->material.type != MATERIAL_J2,
+      "%s: body \"%s\" has material j2 with model quadratic, whose single tangent leaves the yield surface; take model "
+      "energy",
+      file, body->name);
     SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT,
       "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to "
       "average; use material neohookean near incompressibility, or element full",
@@ -82,6 +86,9 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
     SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY,
       "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file,
       pressure->name);
+    SceneRequire(!pressure->follows || !SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_IMPACT,
+      "%s: pressure \"%s\" follows its face, which goes with scheme generalized_alpha of dynamics, and not with impact",
+      file, pressure->name);
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
     if (!SceneIsWholeBody(scene->tractions[t].face))

@@ -1,20 +1,47 @@
-/* A scene as the YAML that SceneLoad() reads */
+/* Prints a scene as YAML that SceneLoad() reads */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
+/* Within braces: of a static analysis the factors at the ends of the load steps; of dynamics a table from time 0 on, of
+   one line where the factor is constant */
+static PetscErrorCode SceneViewProgram(Scene scene, PetscViewer viewer, const SceneRamp *ramp)
+{
+  PetscInt   n = 1;
+  PetscReal *times, *values;
+
+  PetscFunctionBegin;
+  if (!SceneIsDynamic(scene)) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "factors: "));
+    PetscCall(SceneViewList(viewer, scene->nsteps, ramp->factor));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscMalloc2(scene->nsteps + 1, &times, scene->nsteps + 1, &values));
+  for (PetscInt k = 0; k <= scene->nsteps; ++k) {
+    times[k]  = (PetscReal)k * scene->dynamics.time_step;
+    values[k] = k ? ramp->factor[k - 1] : ramp->start;
+    if (values[k] != values[0]) n = scene->nsteps + 1;
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "times: "));
+  PetscCall(SceneViewList(viewer, n, times));
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", values: "));
+  PetscCall(SceneViewList(viewer, n, values));
+  PetscCall(PetscFree2(times, values));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {factors: ", scene->ramps[1 + r].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "- %s: {", scene->ramps[1 + r].name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
-  PetscCall(SceneViewList(viewer, scene->nsteps, scene->ramps[1 + r].factor));
+  PetscCall(SceneViewProgram(scene, viewer, &scene->ramps[1 + r]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-/* In double quotes: a value may hold what YAML takes for its own */
+/* Prints an option in double quotes, because its value may contain YAML syntax */
 static PetscErrorCode SceneViewOption(Scene scene, PetscViewer viewer, PetscInt o)
 {
   PetscFunctionBegin;
@@ -39,7 +66,7 @@ static PetscErrorCode SceneViewNumbered(Scene scene, PetscViewer viewer, const c
   PetscFunctionReturn(0);
 }
 
-/* A list of the top level by its name */
+/* Prints a list of the top level by its name */
 static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const char name[])
 {
   const SceneList *list = SceneFindList(name);
@@ -47,7 +74,16 @@ static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const ch
   PetscFunctionBegin;
   if (!strcmp(name, "bodies")) PetscCall(SceneViewBodies(scene, viewer, list));
   else if (!strcmp(name, "faces")) PetscCall(SceneViewFaces(scene, viewer, list));
-  else if (!strcmp(name, "load")) {
+  else if (!strcmp(name, "load") && SceneIsDynamic(scene)) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "load: {"));
+    PetscCall(SceneViewProgram(scene, viewer, &scene->ramps[0]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "}\n"));
+  } else if (!strcmp(name, "dynamics") && SceneIsDynamic(scene)) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "dynamics:\n"));
+    PetscCall(PetscViewerASCIIPushTab(viewer));
+    PetscCall(SceneViewRows(scene, viewer, list->rows, NULL, &scene->dynamics, list->initial));
+    PetscCall(PetscViewerASCIIPopTab(viewer));
+  } else if (!strcmp(name, "load")) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "load:\n"));
     PetscCall(PetscViewerASCIIPushTab(viewer));
     PetscCall(SceneViewReals(viewer, "factors", scene->nsteps, scene->ramps[0].factor));

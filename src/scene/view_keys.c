@@ -1,9 +1,9 @@
-/* The table of keys, for people */
+/* Prints the table of keys */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* As in: three numbers [L] */
+/* Type of a key as text, as in: three numbers [L] */
 static PetscErrorCode KeyDescribeType(const SceneKey *row, char type[], size_t length)
 {
   static const char *const counts[] = {"", "a ", "two ", "three "};
@@ -49,7 +49,7 @@ static PetscErrorCode KeyView(const SceneKey *row, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Those of a body's material, or of an entry of the list materials, which the laws have */
+/* Prints the constants of the material laws, which belong to bodies and to entries of `materials` */
 static PetscErrorCode KeysViewConstants(PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -62,7 +62,10 @@ static PetscErrorCode KeysViewConstants(PetscViewer viewer)
     PetscCall(MaterialGetLaw(&material, &law));
     for (const MaterialConstant *c = law->constants; c && c->name; ++c)
       PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %s | %s | %s |\n", c->name, MaterialTypes[t],
-        c->n == 1 ? "a number" : "three numbers", c->symbol ? c->symbol : "", c->required ? "required" : "0"));
+        !c->n       ? "numbers"
+        : c->n == 1 ? "a number"
+                    : "three numbers",
+        c->symbol ? c->symbol : "", c->required ? "required" : "0"));
   }
   PetscFunctionReturn(0);
 }

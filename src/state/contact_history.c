@@ -1,9 +1,9 @@
-/* Contact pressure and slack by nonmortar vertex, carried from one load step to the next. */
+/* Contact pressure, slack and friction force of each nonmortar vertex, carried from one load step to the next. */
 #include "stateimpl.h"
 
-static const PetscReal negligible_pressure = 1e-3; /* of the largest pressure */
-static const PetscReal open_share = 1e-3; /* of what it takes to press a body in by a row's slack: below it the row is
-                                             open, and its pressure that of a barrier */
+static const PetscReal negligible_pressure = 1e-3; /* relative to the largest pressure */
+static const PetscReal open_share          = 1e-3; /* A row is open if its force is below this fraction of (stiffness x
+                                             slack); its pressure is then only the barrier's */
 
 PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
 {
@@ -28,7 +28,7 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   PetscFunctionReturn(0);
 }
 
-/* Of a row, whose vertex this rank owns */
+/* Index of a row's vertex in the history; this rank owns the vertex */
 PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, PetscInt row)
 {
   PetscInt offset = m->first;
@@ -37,7 +37,7 @@ PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, 
   return lin->pair[row] * m->nowned + (offset - m->first) / 3;
 }
 
-/* stiffness: of the bodies [force/length] */
+/* Stores pressures and slacks of a solve by vertex; stiffness: of the bodies [force/length] */
 PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
   PetscReal stiffness)
 {
@@ -63,8 +63,8 @@ PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, 
 }
 
 /*
-   Start values for the rows of a new linearization: pressures scaled by the growth of the load. A vertex that had no
-   row gets zeros, which the optimizer moves off the boundary. `any` is false when nothing is remembered on any rank.
+   Start values for the rows of a new linearization: stored slacks, and stored pressures times scale. A vertex without a
+   stored row gets zeros, which the optimizer moves off the boundary. any: false if no pressure is stored on any rank
 */
 PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearization lin, PetscReal scale, Vec slack,
   Vec pressure, PetscBool *any)
@@ -88,7 +88,7 @@ PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* The pressure, 0 of rows that are open */
+/* The stored pressure; 0 if the row is open */
 static PetscReal ContactHistoryPressure(const ContactHistory *m, PetscInt k)
 {
   return m->open[k] ? 0.0 : m->pressure[k];
@@ -104,8 +104,8 @@ static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm co
 }
 
 /*
-   How far the gap of a new linearization is from the slack remembered at the same vertex: over the rows under
-   pressure, and as penetration over the others, whose open gap does not matter.
+   change: largest difference between the gap of a new linearization and the slack stored for the same vertex, over rows
+   under pressure; over other rows the penetration, since their open gaps do not matter [length]
 */
 PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearization lin, PetscReal *change)
 {
@@ -143,8 +143,8 @@ PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* Of the rows of the last solve that were under pressure those of the same vertices in a new linearization; of others,
-   and where there is none, PETSC_DECIDE. Free `row` */
+/* row[r]: for row r of the last solve under pressure, the row of the same vertex in a new linearization;
+   PETSC_DECIDE for other rows or if there is none. The caller frees `row`. */
 PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLinearization solved, ContactLinearization lin,
   PetscInt **row)
 {
@@ -165,7 +165,8 @@ PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* Which vertices had a pressure but have no row in a new linearization, and how many on all ranks; free `lost` */
+/* lost: vertices that had a pressure and have no row in a new linearization; nlost: their number on all ranks. The
+   caller frees `lost`. */
 PetscErrorCode ContactHistoryFindLost(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
   PetscInt *nlost)
 {
@@ -185,7 +186,8 @@ PetscErrorCode ContactHistoryFindLost(const ContactHistory *m, ContactLinearizat
   PetscFunctionReturn(0);
 }
 
-/* Smallest gap of those vertices in a linearization that looks deeper; 0 if they have no row there either */
+/* least: smallest gap of the lost vertices in a linearization with a larger search depth; 0 if they have no row
+   there either */
 PetscErrorCode ContactHistoryLeastGap(const ContactHistory *m, const PetscBool lost[], ContactLinearization lin,
   PetscReal *least)
 {

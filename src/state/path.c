@@ -1,9 +1,9 @@
-/* The path of equilibrium states, and what it says about the next one. */
+/* The path of equilibrium states, and its extrapolation. */
 #include "stateimpl.h"
 
 /*
-   The next increment as a multiple of the last: the projection of the change of all ramps on their last change. A load
-   program that turns a corner (press, then slide) is not continued along its old direction.
+   ratio: the next increment as a multiple of the last one. It is the projection of the change of all ramps on their
+   last change, so that a load program that turns (press, then slide) is not continued in its old direction.
 */
 static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio)
 {
@@ -24,36 +24,42 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
   PetscFunctionReturn(0);
 }
 
-/* u = the path continued to a time; prescribed rows as that time has them */
+/* u: the path extrapolated to a time, in dynamics with its accelerations, with the prescribed displacements of that
+   time */
 PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 {
   PetscReal ratio = 0.0;
 
   PetscFunctionBegin;
-  PetscCall(PathRatio(sim, time, &ratio));
-  PetscCall(VecCopy(sim->path.u, u));
-  PetscCall(VecAXPY(u, ratio, sim->path.u));
-  PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
+  if (SimulationIsDynamic(sim)) {
+    PetscCall(SchemePredict(&sim->dynamics, (time - sim->path.time) * SceneTimeStep(sim->scene), sim->path.u, u));
+  } else {
+    PetscCall(PathRatio(sim, time, &ratio));
+    PetscCall(VecCopy(sim->path.u, u));
+    PetscCall(VecAXPY(u, ratio, sim->path.u));
+    PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
+  }
   PetscCall(PrescribedApply(&sim->prescribed, time, u));
   PetscCall(TiesFollow(&sim->ties, u));
   PetscFunctionReturn(0);
 }
 
-/* Contact pressures follow a single ramp in proportion; under several they are taken as they were */
+/* scale: factor for stored pressures. With a single ramp pressures are proportional to it; with several they are not
+   scaled. */
 PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scale)
 {
   PetscReal now, next;
 
   PetscFunctionBegin;
   *scale = 1.0;
-  if (sim->scene->nramps > 1) PetscFunctionReturn(0);
+  if (sim->scene->nramps > 1 || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
   PetscCall(SceneGetFactor(sim->scene, 0, sim->path.time, &now));
   PetscCall(SceneGetFactor(sim->scene, 0, time, &next));
   if (now != 0.0 && next / now > 0.0) *scale = next / now;
   PetscFunctionReturn(0);
 }
 
-/* u becomes the state; the oldest state's vector comes back in its place */
+/* Advances the path to the state u; *u becomes the vector of the oldest state, for reuse */
 PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
 {
   Vec       oldest = path->previous_u;
@@ -71,8 +77,8 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
   PetscFunctionReturn(0);
 }
 
-/* Solves with the present stiffness until the end of the load program, this one included: where the gap is updated,
-   one update a load step at least */
+/* n: solves with the present stiffness until the end of the load program, including this one; with contact updates
+   at least one per load step is assumed */
 PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
 {
   const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;

@@ -1,7 +1,7 @@
-/* What a solve finds at the contact rows. */
+/* The solution at the contact rows. */
 #include "stateimpl.h"
 
-/* In place of what was there; rows: a vector laid out as they are */
+/* Creates the vectors, in place of existing ones; rows: a vector with the layout of the rows */
 PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *sol)
 {
   PetscFunctionBegin;

@@ -1,35 +1,36 @@
 /*
-   The state of a simulation: what it is made of, and what is carried from one load step to the next.
+   State of a simulation: its objects, and the data carried from one load step to the next.
 */
 #ifndef STATEIMPL_H
 #define STATEIMPL_H
 
 #include <step.h>
-#include "src/constraints/constraintsimpl.h"
+#include "src/dynamics/dynamicsimpl.h"
 
-/* solution.c: what a solve left behind, beside the displacement */
+/* solution.c: the solution at the contact rows of one solve */
 typedef struct {
-  Vec pressure; /* one a row */
-  Vec gap;      /* linearized, one a row */
-  Vec shear;    /* forces of friction along both tangents of a row [force]; NULL: no pair has any */
-  Vec slip;     /* since the last state, along both tangents of a row [length] */
+  Vec pressure; /* one per row [force/length^2] */
+  Vec gap;      /* linearized gap, one per row [length] */
+  Vec shear;    /* friction forces along the two tangents of each row [force]; NULL: no friction */
+  Vec slip;     /* slip since the last state along the two tangents of each row [length] */
 } ContactSolution;
 
 PETSC_INTERN PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *);
 PETSC_INTERN PetscErrorCode ContactSolutionDestroy(ContactSolution *);
 
-/* contact_history.c: pressure and slack of the last solve by nonmortar vertex, for the next one's warm start */
+/* contact_history.c: data of the last solve by nonmortar vertex, for the next start */
 typedef struct {
   PetscSection global;           /* the mesh's */
-  PetscInt     npairs, nowned;   /* nodes that this rank owns */
-  PetscInt     first;            /* global row of the first */
-  PetscReal   *pressure, *slack; /* npairs x nowned; pressure 0 where no row was */
-  PetscBool   *open;             /* where the pressure is a barrier's over an open gap */
-  PetscReal   *shear;            /* 3 npairs x nowned: force of friction [force]; NULL: no pair has any, */
-  PetscReal   *settled;          /* that at the last state of equilibrium, */
-  PetscReal   *friction;         /* all of it at the vertices of both sides there [force], */
-  PetscReal   *slip_path;        /* and npairs x nowned: the length of all slip up to it [length], */
-  PetscReal   *dissipated;       /* and the work of friction [force length] */
+  PetscInt     npairs, nowned;   /* number of pairs; of nodes that this rank owns */
+  PetscInt     first;            /* first global row of the owned nodes */
+  PetscReal   *pressure, *slack; /* [npairs x nowned]; pressure 0 where there was no row */
+  PetscBool   *open;             /* the gap is open and the pressure only the barrier's */
+  PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL: no
+                                    friction */
+  PetscReal   *settled;          /* friction force at the last state of equilibrium [force] */
+  PetscReal   *friction;         /* friction forces on the vertices of both sides at that state [force] */
+  PetscReal   *slip_path;        /* [npairs x nowned] length of all slip up to that state [length] */
+  PetscReal   *dissipated;       /* work of friction up to that state [force length] */
 } ContactHistory;
 
 PETSC_INTERN PetscErrorCode ContactHistoryCreate(DM, Scene, ContactHistory *);
@@ -48,123 +49,125 @@ PETSC_INTERN PetscErrorCode ContactHistoryLeastGap(const ContactHistory *, const
   PetscReal *least);
 PETSC_INTERN PetscErrorCode ContactHistoryDestroy(ContactHistory *);
 
-/* path.c: the last two states of equilibrium; load step k ends at time k */
+/* path.c: the last two states of equilibrium. Load step k ends at time k. */
 typedef struct {
   PetscReal time, previous_time;
   Vec       u, previous_u;
-  PetscReal largest_increment;    /* of any component in any step so far [length] */
-  Vec       outside;              /* forces from outside at u; NULL at the start: none [force] */
-  PetscReal work;                 /* of theirs [force length] */
-  Vec       contact;              /* forces on the contacts at u, where pairs rub; NULL: none [force] */
-  PetscReal contact_work;         /* of theirs [force length] */
-  PetscReal energy;               /* of the bodies at u [force length] */
-  PetscReal unbalanced, turnover; /* of this load step so far: work that is neither stored nor taken up by the contacts;
-                                     the largest of the three, solve by solve [force length] */
-  PetscBool warned;               /* that it is too much */
+  PetscReal largest_increment;    /* of any displacement component in any step so far [length] */
+  Vec       outside;              /* external forces at u [force]; NULL at the start: zero */
+  PetscReal work;                 /* work of the external forces [force length] */
+  Vec       contact;              /* contact forces at u, with friction only; NULL: zero [force] */
+  PetscReal contact_work;         /* work of the contact forces [force length] */
+  PetscReal energy;               /* of the bodies at u, with the plastic work [force length] */
+  PetscReal unbalanced, turnover; /* in the present load step: work that is neither stored as energy nor taken up by
+                                     contact; and the sum over solves of the largest of these three [force length] */
+  PetscBool warned;               /* the imbalance has been warned of */
 } LoadPath;
 
-/* Fields that are asked for, and what they were at the end of the last load step */
+/* Requested result fields, and their values at the end of the last load step */
 typedef struct {
-  PetscBool  nodes, points; /* asked for: at nodes and of cells, at quadrature points */
-  PetscReal *recovered;     /* stress, 6 values a local node */
+  PetscBool  nodes, points; /* requested: at nodes and cells; at quadrature points */
+  PetscReal *recovered;     /* recovered stress, 6 values per local node */
+  PetscReal *plastic;       /* plastic strain, 7 values a local cell; NULL: no law yields */
   PetscReal *nodal, *density, *places, *point_stress;
   PetscInt   npoints;
 } Results;
 
-/* Where the points of the scene's probes are */
+/* Positions of the scene's probes */
 typedef struct {
   PetscInt n;
   PetscReal (*points)[3];
   MeshPlace *places;
 } Probes;
 
-/* When a run has said how far it is, and what it knows of that; of the clock [s] */
+/* Progress report of a run: when it last printed, and what the estimate uses; times are wall clock [s] */
 typedef struct {
   PetscReal      every;    /* 0: never */
-  PetscReal      residual; /* the first of a linear solve */
-  PetscInt       nsteps;   /* whole load steps so far */
-  PetscBool      whole;    /* the load step under way was begun in this run */
+  PetscReal      residual; /* first residual of the current linear solve */
+  PetscInt       nsteps;   /* whole load steps finished so far */
+  PetscBool      whole;    /* the current load step was started in this run (not restarted within it) */
   PetscLogDouble begun, said;
-  PetscLogDouble last[4]; /* durations of the last whole load steps, in a ring */
+  PetscLogDouble last[4]; /* durations of the last whole load steps (ring buffer) */
 } Progress;
 
-/* Of adapt.c, where the next mesh may have cells refined: squared errors of this rank's cells, summed over load
-   steps, and which are to be refined */
+/* adapt.c, for runs whose next mesh may be refined: squared errors of this rank's cells, summed over load steps, and
+   the cells to refine */
 typedef struct {
   PetscReal *errors;
   PetscBool *marked;
 } Adapt;
 
-/* Of forecast.c: what load steps ended with on another mesh, interpolated to this one; none where nothing is foreseen
- */
+/* forecast.c: states at the end of load steps on another mesh, interpolated to this one; empty if there is no
+   forecast */
 typedef struct {
-  StepForecast *found; /* the caller's; NULL: none is wanted */
+  StepForecast *found; /* given by the caller; NULL: none */
   StepForecast  here;
-  PetscBool     used, failed; /* by the last attempt; by any */
+  PetscBool     used, failed; /* used by the last attempt; failed in any attempt */
 } Forecast;
 
-/* Who looks on while a load step is solved: run/progress.c. Members may be NULL */
+/* Callbacks while a load step is solved (run/progress.c); any may be NULL */
 typedef struct {
-  PetscErrorCode (*begin)(Simulation); /* before a load step */
-  PetscErrorCode (*reach)(Simulation); /* the state has moved on */
+  PetscErrorCode (*begin)(Simulation); /* called before a load step */
+  PetscErrorCode (*reach)(Simulation); /* called after each converged attempt */
   PetscErrorCode (*optimizer)(Tao, void *);
   PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
 } StepObserver;
 
-/* What the folders from here on work on */
+/* The simulation object, used by state, measure, step and run */
 struct _n_Simulation {
   MPI_Comm     comm;
   Scene        scene;
   DM           dm;
   Elasticity   elasticity;
-  Contact      contact; /* NULL when the scene names no pair */
+  Contact      contact; /* NULL if the scene has no contact pair */
   Prescribed   prescribed;
   DeadLoads    loads;
   Temperatures temperatures;
   Springs      springs;
   RigidBodies  rigid;
   Ties         ties;
-  Mat          follows; /* slope of the pressures that follow their faces, of followers.c; NULL before there is one
-                           [force/length] */
+  Dynamics     dynamics;
+  Mat          follows; /* derivative of the follower loads (followers.c); NULL until needed [force/length] */
   VertexPlaces places;
-  PetscBool quadratic; /* a load step is a quadratic program: every body is linear, or the scene asks for the model */
-  Mat       K;
-  Vec       mass;
-  PetscReal stiffness;  /* the largest of the bodies', Young's modulus times length [force/length] */
-  KSP       ksp;        /* of a quadratic step without contact */
-  PetscInt  first_step; /* of this run: 0, or that which it goes on with */
-  PetscReal increment;  /* of time, that a load step under way is tried with next; 0: all that is left of it */
-  LoadPath  path;
+  PetscBool    quadratic; /* load steps are quadratic programs: every body is linear, or the scene asks for it */
+  Mat          K;
+  Vec          mass;
+  PetscReal    stiffness;  /* largest of all bodies: Young's modulus times length [force/length] */
+  KSP          ksp;        /* for quadratic steps without contact */
+  PetscInt     first_step; /* first load step of this run; not 0 after a restart */
+  PetscReal    increment; /* time increment of the next attempt within the current load step; 0: the rest of the step */
+  LoadPath     path;
   ContactHistory       history;
-  PetscContainer       subspace; /* what the optimizer keeps from one load step to the next; NULL before the first */
-  ContactLinearization linearization; /* of the last solve */
-  ContactLinearization upcoming;      /* at path.u, of the faces as they are */
+  PetscContainer       subspace;      /* kept by the optimizer from one load step to the next; NULL before the first */
+  ContactLinearization linearization; /* the contact linearization of the last solve */
+  ContactLinearization upcoming;      /* the linearization at path.u, without ramps of initial overlaps */
   PetscReal           *pressure, *gap, *stress;
-  PetscReal           *shear, *slip; /* of the rows, two each; NULL without friction */
+  PetscReal           *shear, *slip; /* two per contact row; NULL without friction */
   PetscInt             npoints;
   ContactPoint        *points;
   Results              results;
   Probes               probes;
-  StepTolerances       tolerances; /* once a solver has read its options: those that it has */
-  PetscBool            warm;       /* later load steps start from the path and pressures of the last */
-  PetscBool            monitor;    /* say when a step is cut or the gap linearized again */
+  StepTolerances       tolerances; /* updated with the solvers' options once these have been read */
+  PetscBool            warm;       /* start load steps from the path and pressures of the last ones */
+  PetscBool            monitor;    /* print cuts of load steps and contact updates */
   PetscBool           *beyond;     /* bodies that strain.c has warned of; NULL before the first load step */
-  PetscBool            estimate;   /* of the discretization error, at the end of every load step */
-  PetscInt             maxcuts;    /* of one load step */
-  const MeshMarks     *marks;      /* NULL: no cells are to be marked */
+  PetscBool            estimate;   /* estimate the discretization error at the end of every load step */
+  PetscInt             maxcuts;    /* limit of cuts in one load step */
+  const MeshMarks     *marks;      /* NULL: cells are not marked for refinement */
   Adapt                adapt;
   Forecast             forecast;
   Progress             progress;
   StepObserver         observer;
-  PetscInt             unheld;      /* attempts at this load step in a row that contact does not hold */
-  char                *cause;       /* of the first of them; NULL: there was none */
-  int                  interrupted; /* the signal that asked for an end */
-  PetscReal            penalty;     /* stiffness of the contact by that of the bodies; 0: constraints, no penalty */
+  PetscInt             unheld;      /* consecutive attempts at this load step that contact could not hold */
+  char                *cause;       /* reason of the first of these; NULL: none */
+  int                  interrupted; /* the signal that was caught; 0: none */
+  PetscReal            penalty;     /* -contact_penalty: contact stiffness relative to that of the bodies; 0:
+                                       constraints instead */
   RunReport            report;
-  RunTimes             start; /* what the clock and PETSc's events said when it began */
+  RunTimes             start; /* clock and PETSc's event times at the start of the run */
 };
 
-/* What the files of loads and constraints work on */
+/* Parts of the simulation that loads and constraints work on */
 static inline Bodies SimulationBodies(Simulation sim)
 {
   return (Bodies){sim->comm, sim->scene, sim->dm, sim->elasticity, sim->places, sim->mass};
@@ -174,6 +177,16 @@ static inline Constraints SimulationConstraints(Simulation sim)
 {
   return (Constraints){SimulationBodies(sim), &sim->prescribed, &sim->springs, &sim->rigid, &sim->ties, &sim->follows};
 }
+
+static inline PetscBool SimulationIsDynamic(Simulation sim)
+{
+  return (PetscBool)(sim->dynamics.mass != NULL);
+}
+
+/* inertia.c: of a load step that ends at this time */
+PETSC_INTERN PetscErrorCode InertiaBegin(Simulation, PetscReal time, PetscBool *changed);
+PETSC_INTERN PetscErrorCode InertiaGetForce(Simulation, Vec u, Vec *force);
+PETSC_INTERN PetscErrorCode InertiaAdvance(Simulation, PetscReal time, Vec u);
 
 /* path.c */
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);

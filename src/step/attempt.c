@@ -1,8 +1,10 @@
-/* One try to reach a time: solve, and linearize the gap again until it is true. */
+/* One attempt to reach a time: solve the problem with linearized contact, then repeat with updated contact until the
+   linearized gap agrees with the gap of the deformed faces. */
 #include "stepimpl.h"
 #include <math.h>
 
-/* Of the faces as they are */
+/* Linearizes the gap of all contact pairs at u, with the faces where they are: no ramp of an initial overlap is
+   applied. */
 static PetscErrorCode AttemptLinearizeFaces(Simulation sim, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -12,7 +14,7 @@ static PetscErrorCode AttemptLinearizeFaces(Simulation sim, Vec u, ContactLinear
   PetscFunctionReturn(0);
 }
 
-/* As a load step has it that ends at this time */
+/* Linearizes the gap at u for a load step that ends at `time`: ramps of initial overlaps are applied. */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -48,8 +50,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionReturn(0);
 }
 
-/* The true gap at u; whether the linearized one that u was found with differs from it by more than ends the updates,
-   and by more than is true */
+/* Measures the gap of the deformed faces at u and its difference from the linearized gap that u was found with.
+   is_true: the difference is small enough to end the contact updates. report->gap_untrue: it is too large for a
+   converged step. */
 static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report, PetscBool *is_true)
 {
@@ -69,7 +72,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscFunctionReturn(0);
 }
 
-/* What has moved since the linearization, and by how much at most */
+/* du = u - u_linearized; moved: its largest component [length] */
 static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal *moved)
 {
   PetscFunctionBegin;
@@ -87,7 +90,7 @@ static PetscErrorCode AttemptCopy(Vec u, Vec *copy)
   PetscFunctionReturn(0);
 }
 
-/* Negative; 0 where nothing is penetrated, or nothing can be */
+/* deepest = min(gap, 0): negative where a row is penetrated, 0 where none is or there are no rows */
 static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 {
   PetscReal least = 0.0;
@@ -101,9 +104,10 @@ static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 }
 
 /*
-   Faces that were farther apart than the reach of the search at u_linearized may have met in a step that moved them
-   by more. Looks again from there, as far as they moved; if u goes deeper through any of those rows than through its
-   own (as deep as a penalty lets it), they become sim->linearization.
+   Searches again for faces that were farther apart than the search distance at u_linearized. They may have met if the
+   solution u moved by more than half that distance. If the linearized gap of any row of the wider search is more
+   negative at u than that of the present rows (a penalty method allows some penetration), the wider linearization
+   replaces sim->linearization and missed is true.
 */
 static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach,
   PetscBool *missed)
@@ -116,7 +120,7 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   PetscFunctionBegin;
   *missed = PETSC_FALSE;
   PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
-  if (2.0 * moved > *reach) { /* both faces may have moved */
+  if (2.0 * moved > *reach) { /* each of the two faces may have moved by `moved` */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, &wide));
@@ -132,7 +136,7 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   if (*missed) {
     if (sim->monitor)
       PetscCall(PetscPrintf(sim->comm,
-        "Faces beyond the search distance went through each other by %g: searched again, to a distance of %g\n",
+        "Faces beyond the contact search distance penetrated by %g: searched again up to a distance of %g\n",
         -(double)least, (double)*reach));
     PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = wide;
@@ -140,7 +144,7 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   PetscFunctionReturn(0);
 }
 
-/* With the gap linearized at u_linearized, of all faces that can meet */
+/* Solves with the gap linearized at u_linearized. Repeats with a larger search distance until no face was missed. */
 static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol)
 {
@@ -158,8 +162,8 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscFunctionReturn(0);
 }
 
-/* One linearization is what was asked for: the step stands, and says how far it is from true. Of a limit above that
-   it is the failure */
+/* States in the report how much the gap still changes. With contact_updates: 1 the step counts as converged; with
+   more updates allowed it has failed. */
 static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepReport *report)
 {
   char            reason[192];
@@ -179,16 +183,16 @@ static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepRepor
       "contact did not converge: after %" PetscInt_FMT
       " contact updates %s still changes by %g, more than %g of the largest displacement",
       report->contact_updates,
-      report->untruth > report->gap_change ? "the slip, or what the normals turn by," : "the gap",
+      report->untruth > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
       (double)report->untruth, (double)sim->tolerances.gap_untrue));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
 
 /*
-   A vertex may carry a pressure in a step and have no row after it: because it slid off the other face, or because a
-   step that was too large left it deeper in the other body than the search looks. The second is no solution; the
-   first is one only without it.
+   Finds vertices that had a contact pressure in the solve and have no contact row at u. A vertex loses its row if it
+   slid over the edge of the opposite face (slid: another update is needed) or if it lies deeper in the other body than
+   the search reaches (the step has failed).
 */
 static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
   StepReport *report, PetscBool *slid)
@@ -221,7 +225,7 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
   PetscFunctionReturn(0);
 }
 
-/* Once a run */
+/* Warns of damped contact updates, once in a run */
 static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
@@ -236,7 +240,8 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
+/* Moves u_linearized to the next point of linearization, and sim->linearization with it. On entry `at_u` is the
+   linearization at u; it is used if u is that point, else destroyed. */
 static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpdateSecants *secants, Vec u,
   Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
@@ -259,9 +264,9 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpda
 }
 
 /*
-   One linearization: u with the gap of sim->linearization, `at_u` on exit the gap at u. end: u is the last, for its
-   gap is true or it is no solution; slid: vertices under pressure have no row at u, so that its gap is not known
-   there
+   One contact update: solves with sim->linearization, then linearizes the gap at the solution u (`at_u`). end: no
+   further update is needed, because the gap agrees or the solve failed. slid: vertices with a pressure have no row at
+   u, so their gap is unknown.
 */
 static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
@@ -290,12 +295,12 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 }
 
 /*
-   Linearizations are solved as far as the one before was true, and the last one, whose gap is true, again to the end.
-   again: the same one is solved further, for what the loose solve left may be all that makes its gap untrue. Where a
-   gap becomes no truer from one to the next, that may be why, too, and with friction what is found last depends the
-   more on what was found first. Weak springs alone would carry what is left. A foreseen start is as near as a loose
-   solve comes. A gap that is to be true to rounding is for answers that repeat, which loose solves alone would leave
-   apart.
+   Sets p->tolerance, the relative KKT error to which the next linearized problem is solved; 0: the tolerance of the
+   load step. Early updates are solved to a tenth of the relative change of the gap in the update before; the first to
+   1e-3, or 1e-4 with friction. The tolerance falls by ten where the change of the gap fell by less than half, because
+   the inexact solve may be the cause. The full tolerance is used for the last update, for a start from a forecast, with
+   weak springs (which would carry the residual), and where the gap tolerance is near rounding (for reproducible
+   results). again: the same linearization is solved once more, to a smaller tolerance. end: this is the last solve.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)
@@ -320,8 +325,8 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   PetscFunctionReturn(0);
 }
 
-/* Whether the linearization just solved is to be solved further: it is the last one, or the first, and no more untrue
-   than the solve was loose */
+/* again: whether the linearization just solved inexactly must be solved further. That is so for the last update, and
+   for the first one if the change of the gap is below the tolerance of its solve. */
 static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
   PetscBool *again)
 {
@@ -334,7 +339,8 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
   PetscFunctionReturn(0);
 }
 
-/* Back to the undeformed bodies, where that is the answer: sim->linearization and `at_u` are of them then */
+/* Tries the undeformed bodies as the solution of a step to zero load. rests: they are the solution;
+   sim->linearization and `at_u` are then of the undeformed bodies. */
 static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u, PetscBool *rests)
 {
@@ -361,8 +367,9 @@ static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, Con
   PetscFunctionReturn(0);
 }
 
-/* sim->linearization is the one u was found with; `at_u` on exit the one at u. foreseen: it is at u as given, where
-   the solve starts */
+/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit sim->linearization is
+   the one u was found with and `at_u` the one at u. foreseen: u is a forecast; the gap was linearized there and the
+   solve starts there. */
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
 {
@@ -419,7 +426,8 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
   PetscFunctionReturn(0);
 }
 
-/* sim->linearization becomes that at a foreseen u; else that of the last state, sim->upcoming, which is then no more */
+/* Sets sim->linearization: at u if u is a forecast; else at the last converged state, taken from sim->upcoming,
+   which becomes NULL */
 static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool foreseen, Vec u)
 {
   PetscFunctionBegin;
@@ -433,8 +441,9 @@ static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool for
   PetscFunctionReturn(0);
 }
 
-/* Failures that smaller parts of the load step may not end: two in a row do not. Where it is proved that contact does
-   not hold the loads, and nothing prescribed moves, one is enough: smaller parts have the same places */
+/* Counts attempts that failed because contact cannot hold the loads. At a count of 2 the step is not cut further. A
+   proven failure without prescribed motion counts 2, since smaller increments start from the same positions; others
+   count 1. */
 static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport *report)
 {
   Simulation sim = p->sim;
@@ -452,8 +461,8 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 }
 
 /*
-   The state moves to `time` if the solve converges; if not it stays, with the linearization at it. Rows, pressures
-   and gaps of the last good solve stay with it.
+   Attempts to advance the state to `time`. On success sim->path, sim->linearization, pressures and gaps become those of
+   the new state. On failure all of them stay as they were.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
 {
@@ -462,7 +471,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   ContactSolution      sol  = {.gap = NULL};
   ContactLinearization good = sim->linearization, at_u = NULL;
   PetscBool            foreseen;
-  Vec                  u;
+  Vec                  u, inertia;
 
   PetscFunctionBegin;
   if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeFaces(sim, sim->path.u, &sim->upcoming));
@@ -482,7 +491,11 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {
-    PetscCall(MeasureState(p.sim, p.time, p.load, u, &sol, report));
+    PetscCall(InertiaGetForce(sim, u, &inertia));
+    PetscCall(ElasticityCommit(sim->elasticity, u));
+    PetscCall(InertiaAdvance(sim, time, u));
+    PetscCall(MeasureState(p.sim, p.time, p.load, inertia, u, &sol, report));
+    PetscCall(VecDestroy(&inertia));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
     PetscCall(PathAdvance(&sim->path, time, &u));

@@ -1,10 +1,11 @@
-/* Weak springs that carry a load, or let a body go: nothing else holds it, and what they make of it is no answer. */
+/* Rejects solutions in which weak springs carry a notable load or a body moves far: nothing else holds that body. */
 #include "stepimpl.h"
 
-/* Of a body's dead loads, the sizes at its vertices summed */
+/* Largest force of a body's weak springs, as a fraction of the sum of the magnitudes of its nodal loads */
 static const PetscReal weak_springs_share = 0.01;
 
-/* carried[4 body]: the weak springs' resultant on each body, and the sum of the sizes of the loads at its vertices */
+/* carried[4 b .. 4 b + 2]: resultant of the weak springs on body b [force]; carried[4 b + 3]: sum of the magnitudes
+   of its nodal loads [force] */
 static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscReal carried[])
 {
   const PetscScalar *v, *k, *f;
@@ -33,7 +34,7 @@ static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscR
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged where a body under load hangs on its weak springs */
+/* Marks the solve as failed if the weak springs of a body carry more than weak_springs_share of its loads */
 PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
 {
   Scene      scene = p->sim->scene;
@@ -57,7 +58,8 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Of each body on weak springs the largest change of a displacement from u0 to u, squared; of others 0 */
+/* moved[b]: square of the largest displacement between u0 and u of a vertex of body b with weak springs; 0 for
+   bodies without [length^2] */
 static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal moved[])
 {
   const PetscScalar *k, *v0, *v;
@@ -83,8 +85,8 @@ static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, Pe
   PetscFunctionReturn(0);
 }
 
-/* Nor has one that follows another linearization of the gap, at u_linearized, and takes such a body farther from
-   there than it is long: faces that tilt have squeezed it out */
+/* Marks a contact update as failed if a body on weak springs moved farther from u_linearized than the cube root of
+   its volume: tilted contact faces have pushed it out. */
 PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
   const Bodies bodies = SimulationBodies(p->sim);
@@ -101,8 +103,8 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
     char            reason[256];
 
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "body \"%s\" slides or turns away, by %g where it is %g long: weak springs alone resist what presses it out; "
-      "friction, something that holds it, or stiffer springs than weak_springs: %g",
+      "body \"%s\" slides or turns away: it moved by %g, more than its size of %g, and only weak springs hold it; "
+      "add a support, friction, or stiffer springs than weak_springs: %g",
       scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
     if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }

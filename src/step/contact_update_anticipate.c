@@ -1,13 +1,13 @@
 /*
-   Between smooth surfaces J keeps the shape of the patches, so that its forces are those that the facets of a body
-   take evenly. In truth vertices that move turn the normals about them, and the patches bend; that would show at the
-   next linearization only, and die away slowly. So the rows under pressure are asked for another gap g', from which J
-   leads where the gap's derivative B has them closed: with the bodies responding to forces as on the diagonal of
-   their stiffness, D = diag(K)^-1,
+   Improves the contact update on smooth surfaces. The matrix J of the linearized gap uses fixed patches, so that its
+   transpose gives forces which are smooth over a body's facets. The exact derivative B of the gap also contains the
+   rotation of the normals and the bending of the patches. The difference would only show at the next contact update and
+   would decay slowly. Therefore the gap g of rows under pressure is replaced by g', for which the problem with J moves
+   these rows to where B predicts that they close. The bodies' response is approximated by D = diag(K)^-1:
 
      B D J^T w = g,   g' = J D J^T w.
 
-   At the solution of the load step both are 0.
+   At the solution of the load step g = g' = 0 in these rows.
 */
 #include "stepimpl.h"
 
@@ -17,11 +17,11 @@
 typedef struct {
   Mat J, B;
   Vec closed;         /* 1 for rows under pressure, 0 for others */
-  Vec D;              /* 0 on prescribed rows */
+  Vec D;              /* diag(K)^-1, 0 on prescribed rows [length/force] */
   Vec row, force, du; /* work */
 } GapResponse;
 
-/* y = what a matrix makes of the displacement that forces J^T x of the closed rows lead to, there; x on the others */
+/* y = A D J^T x on the rows under pressure, y = x on the others */
 static PetscErrorCode ResponseApply(GapResponse *r, Mat A, Vec x, Vec y)
 {
   PetscFunctionBegin;
@@ -45,7 +45,7 @@ static PetscErrorCode ResponseMult(Mat shell, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* 1 / diag(K), 1 where that is not known; 0 on prescribed rows */
+/* 1 / diag(K); 1 where the diagonal is not positive; 0 on prescribed rows */
 static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
 {
   PetscScalar *d;
@@ -61,7 +61,7 @@ static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* B D J^T w = g on the closed rows; whether it was found */
+/* Solves B D J^T w = g on the rows under pressure by GMRES; found: whether it converged */
 static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *found)
 {
   const MPI_Comm     comm = PetscObjectComm((PetscObject)g);
@@ -90,8 +90,8 @@ static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *fou
   PetscFunctionReturn(0);
 }
 
-/* Asks, in p->g as StepProblemSetContact() left it for lin, for that other gap where the last solution had rows under
-   pressure; nothing where no pair is smooth */
+/* Replaces g by g' (see above) in p->g on the rows that had a pressure in the last solution. Does nothing if no pair
+   has smooth surfaces. */
 PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
 {
   GapResponse r = {.J = lin->J, .B = lin->derivative};

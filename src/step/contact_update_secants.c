@@ -1,20 +1,21 @@
 /*
-   Where the gap is linearized next. Linearized at x it leads to the solution G(x); where x = G(x) it is true. To go
-   on at G(x) each time leaves out what the gap's second derivatives do to the forces: soft motions then come to rest
-   slowly, or go in a circle. Secants of the last ways f = G(x) - x foresee it: the next x is that combination of the
-   last solutions whose ways make up the shortest one (D. G. Anderson, J. ACM 12 (1965)). Where the gap gets no truer
-   nonetheless, as between faces with kinks, x goes there by half.
+   Chooses the point at which the gap is linearized next. Let G(x) be the solution of the problem linearized at x; the
+   gap agrees at a fixed point x = G(x). The simple iteration x <- G(x) omits the second derivatives of the gap: soft
+   motions then converge slowly or cycle. Anderson acceleration is used instead (D. G. Anderson, J. ACM 12 (1965)): x
+   becomes the combination of the last solutions with the smallest combined residual f = G(x) - x. If the change of the
+   gap stops falling, as between faces with kinks, only half the step to the new x is taken.
 */
 #include "stepimpl.h"
 
 #define SECANTS_PROGRESS \
-  0.9 /* of the least change of the gap so far, which a solution must come below to count as progress */
-#define SECANTS_PATIENCE \
-  2 /* solutions in a row without progress, after which the next linearization is made short of where it would be */
-#define SECANTS_SHORT     0.5  /* of the way there */
-#define SECANTS_DEPENDENT 1e-2 /* part of a secant off the newer ones, below which it says nothing of its own */
+  0.9 /* a solution makes progress if its gap change is below this multiple of the smallest one so far */
+#define SECANTS_PATIENCE 2   /* solutions in a row without progress, after which steps are damped */
+#define SECANTS_SHORT    0.5 /* damping factor of the step to the next x */
+#define SECANTS_DEPENDENT \
+  1e-2 /* a secant is dropped if its part orthogonal to the newer secants is smaller than
+                                  this fraction of it */
 
-/* Whether this is the last of so many solutions without progress */
+/* Whether SECANTS_PATIENCE solutions in a row were without progress, this one included */
 static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
 {
   if (s->n == 0 || change < SECANTS_PROGRESS * s->least) {
@@ -24,7 +25,8 @@ static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
   return (PetscBool)(s->stalls >= SECANTS_PATIENCE);
 }
 
-/* The secant from the last solution to u becomes the newest one, in the place of the oldest */
+/* Stores the differences of the solution u and of the residual `way` from the last ones. They replace the oldest
+   pair. */
 static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec way)
 {
   Vec *swap[2] = {s->ways, s->solutions}, now[2] = {way, u}, before[2] = {s->way, s->u};
@@ -41,7 +43,8 @@ static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec way)
   PetscFunctionReturn(0);
 }
 
-/* Takes off the way f what the secants have of it, and off x what solutions change along them */
+/* Anderson update: removes from the residual f its components along the stored residual differences, and applies the
+   corresponding changes of the solution to x. The differences are orthonormalized first, newest first. */
 static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
 {
   Vec         way[GAP_SECANTS], solution[GAP_SECANTS];
@@ -80,8 +83,8 @@ static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Moves the point of linearization on from where it led to u, whose true gap is off the linearized one by change;
-   damped: it is made short of where it would be */
+/* Moves u_linearized to the next point of linearization. change: measure of the residual, here the gap change of the
+   solution u found with u_linearized. damped: only half the step was taken. */
 PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *s, PetscReal change, Vec u, Vec u_linearized,
   PetscBool *damped)
 {

@@ -1,13 +1,14 @@
-/* How far a linearization of contact is from that at the state which was found with it, beside the gap. */
+/* Differences between a contact linearization and the one at its solution, apart from the gap: rotation of the
+   normals and change of the slip. */
 #include "stepimpl.h"
 
-/* What of the normals' turning a gap counts for: the forces stand askew by a hundred times the relative change of the
-   gap at most */
+/* Weight of the rotation of the normals in the criterion: a rotation of 100 times the relative gap tolerance is
+   accepted */
 static const PetscReal askew = 1e-2;
 
 /*
-   How far normals have turned: of each pair the forces that its pressures stand askew by, over those forces, and the
-   largest of these. row: of the rows of sim->linearization in that at the state
+   Rotation of the normals between sim->linearization and at_u: over all pairs the largest sum_r p_r m_r |n' - n| /
+   sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->linearization, or negative
 */
 static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
@@ -41,7 +42,8 @@ static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const Contac
   PetscFunctionReturn(0);
 }
 
-/* The largest difference of the slip from the last state to u along the tangents there and that of the solution */
+/* Largest difference over the rows between the slip measured along the tangents at u and the slip of the solution
+   [length]. Both are counted from the last state of equilibrium. */
 static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
@@ -77,8 +79,9 @@ static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
-   normals, the change of the slip, and untruth, which all three are worth as changes of the gap */
+/* Compares the linearization at_u at the solution u with sim->linearization, by which u was found.
+   report->gap_change must be set. Sets normals_turn, slip_change, and untruth = max(gap_change, slip_change, askew
+   normals_turn max|u|) [length] */
 PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {

@@ -1,8 +1,10 @@
-/* The true energy of the bodies as objective: infinite where an element is turned inside out. */
+/* Objective of a load step with nonlinear bodies: strain energy minus work of the loads. It is infinite where an
+   element is inverted. */
 #include "stepimpl.h"
 #include <math.h>
 
-/* The bodies' displacements of an iterate, in p->w where those of tied faces follow others */
+/* u: the bodies' displacements for an iterate of the optimizer. With ties u = p->w, where tied nodes follow the
+   nodes that they depend on. */
 static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
 {
   PetscFunctionBegin;
@@ -28,6 +30,7 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
   if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
+  if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->sim->dynamics, u, f, NULL));
   if (EnergyIsFinite(*f)) PetscCall(FollowersSubtract(p, u, f, NULL));
   *f = EnergyIsFinite(*f) ? *f - PetscRealPart(work) : INFINITY;
   PetscFunctionReturn(0);
@@ -36,7 +39,7 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
 PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
 {
   StepProblem *p      = (StepProblem *)ctx;
-  PetscReal    energy = 0.0; /* which the objective has */
+  PetscReal    energy = 0.0; /* unused: EnergyObjective() has added the energies */
   Vec          u;
 
   PetscFunctionBegin;
@@ -51,6 +54,7 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, G));
+  PetscCall(SchemeAddForce(&p->sim->dynamics, u, &energy, G));
   PetscCall(TiesGather(&p->sim->ties, G));
   PetscCall(ProximalAdd(p, u, &energy, G));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, G));

@@ -1,7 +1,8 @@
 /*
-   Pressures that follow the faces they push on. Within a solve their load is linear in the displacement: that about a
-   centre and its slope there, the symmetric part, which has an energy. The centre goes to the solution until the load
-   there is the one it was found with: Newton's method, where the slope is symmetric as a whole.
+   Pressures that follow their faces (follower loads). Within a solve the load is linear in the displacement: its value
+   at a centre plus the symmetric part of its derivative there, so that it has a potential. After each solve the centre
+   moves towards the solution, until the linearized load agrees with the load at the solution. Where the derivative is
+   symmetric this is Newton's method.
 */
 #include "stepimpl.h"
 
@@ -15,7 +16,8 @@ static PetscBool FollowersAny(Scene scene)
   return any;
 }
 
-/* load: dead loads and those that follow, at u; slope: NULL, or of the latter */
+/* load: dead plus follower loads at u [force]; slope: derivative of the follower loads, not computed if NULL
+   [force/length] */
 static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
 {
   Simulation sim = p->sim;
@@ -41,7 +43,7 @@ static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat s
   PetscFunctionReturn(0);
 }
 
-/* Loads about the centre that there is */
+/* Recomputes p->load and its derivative at the centre p->followed */
 static PetscErrorCode FollowersLinearize(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -50,7 +52,7 @@ static PetscErrorCode FollowersLinearize(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* In place of the dead loads, about the base */
+/* Replaces the dead loads in the problem by the loads linearized at base, if any pressure follows its face */
 PetscErrorCode FollowersBegin(StepProblem *p)
 {
   Simulation sim = p->sim;
@@ -64,7 +66,7 @@ PetscErrorCode FollowersBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Secants are those of one problem: the next one's gap is another */
+/* Discards the secants of the follower loads: they belong to another contact gap */
 PetscErrorCode FollowersForget(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -73,8 +75,8 @@ PetscErrorCode FollowersForget(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Energy and force of the loads' slope at u are taken from the problem's; force may be NULL. Dead at the centre they
-   are in p->load */
+/* Subtracts the potential and the force of the linear part of the follower loads at u, K_f (u - centre), from the
+   problem's; force may be NULL. The constant part is in p->load. */
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
@@ -82,8 +84,8 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve that has converged to u is to be followed by another one, about u. At the end p->load is that at u,
-   where no slope is needed */
+/* Whether another solve with the follower loads linearized at a new centre must follow. again: yes. If not, p->load
+   becomes the load at u. */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
@@ -115,6 +117,6 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
     PetscCall(FollowersLinearize(p));
   } else
     PetscCall(ReportReason(report, PETSC_FALSE,
-      "a pressure that follows its face comes to no equilibrium: smaller load steps may do better"));
+      "no equilibrium was found with the pressures that follow their faces; use smaller load steps"));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /*
-   Load steps that were solved on another mesh of the same bodies, as a coarser one that -accuracy began with: the
-   displacements and pressures that each of them ended with are interpolated, and the step starts from there. The gap
-   is linearized there first, so that fewer updates are left.
+   Starts load steps from results on another mesh of the same bodies, such as the coarser mesh of an -accuracy run.
+   Displacements and pressures at the end of each load step are interpolated to this mesh. The gap is linearized at the
+   interpolated displacement, so that fewer contact updates are needed.
 */
 #include "stepimpl.h"
 
@@ -55,7 +55,8 @@ PetscErrorCode StepForecastDestroy(StepForecast *forecast)
   PetscFunctionReturn(0);
 }
 
-/* To this mesh's nodes; *here stays empty where nodes of it are far from the other */
+/* Interpolates the fields of another mesh to the nodes of this one. *here stays empty if nodes of this mesh are too
+   far outside the other. */
 static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found, StepForecast *here)
 {
   const PetscInt     n = found->nsteps * found->nfields;
@@ -88,7 +89,8 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
   PetscFunctionReturn(0);
 }
 
-/* Once there are mesh and contact; from then on the forecast is kept of this mesh */
+/* Interpolates the given forecast to this mesh; afterwards the caller's struct collects the states on this mesh.
+   Call when mesh and contact exist. */
 PetscErrorCode ForecastSetUp(Simulation sim)
 {
   StepForecast *found = sim->forecast.found;
@@ -104,7 +106,7 @@ PetscErrorCode ForecastSetUp(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* The pressures of a pair as a field, or back */
+/* Copies the pressures of a pair to the first component of a nodal field, or back if `back` */
 static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Vec field, PetscBool back)
 {
   PetscScalar *a;
@@ -125,7 +127,7 @@ static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Ve
   PetscFunctionReturn(0);
 }
 
-/* At the end of a load step that converged */
+/* Appends the state at the end of a converged load step to the caller's forecast */
 PetscErrorCode ForecastRecord(Simulation sim)
 {
   StepForecast *found = sim->forecast.found;
@@ -144,8 +146,8 @@ PetscErrorCode ForecastRecord(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* u, and the pressures that are remembered, as the forecast has them for the problem's time; *foreseen: whether it
-   has that, and it is of use */
+/* Sets u and the stored pressures to the forecast for time p->time. *foreseen: whether a forecast for that time
+   exists and has a finite energy */
 PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 {
   Simulation      sim    = p->sim;
@@ -168,7 +170,8 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   PetscFunctionReturn(0);
 }
 
-/* After an attempt: one that used the forecast and failed is to be made again without, as are all later ones */
+/* Called after an attempt. If an attempt with a forecast failed, the forecast is dropped for the rest of the run and
+   *again is true. */
 PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *again)
 {
   PetscFunctionBegin;

@@ -1,20 +1,20 @@
 /*
-   Friction of the pairs that have it: forces tau along the tangents of each row, of the slip since the last state of
-   equilibrium,
+   Coulomb friction. The friction force tau of a contact row is a 2-vector along its tangents. It depends on the slip
+   since the last state of equilibrium:
 
-     |tau| <= b,   tau = -b slip/|slip| where there is slip,   b = min(limit, coefficient x force of the row),
+     |tau| <= b,   tau = -b slip/|slip| if slip != 0,   b = min(limit, coefficient x normal force of the row).
 
-   as norm terms of the optimization problem. What is remembered between solves stands in the frame of space: tangents
-   are those of one linearization.
+   The optimizer treats these laws as norm terms. Forces are stored between solves in global coordinates, since the
+   tangents belong to one linearization.
 */
 #include "stepimpl.h"
 
-/* What sticks has a coefficient beyond any that is measured: with an infinite one a vertex may neither stick nor lift
-   off, where it would carry no pressure but a tangential force */
+/* Sets limit and coefficient of each row. `stick: true` uses a coefficient of 1,000: with an infinite one the force
+   bound of a vertex at zero pressure would be undetermined. */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
-  const PetscReal    sticks = 1e3;
-  Scene              scene  = p->sim->scene;
+  const PetscReal    sticks = 1e3, share = StepProblemShare(p);
+  Scene              scene = p->sim->scene;
   const PetscScalar *mass;
   PetscScalar       *limit, *coefficient;
 
@@ -27,7 +27,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     PetscReal               mu   = 0.0;
 
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
-    limit[r]       = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) : PETSC_INFINITY;
+    limit[r] = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) / share : PETSC_INFINITY;
     coefficient[r] = mu >= PETSC_INFINITY && limit[r] >= PETSC_INFINITY ? sticks : mu;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
@@ -36,7 +36,8 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
-/* slip = T (u - base) + T_full (base - path.u), T without prescribed columns; mask: 0 there, 1 elsewhere */
+/* slip = T u + t = T (u - base) + T_full (base - path.u). T is T_full without prescribed columns; mask: 0 in these
+   columns, 1 elsewhere */
 PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec mask)
 {
   StepFriction *f = &p->friction;
@@ -71,7 +72,7 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
   PetscFunctionReturn(0);
 }
 
-/* Tells the optimizer; scale: of the forces that are remembered, 0 where they are none to begin with */
+/* Passes the friction laws to the optimizer, and as a start the stored forces times scale */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
   ContactLinearization  lin = p->sim->linearization;
@@ -90,7 +91,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
     for (PetscInt a = 0; a < 2; ++a) {
       const PetscReal *t = &lin->tangent[6 * r + 3 * a];
 
-      f[2 * r + a] = scale * (t[0] * kept[0] + t[1] * kept[1] + t[2] * kept[2]);
+      f[2 * r + a] = scale / StepProblemShare(p) * (t[0] * kept[0] + t[1] * kept[1] + t[2] * kept[2]);
     }
   }
   PetscCall(VecRestoreArrayWrite(force, &f));
@@ -99,7 +100,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscFunctionReturn(0);
 }
 
-/* Forces and slip at a solution; the forces are remembered */
+/* Stores friction forces and slips of a solution in sol, and the forces in the contact history */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->linearization;
@@ -112,15 +113,15 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(TaoIPFilterGetNormTermForces(tao, &force));
   PetscCall(VecDuplicate(force, &sol->shear));
   PetscCall(VecDuplicate(force, &sol->slip));
-  PetscCall(VecCopy(force, sol->shear));
+  PetscCall(VecAXPBY(sol->shear, StepProblemShare(p), 0.0, force));
   PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
-  PetscCall(VecGetArrayRead(force, &f));
+  PetscCall(VecGetArrayRead(sol->shear, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     for (PetscInt c = 0; c < 3; ++c)
       m->shear[3 * ContactHistoryIndex(m, lin, r) + c] =
         PetscRealPart(f[2 * r] * lin->tangent[6 * r + c] + f[2 * r + 1] * lin->tangent[6 * r + 3 + c]);
   }
-  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCall(VecRestoreArrayRead(sol->shear, &f));
   PetscFunctionReturn(0);
 }

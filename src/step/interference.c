@@ -1,11 +1,11 @@
 /*
-   An overlap that follows a ramp: the faces of its pair count as farther apart than they are by what the ramp has yet
-   to bring, so that an overlap as large as is meant closes from nothing. The gap of a row grows as if its mortar face
-   stood off along the row's normal.
+   Initial overlaps that follow a ramp. The gap of a pair is increased by the part of its overlap that the ramp has not
+   yet applied, (1 - ramp factor) x overlap. At factor 0 an overlap of exactly the given size is in touch without
+   pressure. The increase acts along the normal of each row.
 */
 #include "stepimpl.h"
 
-/* 1 at the rows of a component of the pair's mortar face */
+/* mark = 1 at the given displacement component of all nodes of the pair's mortar face, 0 elsewhere */
 static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt component, Vec mark)
 {
   IS              is;
@@ -25,7 +25,8 @@ static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt c
   PetscFunctionReturn(0);
 }
 
-/* Adds to the gap of the pair's rows what moving its mortar face off by a distance does */
+/* Adds to the gap of the pair's rows the effect of a rigid translation of its mortar face by `distance` along the
+   row's normal */
 static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscReal distance, ContactLinearization lin)
 {
   PetscScalar       *g;
@@ -55,7 +56,7 @@ static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscR
   PetscFunctionReturn(0);
 }
 
-/* What the ramps leave of the overlaps at a time, so many times */
+/* Adds `times` the part of the overlaps that their ramps have not yet applied at `time` */
 PetscErrorCode InterferenceAdd(Simulation sim, PetscReal time, PetscReal times, ContactLinearization lin)
 {
   PetscFunctionBegin;

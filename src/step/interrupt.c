@@ -1,4 +1,4 @@
-/* SIGINT, SIGTERM and SIGUSR1 ask for an end after the Newton step that is under way. */
+/* SIGINT, SIGTERM and SIGUSR1 end a run after the current Newton step. */
 #include "stepimpl.h"
 #include <signal.h>
 
@@ -38,7 +38,7 @@ PetscErrorCode SimulationCatchSignals(void)
   PetscFunctionReturn(0);
 }
 
-/* Collective; once any rank has caught a signal all ranks know */
+/* Collective: stop is true on all ranks once any rank has caught a signal */
 PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
 {
   int any = (int)caught;

@@ -1,21 +1,23 @@
-/* A load step that is a linear system: PCG. */
+/* Load steps that are linear systems: solved by PCG. */
 #include "stepimpl.h"
 #include <petsctime.h>
 
-/* Solves with a factorization are worth an iteration or two each */
+/* estimated iterations of a solve that is preconditioned by a factorization */
 static const PetscReal factored_iterations = 2.0;
 
-/* The KSP's own convergence test, and what ends a run that a factorization will finish sooner */
+/* Context of LinearTest(): the KSP's own convergence test, and what is needed to decide when to replace AMG by a
+   factorization */
 typedef struct {
   PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
   PetscErrorCode (*destroy)(void *);
   void     *ctx;
   PetscReal first; /* residual */
-  PetscInt  later; /* solves with the same matrix */
-  PetscBool left;  /* for the factorization */
+  PetscInt  later; /* later solves with the same matrix */
+  PetscBool left;  /* stopped in order to factor the matrix */
 } LinearPatience;
 
-/* Now and then, what is to come at the rate so far */
+/* The KSP's own convergence test. Every ten iterations it also extrapolates the iterations still needed and stops if
+   a factorization is estimated to be cheaper. */
 static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
 {
   LinearPatience *p     = (LinearPatience *)ctx;
@@ -42,8 +44,8 @@ static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConver
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve() from x as it is, or from zero; it goes on from the iterate attained where a factorization takes the
-   place of the AMG; *its: of both together */
+/* KSPSolve() that starts from x if `resume`, else from zero. If it stops in favour of a factorization, a second
+   solve continues from the current iterate. *its: iterations of both solves */
 static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool resume, Vec b, Vec x, PetscInt *its)
 {
   LinearPatience patience = {.left = PETSC_FALSE};
@@ -73,10 +75,11 @@ static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool re
   PetscFunctionReturn(0);
 }
 
-/* By AMG or, where that is estimated to be the cheaper for the load steps to come, by a factorization */
+/* The solver of linear load steps: CG preconditioned by AMG, or by a factorization if that is estimated to be
+   cheaper over the remaining load steps */
 static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 {
-  const PetscReal usual = 35.0; /* iterations with an AMG */
+  const PetscReal usual = 35.0; /* iterations expected with AMG */
   PetscInt        solves, its = 0;
   PC              pc;
 
@@ -104,7 +107,8 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   PetscFunctionReturn(0);
 }
 
-/* A quadratic step without contact or bounds: one Newton step, K w = -force, is exact; resume: PCG begins at u */
+/* Solves a quadratic step without contact or bounds: one Newton step, K w = -force, is exact. resume: CG starts from
+   u. */
 PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report)
 {
   KSP                ksp = NULL;
@@ -118,6 +122,10 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   PetscCall(LinearGetKSP(p->sim, &ksp));
   PetscCall(ReportGetCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
+  if (SimulationIsDynamic(p->sim) && !resume) {
+    PetscCall(PathContinue(p->sim, p->time, u));
+    resume = PETSC_TRUE;
+  }
   if (resume) PetscCall(VecWAXPY(p->w, -1.0, u, p->base));
   PetscCall(LinearSolvePatiently(p->sim, ksp, resume, p->force, p->w, &its));
   PetscCall(PetscTime(&t1));

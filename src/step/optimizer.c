@@ -1,9 +1,9 @@
-/* A load step with constraints, or with an energy that is not quadratic: TAO. */
+/* Load steps with constraints, or with an energy that is not quadratic: solved by TAO. */
 #include "stepimpl.h"
 #include <petsctime.h>
 
-/* share/options/pdipm.opts has an option by the names of all releases, of which each asks for one: the other is no
-   mistake either */
+/* Marks two options of share/options/pdipm.opts as used. PETSc releases differ in the name of one option; the file
+   has both names, and PETSc would report the other one as unused. */
 static PetscErrorCode OptimizerKnowBothNames(void)
 {
   PetscBool given;
@@ -14,8 +14,8 @@ static PetscErrorCode OptimizerKnowBothNames(void)
   PetscFunctionReturn(0);
 }
 
-/* The filtered subspace method goes on where a loose solve has ended; what the interior point method knows of one is
-   worth nothing to the next */
+/* Sets the tolerance of early contact updates, p->tolerance. It applies only to the filtered subspace method, which
+   continues from an inexact solution. The interior point method cannot reuse one. */
 static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
 {
   const char *const uses[] = {"false", "true", "auto"};
@@ -31,7 +31,7 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscFunctionReturn(0);
 }
 
-/* ours: false where -tao_type has chosen another optimizer */
+/* Creates the optimizer of a load step. ours: false if -tao_type chose another type than ipfilter */
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
   Simulation sim = p->sim;
@@ -65,14 +65,13 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
   if (!*ours && !p->lower)
-    PetscCall(
-      StepProblemSetBounds(p, PETSC_INFINITY)); /* PETSc 3.18's TAOPDIPM reads bounds whether there are any or not */
+    PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads bounds even if there are none */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
   if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
-    "friction is for -tao_type ipfilter, and not for another optimizer");
+    "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
@@ -80,7 +79,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscFunctionReturn(0);
 }
 
-/* Pressures and slacks of the last solve, where any row had a pressure */
+/* Gives the optimizer the pressures times scale and the slacks of the last solve as a start. any: whether any row
+   had a pressure */
 static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Tao tao, PetscBool *any)
 {
   Vec slack, pressure;
@@ -88,7 +88,8 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale, slack, pressure, any));
+  PetscCall(
+    ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale / StepProblemShare(p), slack, pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
   PetscCall(VecDestroy(&pressure));
@@ -96,15 +97,15 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
 }
 
 /*
-   A solve resumes from u when only the gap was linearized again. A new load step starts from the path continued to it
-   once there is contact to continue (for proportional loading of linear bodies only the edge of the contact area then
-   changes), else from base; either only if no element is turned inside out there.
+   Sets the start u. With `resume` u stays as it is. A new load step starts from the extrapolated path if the last step
+   had contact pressures, else from base. The extrapolation is used only if its energy is finite. valid: false if an
+   element is inverted at base
 */
 static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
 {
   Simulation sim = p->sim;
   PetscReal  f = 0.0, scale = 0.0;
-  PetscBool  moved = resume;
+  PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
@@ -127,7 +128,7 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
   PetscFunctionReturn(0);
 }
 
-/* What only our own optimizer tells; another one chosen by -tao_type leaves it at zero, but for its own residual */
+/* Adds to the report what only TAOIPFILTER counts. With another -tao_type these counts stay zero. */
 static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, StepReport *report)
 {
   const PetscInt      *its;
@@ -151,27 +152,28 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, S
   PetscFunctionReturn(0);
 }
 
-/* What a user may know of a problem with friction that has no solution, or several */
+/* Appends the likely causes of a failed solve with friction to the reason */
 static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
 {
   char reason[512];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "%s; a body may slide away that friction no longer holds, tip over, or be wedged by a large coefficient",
+    "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it",
     report->reason));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 
-/* Of a solve that has found no solution: who moves, where there is none; or else what may be the cause */
+/* Explains a failed solve: names the bodies that contact cannot hold, or else lists likely causes */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
   char  reason[512];
   char *unbounded;
 
   PetscFunctionBegin;
-  if (!p->lower) PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (!p->lower && !SimulationIsDynamic(p->sim))
+    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (p->unheld) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
@@ -215,16 +217,18 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(ContactSolutionCreate(lin->g, sol));
   PetscCall(StepProblemConstraint(tao, u, sol->gap, p));
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
-  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP, "-tao_type gives no multipliers, and so no contact pressures");
+  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP,
+    "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
+  PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactHistoryStore(&p->sim->history, lin, sol, slack ? slack : sol->gap,
-    p->sim->stiffness)); /* no rows, or another optimizer: no slacks */
+    p->sim->stiffness)); /* NULL without rows; only TAOIPFILTER has slacks */
   PetscFunctionReturn(0);
 }
 
-/* What the next solve with the same stiffness begins with */
+/* Keeps the subspace of this solve for the next solve with the same stiffness */
 static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
 {
   PetscContainer space;
@@ -237,7 +241,7 @@ static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What the preconditioner has done before this solve, whose subspace may have been kept from others */
+/* Counts of the preconditioner before this solve; the subspace may come from earlier solves */
 static PetscErrorCode OptimizerGetCounts(Tao tao, PCAMGFCounts *counts)
 {
   KSP ksp;

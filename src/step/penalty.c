@@ -1,8 +1,9 @@
 /*
-   The penalty method, to compare with: min E(u) - load^T u + 1/2 sum m rho min(c, 0)^2 by Newton's method with PCG.
+   Penalty method, for comparison: min E(u) - load^T u + 1/2 sum m rho min(c, 0)^2 by Newton's method with PCG.
 
-   Its pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is a multiple of what the bodies resist with
-   at the row itself, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c < 0, else 0.
+   The pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is the factor of -contact_penalty times the
+   stiffness of the bodies at the row, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c <
+   0, else 0.
 */
 #include "stepimpl.h"
 #include <petscsnes.h>
@@ -16,7 +17,7 @@ typedef struct {
   Vec          stiffness; /* m rho [force/length] */
   Vec          force;     /* m rho max(-c, 0) [force] */
   Mat          K, DJ, JtDJ, A;
-  PetscInt     niterations, iterations[PENALTY_MAX_NEWTON]; /* of PCG, by Newton step */
+  PetscInt     niterations, iterations[PENALTY_MAX_NEWTON]; /* iterations of PCG in each Newton step */
 } Penalty;
 
 /* m rho = factor / sum_j J_j^2/K_jj */
@@ -52,7 +53,7 @@ static PetscErrorCode PenaltyStiffness(Mat J, Mat K, PetscReal factor, Vec stiff
   PetscFunctionReturn(0);
 }
 
-/* c and the forces of the penetrated rows at u */
+/* c: linearized gap at u; force = m rho max(-c, 0) [force] */
 static PetscErrorCode PenaltyForce(Penalty *penalty, Vec u)
 {
   PetscFunctionBegin;
@@ -78,7 +79,7 @@ static PetscErrorCode PenaltyGradient(SNES snes, Vec u, Vec G, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* J^T D J at u */
+/* J^T D J at u, with D = m rho where c < 0 */
 static PetscErrorCode PenaltyProduct(Penalty *penalty, Vec u)
 {
   PetscScalar       *d;
@@ -114,7 +115,7 @@ static PetscErrorCode PenaltyHessian(SNES snes, Vec u, Mat A, Mat Apre, void *ct
   PetscFunctionReturn(0);
 }
 
-/* PETSc's own test, and an end when a signal has asked for one; counts the iterations of PCG on the way */
+/* SNES convergence test: PETSc's default, and a stop if a signal was caught. Also records the iterations of PCG. */
 static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, PetscReal gnorm, PetscReal fnorm,
   SNESConvergedReason *reason, void *ctx)
 {
@@ -129,7 +130,7 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
   if (stop && !*reason)
-    *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for it; InterruptReport() says what it was */
+    *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for a signal; InterruptReport() states it */
   PetscFunctionReturn(0);
 }
 
@@ -165,9 +166,9 @@ static PetscErrorCode PenaltyDestroy(Penalty *penalty)
 }
 
 /*
-   Full steps: with exact ones the set of penetrated rows settles after a few, as in an active set method. A line
-   search or loosely solved systems keep it from settling: on two_block, mesh 1, five to ten times as many Newton
-   steps
+   Newton's method with full steps and exact linear solves. The set of penetrated rows then settles in a few steps, as
+   in an active set method. With a line search or inexact solves two_block, mesh 1, took five to ten times as many
+   steps.
 */
 static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
 {
@@ -223,7 +224,7 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
   PetscFunctionReturn(0);
 }
 
-/* Pressures and gaps at u, whose forces the penalty has at hand */
+/* Stores gaps and pressures at u from the penalty forces */
 static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
 {
   Simulation sim = penalty->p->sim;
@@ -236,7 +237,7 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
   PetscFunctionReturn(0);
 }
 
-/* resume: start from u as it is */
+/* Solves by the penalty method. resume: start from u */
 PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   Penalty        penalty;

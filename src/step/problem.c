@@ -1,16 +1,16 @@
-/* The optimization problem of one load step: what both models of the energy share. */
+/* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
 #include "stepimpl.h"
 
 /*
-   Energy and gradient at base come from the elements, so that the prescribed rows' coupling, which the tangent does
-   not hold, is in them. The quadratic model takes the tangent at the last state; the energy's own callbacks assemble
-   theirs.
+   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
+   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
+   energy the callbacks assemble the tangent at each iterate.
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
   const Constraints constraints = SimulationConstraints(sim);
   PetscScalar       work        = 0.0;
-  PetscBool         linear;
+  PetscBool         linear, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
@@ -28,13 +28,14 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(TemperaturesApply(&sim->temperatures, time));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
+  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path.u, &p->force));
   PetscCall(VecDuplicate(sim->path.u, &p->Kw));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (!linear || changed) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -43,12 +44,14 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
     PetscCall(VecAXPY(p->force, -1.0, p->load));
   }
   p->energy -= PetscRealPart(work);
+  PetscCall(SchemeAddForce(&sim->dynamics, p->base, &p->energy, p->force));
   PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);
 }
 
-/* g + J_full (u - u_linearized) = [g + J_full (base - u_linearized)] + J (u - base), J without prescribed columns */
+/* Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + J (u - base) with
+   p->g = g + J_full (base - u_linearized). J is J_full without prescribed columns. */
 PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, Vec u_linearized)
 {
   Vec mask;
@@ -70,8 +73,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscFunctionReturn(0);
 }
 
-/* |u - base| <= increment, or no bound at all where that is infinite; prescribed rows are held by the problem itself
-   and need none */
+/* Sets bounds |u - base| <= increment; an infinite increment gives infinite bounds. Prescribed rows get no bounds. */
 PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 {
   PetscFunctionBegin;
@@ -119,7 +121,7 @@ PetscErrorCode StepProblemConstraint(Tao tao, Vec u, Vec c, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* A matrix that is assembled and does not change: its object state tells the optimizer so */
+/* Callback for a constant matrix. It changes nothing, so the optimizer sees an unchanged object state. */
 PetscErrorCode StepProblemConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
 {
   PetscFunctionBegin;

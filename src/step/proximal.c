@@ -1,19 +1,19 @@
 /*
-   Free motions of rigid bodies have no stiffness of their own, and solvers ask for some. They are given a small one
-   about a centre, which follows the solutions until no force is left in it: the proximal point method, with 1/2 (x -
-   centre)^T held (x - centre) added to the energy. Its rate is that stiffness by that of what holds the bodies.
+   Proximal point method for bodies that are held by contact or friction alone. A rigid body's free motions have no
+   stiffness, but the solvers need a positive definite one. Therefore 1/2 (x - centre)^T held (x - centre) is added to
+   the energy, with a small diagonal `held`. The centre moves to each solution until this term exerts no force. The
+   convergence rate is the ratio of `held` to the stiffness of what holds the bodies.
 
-   Where friction is all that holds an elastic body, or nearly not, and no solution has been found, all bodies are
-   given such a stiffness: what is left to decide are small motions.
+   The same is done for all bodies if only friction holds an elastic body and the first solve failed.
 */
 #include "stepimpl.h"
 
-/* As many centres there may be; of the force that is left, once it ought to fall, more than this part is none that
-   contact or springs take up */
+/* max_centres: limit of solves. After `patience` solves the force of the proximal term must fall below `stuck` times
+   its last value; otherwise neither contact nor springs hold the bodies. */
 static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
-/* force += held (x - centre), with its energy; force may be NULL */
+/* Adds the proximal term at x: its energy, and held (x - centre) to force, which may be NULL */
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
@@ -21,7 +21,7 @@ PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec f
   PetscFunctionReturn(0);
 }
 
-/* The centre goes to x; the quadratic model has its energy and force at base */
+/* Moves the centre to x and updates energy and force at base of the quadratic model */
 static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 {
   PetscReal before = 0.0, after = 0.0;
@@ -38,11 +38,11 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Before the first solve: about the base, where the quadratic model has neither energy nor force of it */
+/* Sets up the proximal term of rigid bodies with the centre at base, where its energy and force are zero */
 PetscErrorCode ProximalBegin(StepProblem *p)
 {
   PetscFunctionBegin;
-  if (!p->sim->rigid.n) PetscFunctionReturn(0);
+  if (!p->sim->rigid.n || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
   PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
   p->held = p->sim->rigid.held;
   PetscCall(VecDuplicate(p->base, &p->centre));
@@ -59,7 +59,7 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* A tangent has that of rigid bodies by itself */
+/* Adds `held` to K after a failed solve; for rigid bodies the tangent contains it already */
 PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
   PetscFunctionBegin;
@@ -67,8 +67,8 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* Once, and with friction only: a solve that has found no solution is to be followed by others, about the base, that
-   know small motions alone */
+/* Prepares a second try after a failed solve with friction: all bodies get a proximal term, centred at base. again:
+   try it. Done once per problem. */
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   const Bodies    bodies = SimulationBodies(p->sim);
@@ -77,7 +77,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
   PetscFunctionBegin;
   *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld &&
-                       !p->sim->interrupted && EnergyIsFinite(p->energy));
+                       !p->sim->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));
@@ -96,7 +96,8 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Solves about one centre after another that move on by the same way each: no proof that nothing holds the body */
+/* Reports a rigid motion that continues at the same rate from solve to solve. This does not prove that nothing holds
+   the body. */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
   Vec way;
@@ -104,7 +105,7 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &way));
   PetscCall(VecWAXPY(way, -1.0, p->centre, u));
-  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found that friction holds"));
+  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
   PetscCall(RigidMotionReport(p->sim, way, "no solve brings it to rest", report));
   PetscCall(VecDestroy(&way));
   p->moves_on = PETSC_TRUE;
@@ -114,14 +115,15 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that forces drive is not held"));
+  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
   PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (!p->unheld)
-    PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found of the rigid bodies that forces drive"));
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "no equilibrium was found for the rigid bodies that are driven by forces"));
   PetscFunctionReturn(0);
 }
 
-/* Whether a solve that has converged to u is to be followed by another one, about u */
+/* Whether another solve with the centre at u must follow. again: yes, since the proximal term still exerts a force */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);

@@ -1,7 +1,7 @@
-/* The quadratic model of the energy about the base state; exact where every body is linear. */
+/* Quadratic model of the energy about base. It is exact if every body is linear. */
 #include "stepimpl.h"
 
-/* Objective at u; leaves w = u - base and K w in the problem */
+/* f = energy + force^T w + 1/2 w^T K w with w = u - base; p->w and p->Kw keep w and K w */
 PetscErrorCode QuadraticEnergy(StepProblem *p, Vec u, PetscReal *f)
 {
   PetscScalar linear, curvature;

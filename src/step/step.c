@@ -1,16 +1,16 @@
-/* A load step: tried as a whole, and in smaller parts where that fails. */
+/* A load step: attempted as a whole, then in smaller increments if that fails. */
 #include "stepimpl.h"
 #include <math.h>
 #include <petsctime.h>
 
-/* What is known of a load step before it is solved */
+/* Fills the part of the report that is known before the step is solved */
 static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepReport *report)
 {
   Scene scene = sim->scene;
 
   PetscFunctionBegin;
   report->step    = step + 1;
-  report->time    = (PetscReal)(step + 1);
+  report->time    = (PetscReal)(step + 1) * SceneTimeStep(scene);
   report->gap_min = report->gap_true = report->error_estimate = report->imbalance = NAN;
 
   report->load   = scene->ramps[0].factor[step];
@@ -40,6 +40,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
     .displacement      = sim->path.u,
     .stress            = sim->stress,
     .nodal             = sim->results.nodal,
+    .plastic           = sim->results.plastic,
     .density           = sim->results.density,
     .nquadrature       = sim->results.npoints,
     .quadrature        = sim->results.places,
@@ -50,7 +51,8 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscFunctionReturn(0);
 }
 
-/* A load step that is the next one: the path ends where it begins, or within it where it was tried in vain */
+/* Checks that `step` is the next load step: its start, or a time within it after a failed attempt, is the current
+   time */
 static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
 {
   const PetscInt next = (PetscInt)PetscFloorReal(sim->path.time);
@@ -64,10 +66,11 @@ static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
   PetscFunctionReturn(0);
 }
 
-/* Half of what was tried; false when the step has been cut often enough */
+/* Halves the increment after a failed attempt; again: false if no further cut is allowed */
 static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
 {
-  const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact); /* such a system does not get easier */
+  /* smaller increments would not help a linear system */
+  const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact);
 
   PetscFunctionBegin;
   *again = (PetscBool)(!linear && !sim->interrupted && report->cuts < sim->maxcuts && sim->unheld < 2);
@@ -148,7 +151,8 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(WorkWarn(sim, report));
   }
   if (!report->converged && sim->cause && !sim->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->cause)); /* not what came of smaller parts of the step */
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->cause)); /* the first cause, not that of a later, smaller
+                                                                 increment */
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;

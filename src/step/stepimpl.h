@@ -1,7 +1,7 @@
 /*
-   One load step: its files in the order in which they build on one another, each with what it offers to those
-   below it. A load step is attempted (attempt.c) as an optimization problem (problem.c), solved by one of three
-   solvers, measured, and kept or cut (step.c).
+   One load step. Files are in the order in which they depend on each other; each lists what it offers. A load step is
+   attempted (attempt.c) as an optimization problem (problem.c). One of three solvers solves it; the state is then
+   measured, and accepted or cut (step.c).
 */
 #ifndef STEPIMPL_H
 #define STEPIMPL_H
@@ -19,15 +19,15 @@ PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 
-/* contact_update_secants.c: where the gap, or a load, is linearized next, within one solve; begins as all zeros */
+/* contact_update_secants.c: Anderson acceleration of the contact updates or of the follower loads within one solve.
+   Starts as all zeros. */
 #define GAP_SECANTS 2
 typedef struct {
-  PetscInt  n, stalls; /* solutions; the last ones without progress */
-  PetscReal least;     /* change of the gap so far [length] */
-  Vec       u, way;    /* the last solution, and the way to it from where the gap was linearized [length] */
-  Vec
-    solutions[GAP_SECANTS]; /* what solutions changed by, the newest first; NULL beyond those that there are [length] */
-  Vec ways[GAP_SECANTS];    /* the same of the ways [length] */
+  PetscInt  n, stalls;        /* number of solutions; the last ones in a row without progress */
+  PetscReal least;            /* smallest change of the gap so far [length] */
+  Vec       u, way;           /* last solution u, and its residual u - u_linearized [length] */
+  Vec solutions[GAP_SECANTS]; /* differences of successive solutions, newest first; NULL if not yet there [length] */
+  Vec ways[GAP_SECANTS];      /* differences of successive residuals, newest first [length] */
 } ContactUpdateSecants;
 
 PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, PetscReal change, Vec u,
@@ -35,15 +35,16 @@ PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, 
 PETSC_INTERN PetscErrorCode ContactUpdateSecantsDestroy(ContactUpdateSecants *);
 
 /*
-   problem.c: min E(u) - load^T u  s.t.  g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
+   problem.c: min E(u) - load^T u s.t. g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
 
-   base is the last state with the prescribed displacements of this time. The quadratic model of E about it is
-   energy + force^T w + 1/2 w^T K w, w = u - base; w vanishes on prescribed rows.
+   base is the last state with the prescribed displacements of this time. The quadratic model of E about base is energy
+   + force^T w + 1/2 w^T K w, w = u - base; w is 0 on prescribed rows.
 */
 typedef struct {
-  Mat T;                  /* two rows a row of J: its slip; columns of prescribed rows are zero. NULL: no friction */
+  Mat T;                  /* two rows per row of J: slip along its tangents; prescribed columns are zero; NULL: no
+                             friction */
   Vec t;                  /* slip = T u + t [length] */
-  Vec limit, coefficient; /* one a row [force], [1] */
+  Vec limit, coefficient; /* one per row of J: largest friction force [force], coefficient [1] */
 } StepFriction;
 
 typedef struct {
@@ -51,32 +52,42 @@ typedef struct {
   PetscReal            time;
   Mat                  K;
   Vec                  base;
-  Vec                  load; /* dead load, and that which follows faces at p->followed [force]; NULL if there is none */
+  Vec                  load;   /* dead loads plus follower loads at p->followed [force]; NULL: none */
   Vec                  force;  /* gradient at base, zero on prescribed rows [force] */
-  PetscReal            energy; /* objective at base; of the quadratic model only */
+  PetscReal            energy; /* objective at base, for the quadratic model */
   Mat                  J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec                  g;
   Vec                  lower, upper; /* NULL without bounds */
-  ContactUpdateSecants secants;      /* where the load is taken next */
-  Vec                  followed; /* displacement at which the load is taken; NULL where no pressure follows its face */
-  Vec                  centre, held; /* of proximal.c, and the stiffness about it; NULL without [force/length] */
-  PetscBool            unheld;       /* contact cannot hold the loads where the bodies were at the last state */
-  PetscBool            moves_on;     /* no solve brings a body to rest that friction ought to hold */
-  char                *failed;       /* why a solve without it has found no solution; NULL: none has been tried */
-  PetscReal            carried;      /* what was left between the last solution and its centre [force] */
-  PetscReal            tolerance; /* KKT error that the present linearization is solved to; 0: that of the load step */
-  PetscBool            ended_early; /* the last solve ended by it, short of the load step's */
-  PetscReal            gap_change;  /* of the linearization before the last one */
+  ContactUpdateSecants secants;      /* of the follower loads */
+  Vec                  followed;     /* centre at which follower loads are linearized; NULL: no follower loads */
+  Vec                  centre, held; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
+                                        proximal term; NULL: none */
+  PetscBool            unheld;       /* proven: contact cannot hold the loads with the bodies where they were at the
+                                        last state */
+  PetscBool            moves_on;     /* a body that only friction holds did not come to rest in any solve */
+  char                *failed;       /* reason of the failed solve before the proximal term was added; NULL: none
+                                        failed */
+  PetscReal            carried;      /* force of the proximal term after the last solve [force] */
+  PetscReal            tolerance;    /* relative KKT error to which the present linearization is solved; 0: that of the
+                                     load step */
+  PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
+  PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
   Vec                  w, Kw;
 
   StepFriction friction;
 } StepProblem;
 
+/* Of the multipliers that are contact forces */
+static inline PetscReal StepProblemShare(const StepProblem *p)
+{
+  return SchemeShare(&p->sim->scene->dynamics);
+}
+
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
-/* Callbacks of TAO, also in quadratic.c and energy.c; the context is a StepProblem */
+/* TAO callbacks, also in quadratic.c and energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
@@ -109,22 +120,21 @@ PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
 
-/* PETSC_INFINITY is a finite number to IEEE arithmetic, and so to PetscIsInfOrNanReal() */
+/* PETSC_INFINITY is a finite floating point number, so PetscIsInfOrNanReal() does not detect it */
 static inline PetscBool EnergyIsFinite(PetscReal energy)
 {
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
-/* interference.c: overlaps that follow a ramp; gaps that wait for their load step are those of the faces as they are */
+/* interference.c: ramps of initial overlaps. Linearizations in sim->upcoming are stored without them. */
 PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
 /* check_weak_springs.c */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
-/* linear.c, optimizer.c, penalty.c: the three solvers; resume: from u as it is, with what is remembered of the last
-   solve */
-#define STEP_INVERTED "the prescribed displacements turn an element inside out at the start"
+/* linear.c, optimizer.c, penalty.c: the three solvers. resume: start from u and from the pressures of the last solve */
+#define STEP_INVERTED "the prescribed displacements invert an element at the start of the load step"
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
@@ -133,7 +143,7 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 /* contact_update_anticipate.c */
 PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
 
-/* zero_load_step.c: a load step back to where nothing is asked for */
+/* zero_load_step.c: load steps that return to zero load */
 PETSC_INTERN PetscErrorCode ZeroLoadStepIsDue(const StepProblem *, PetscBool *);
 PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
   ContactSolution *, PetscBool *rests);
@@ -151,6 +161,6 @@ PETSC_INTERN PetscErrorCode ContactUpdateMeasureTruth(Simulation, Vec u, const C
 /* attempt.c */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
-/* step.c has no more than what step.h offers */
+/* step.c: only what step.h declares */
 
 #endif

@@ -1,9 +1,7 @@
-/* The stiffness matrix takes no more memory than its solver needs: half of it is stored, and without rigid body
-   modes, where that will do. */
+/* Storage of the stiffness matrix: only the upper triangle, and no rigid body modes, if the solver needs no more. */
 #include "stepimpl.h"
 
-/* The optimizer copies a constant K into its own matrix, and only multiplies by K; call before the tangent is created
- */
+/* Chooses symmetric storage if the optimizer only multiplies by a constant K. Call before the tangent is created. */
 PetscErrorCode StiffnessSetType(Simulation sim)
 {
   PetscMPIInt size;
@@ -14,7 +12,7 @@ PetscErrorCode StiffnessSetType(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* sim->K itself, or where that has its upper triangle only, a copy of this type with whole rows */
+/* K: sim->K itself, or a copy of the given type if sim->K stores the upper triangle only */
 PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 {
   PetscBool half;
@@ -30,9 +28,9 @@ PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 }
 
 /*
-   BoomerAMG copies a near null space and makes no use of it unless it is asked to coarsen node by node. That is the
-   user's word: the AMG of a PCAMGF reads its options at the set-up, by which time the matrix must have the modes, and
-   PCHYPRE does not tell how it coarsens.
+   Whether the preconditioner may use rigid body modes. BoomerAMG uses a near null space only with nodal coarsening,
+   which the user must ask for by an option. The option is looked up here, because the AMG inside PCAMGF reads its
+   options only at set-up, and PCHYPRE has no query.
 */
 static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
 {
@@ -59,8 +57,8 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   PetscFunctionReturn(0);
 }
 
-/* Rigid body modes for A, sim->K or a matrix made of it, where the solver (NULL: unknown), with its options set, may
-   use them */
+/* Attaches rigid body modes to A (sim->K or a matrix built from it) if the solver may use them. ksp: solver after
+   KSPSetFromOptions(), or NULL if unknown */
 PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
 {
   MatNullSpace modes;

@@ -1,18 +1,21 @@
 /*
-   A load step back to where nothing is asked for: no load, no temperature, no prescribed displacement, no overlap.
-   The bodies are undeformed then. Every residual would be measured by what is left of forces, energies and
-   displacements: by rounding.
+   Load steps that return to zero: no load, no temperature change, no prescribed displacement, no overlap. The
+   undeformed bodies are then the solution. It is set directly, because relative residuals would compare rounding with
+   rounding.
 */
 #include "stepimpl.h"
 
-/* Whether this time asks for no force and for no displacement, where those before it did */
+/* due: whether loads and prescribed displacements are zero at this time, the last state is deformed, and no pair has
+   friction */
 PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
 {
   PetscReal before, displacement, temperature, load = 0.0, moved = 0.0;
-  PetscBool rubs = PETSC_FALSE; /* what has slipped does not go back by itself */
+  PetscBool stays; /* what has slipped, or has yielded, does not go back by itself */
   Vec       u;
 
   PetscFunctionBegin;
+  *due = PETSC_FALSE;
+  if (SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
   if (p->load) PetscCall(VecNorm(p->load, NORM_INFINITY, &load));
   PetscCall(TemperaturesGetLargest(&p->sim->temperatures, &temperature));
   PetscCall(VecNorm(p->sim->path.u, NORM_INFINITY, &before));
@@ -22,13 +25,16 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
+  PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
-    rubs = (PetscBool)(rubs || SceneContactPairRubs(&p->sim->scene->pairs[k]));
-  *due = (PetscBool)(!rubs && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
+    stays = (PetscBool)(stays || SceneContactPairRubs(&p->sim->scene->pairs[k]));
+  *due =
+    (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);
 }
 
-/* The undeformed bodies are the solution unless they overlap by more than rounding; undeformed: the gap between them */
+/* Takes u = 0 as the solution if the undeformed bodies overlap by no more than rounding. undeformed: the
+   linearization at u = 0. rests: whether u = 0 was taken */
 PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
   ContactSolution *sol, PetscBool *rests)
 {
@@ -47,6 +53,7 @@ PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization unde
   PetscCall(VecCopy(undeformed->g, sol->gap));
   PetscCall(ContactHistoryStore(&p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
-  PetscCall(ReportReason(report, PETSC_TRUE, "converged: nothing is asked for, the bodies are undeformed"));
+  PetscCall(ReportReason(report, PETSC_TRUE,
+    "converged: loads and prescribed displacements are zero, the bodies are undeformed"));
   PetscFunctionReturn(0);
 }

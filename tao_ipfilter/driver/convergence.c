@@ -1,8 +1,8 @@
-/* When the iteration ends, and with what reason. */
+/* Convergence test: when the iteration ends, and with which reason. */
 #include "driverimpl.h"
 
-/* A starting point with zero gradient and no violated constraint is stationary with all multipliers zero. Nothing
-   there gives a scale for errors, so this is checked before the iteration */
+/* Tests the start: with zero gradient and no violated constraint it is stationary with zero multipliers. No error
+   scale can be derived from such a point, so it is tested before the iteration. */
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
@@ -34,7 +34,7 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.violation > small);
 }
 
-/* Whether the constraints are met beside their own terms, too */
+/* Whether the violation is also small relative to the constraints' own terms (own.c) */
 static PetscBool OwnMet(const TAO_IPFILTER *ip)
 {
   const PetscReal trace = 1e-6;
@@ -42,7 +42,7 @@ static PetscBool OwnMet(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt.own <= PetscMax(trace, ip->tol));
 }
 
-/* Whether the iterate meets the tolerance in both measures of the KKT error, and the absolute limits */
+/* Whether both measures of the KKT error are within the tolerance, and the absolute limits hold */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = &ip->kkt;
@@ -56,7 +56,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol && OwnMet(ip));
+  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
 }
 
 /* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
@@ -74,8 +74,8 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Converged if the KKT error is within the tolerance. Exceptions: the multipliers by which it is measured grow without
-   limit, or the relaxation of the constraints is worth more than the tolerance */
+/* Ends the iteration if the KKT error is within the tolerance. Exceptions: the multipliers used to measure it grow
+   without limit, or the relaxation of the constraints changes the objective by more than the tolerance */
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -127,7 +127,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration where something is not a number */
+/* Ends the iteration if a residual or the objective is not a number */
 PetscErrorCode IPTestNumbers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,8 +139,8 @@ PetscErrorCode IPTestNumbers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints meet the tolerances of TaoSetConstraintTolerances(), if it was called. catol bounds the
-   largest violation, crtol the one in the KKT error. As for all tolerances of TAO, 0 means none */
+/* Whether the constraints meet the tolerances of TaoSetConstraintTolerances(), if set: catol bounds the largest
+   violation, crtol the relative violation. As everywhere in TAO, 0 means no tolerance */
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
@@ -162,10 +162,8 @@ PetscBool IPConstraintsMet(Tao tao)
 
   Notes:
   Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-  constraints within
-  the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing better can be
-  expected. A test of the
-  caller's may call it.
+  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
+  better can be expected. A test of the caller's may call it.
 
   Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
   `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
@@ -205,15 +203,16 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   } else if (unbounded) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
       (double)ip->first.f, (double)lowest));
-    ip->rec.best_error = PETSC_INFINITY; /* the last point shows it, or the last step, no other does */
-  } else if (ip->rec.nacceptable >= ip->opt.acceptable_it && IPConstraintsMet(tao)) {
+    ip->rec.best_error = PETSC_INFINITY; /* this point, or the last step, shows that the objective is unbounded; the
+                                            best iterate would not */
+  } else if (ip->rec.nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g",
-      (double)IPBothErrors(ip), (double)ip->opt.acceptable_tol, (double)ip->tol));
+      (double)IPBothErrors(ip), (double)IP_ACCEPTABLE_TOL, (double)ip->tol));
   }
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration where it has come to a limit */
+/* Ends the iteration at a limit of iterations or evaluations */
 static PetscErrorCode TestLimits(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -249,7 +248,7 @@ static PetscErrorCode TestLimits(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The convergence test, the caller's or the default one, and the limits */
+/* Runs the convergence test (the caller's or the default one), and tests the limits */
 PetscErrorCode IPTestConvergence(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

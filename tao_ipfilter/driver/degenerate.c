@@ -1,4 +1,5 @@
-/* Signs that a solution has no bounded multipliers. The KKT error is measured by them and then means nothing. */
+/* Detects solutions without bounded multipliers. The KKT error, which is measured with the multipliers, is
+   meaningless there. */
 #include "driverimpl.h"
 
 /* Forces of the multipliers with the constraints' gradients of the starting point */
@@ -16,14 +17,14 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* Size of the objective, now and at the start, that what is left to gain is held against */
+/* Magnitude of the objective, the larger of the present and the first value: the scale for what is left to gain */
 PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 {
   return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first.f)), ip->first.gradient * ip->first.x);
 }
 
-/* Whether the last step changes the objective by a trace of its size: where multipliers do not exist, that alone tells
-   that the point is the end, and not one on the way there */
+/* stands: whether the last step changed the objective by a negligible part of its magnitude. If multipliers do not
+   exist, only this shows that the iteration has reached the solution */
 static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -37,12 +38,12 @@ static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
 }
 
 /* Whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
-   vanish, so that their multipliers grow without limit. The stationarity residual is small compared with them */
+   vanish, so that their multipliers grow without limit, and the stationarity residual is small relative to them */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const IPKKT    *k    = &ip->kkt;
-  const PetscReal huge = 1e6; /* times the gradient */
+  const PetscReal huge = 1e6; /* relative to the gradient */
   PetscReal       force, gradient;
 
   PetscFunctionBegin;

@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/driver: the iteration: set up, solve, convergence, reasons.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/driver, the iteration: set up, solve, convergence, reasons. Files are in the order in which they depend
+   on each other; they use the folders below.
 */
 #ifndef IPFILTER_DRIVERIMPL_H
 #define IPFILTER_DRIVERIMPL_H

@@ -1,8 +1,8 @@
-/* One line an iteration in IPOPT's columns. */
+/* Monitor: one line per iteration, in IPOPT's columns. */
 #include "driverimpl.h"
 
-/* iter, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, steps, trial points,
-   Krylov iterations (f: with the filter) */
+/* Prints iteration, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, step lengths,
+   trial points, Krylov iterations (f: with the filter) */
 PetscErrorCode IPMonitor(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* The sentence that says why the solver stopped. */
+/* Composes the sentence that explains why the solver stopped. */
 #include "driverimpl.h"
 #include <stdarg.h>
 

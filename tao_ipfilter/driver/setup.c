@@ -1,4 +1,4 @@
-/* Vectors of the problem's sizes: created in TaoSetUp(), created again when the sizes change, and destroyed */
+/* Vectors of the problem's sizes: created in TaoSetUp(), recreated when the sizes change, destroyed */
 #include "driverimpl.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
@@ -37,8 +37,8 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The caller's equality constraints, and behind them on each rank the rows of c_I with equal bounds: a vector of that
-   layout, or NULL */
+/* Sets up the equality constraints: on each rank the caller's own ones, followed by the rows of c_I with equal
+   bounds. layout: a vector for them, or NULL */
 static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -97,7 +97,7 @@ static PetscErrorCode FreeSizes(Tao tao)
 }
 
 /* Without TaoSetHessian(): finite differences of gradients for a small problem, a limited-memory approximation for a
-   large one. Both are created again for other sizes */
+   large one. Both are recreated for other sizes */
 static PetscErrorCode SetUpHessian(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -131,7 +131,8 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(SetUpEqualities(tao, &ce));
   c = ip->mi ? tao->constraints_inequality : NULL;
   PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
-  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* the constraints are evaluated anew on return to it */
+  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* constraints are evaluated again when the iteration returns
+                                                           to it */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
   PetscCall(VecDestroy(&ce));
@@ -142,7 +143,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether v, made in TaoSetUp(), still has as many entries on all ranks as a vector of the caller's and some more;
+/* Whether v, created in TaoSetUp(), still has the size of the caller's vector plus `more` entries on all ranks;
    either may be NULL */
 static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
@@ -158,8 +159,8 @@ static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Rows of c_I by the bounds that they have now; what was made of their Jacobian is dropped where any is, or was, no
-   plain one */
+/* Classifies the rows of c_I by their present bounds. Data derived from their Jacobian are dropped if any row is, or
+   was, not of the form c >= 0 */
 static PetscErrorCode SetUpSides(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;

@@ -1,7 +1,8 @@
-/* The outer iteration. */
+/* The main iteration of TaoSolve(). */
 #include "driverimpl.h"
 
-/* Objective, constraints and derivatives at the starting point; without them where the objective is not a number */
+/* Evaluates objective, constraints and derivatives at the start. *defined: false if the objective is not a number;
+   then nothing else is evaluated */
 static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -19,7 +20,7 @@ static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
   PetscFunctionReturn(0);
 }
 
-/* Drops matrices that were made for another set of fixed variables or other row scales */
+/* Drops matrices that belong to another set of fixed variables or to other row scales */
 static PetscErrorCode ForgetSystem(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -30,7 +31,7 @@ static PetscErrorCode ForgetSystem(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the scales of the rows, and scales constraints and derivatives */
+/* Chooses the row scales, and scales constraints and derivatives */
 static PetscErrorCode ScaleRows(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -46,7 +47,7 @@ static PetscErrorCode ScaleRows(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sizes at the starting point; *finite is false where one is not a number */
+/* Measures the sizes at the start; *finite: false if one is not a number */
 static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -57,9 +58,7 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
-  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT && ip->opt.gradient_max > 0.0
-                  ? PetscMax(1.0, largest / ip->opt.gradient_max)
-                  : 1.0;
+  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT ? PetscMax(1.0, largest / IP_GRADIENT_MAX) : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
@@ -73,8 +72,7 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* The starting point, pushed inside its bounds, and everything there; *finite is false where something is not a
-   number */
+/* Evaluates everything at the start, after moving it inside its bounds; *finite: false if something is not a number */
 static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -83,7 +81,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  *finite = (PetscBool)!IPUndefined(size); /* bounds would put a number in the place of what is none */
+  *finite = (PetscBool)!IPUndefined(size); /* tested first, since clipping to bounds would hide a NaN */
   if (!*finite) PetscFunctionReturn(0);
   PetscCall(TaoComputeVariableBounds(tao));
   PetscCall(IPFixedSetUp(tao, &other_fixed));
@@ -102,8 +100,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Resets the state of the last solve; keeps what the next one may reuse: matrices, scratch vectors, and memory for
-   records */
+/* Resets the state of the last solve, but keeps what can be reused: matrices, work vectors, memory for records */
 static PetscErrorCode ResetSolve(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -131,22 +128,22 @@ static PetscErrorCode ResetSolve(Tao tao)
 }
 
 /*
-   Whether the iterate is better than the best one: it violates the constraints less, or both violate them by no more
-   than the tolerance and its KKT error is no larger. If one of them is acceptable, only the KKT error counts. Of two
-   equal ones the later is better
+   Whether the iterate is better than the best one: its violation is smaller, or both violations are within the
+   tolerance and its KKT error is not larger. If one of the two is acceptable, only the KKT error counts. Of two equal
+   iterates the later one is better
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
-  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= ip->opt.acceptable_tol);
+  const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
   const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol),
                   same = 1.01;
 
-  if (acceptable || ip->rec.best_error <= ip->opt.acceptable_tol)
+  if (acceptable || ip->rec.best_error <= IP_ACCEPTABLE_TOL)
     return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
 }
 
-/* Keeps the best iterate */
+/* Stores the current iterate as the best one */
 static PetscErrorCode KeepBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -160,7 +157,7 @@ static PetscErrorCode KeepBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Returns to the best iterate where the last one is worse, and is not the one that a test has chosen */
+/* Returns to the best iterate if it is better than the last one, unless a convergence test has chosen the last one */
 static PetscErrorCode RestoreBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -179,7 +176,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* KKT error at the new iterate, its record, the monitors and the convergence test */
+/* Computes the KKT error of the new iterate, records it, and runs monitors and convergence test */
 static PetscErrorCode AssessIterate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -204,11 +201,12 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The reason where no solver gave a direction */
+/* Sets the reason if no solver gave a direction */
 static PetscErrorCode EndLinear(Tao tao)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm; /* no direction, no reduction */
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  /* without a direction the residual is the right-hand side itself */
+  const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm;
 
   PetscFunctionBegin;
   PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s",
@@ -217,7 +215,7 @@ static PetscErrorCode EndLinear(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The reason where no restoration helped, either */
+/* Sets the reason if restoration failed too */
 static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -241,8 +239,8 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/* There is no direction, or no step along it. Remedies in this order: give up Mehrotra's choice of mu for a while;
-   relax constraints without an interior; reduce the violation alone */
+/* Called if there is no direction or no step along it. Remedies, in this order: suspend Mehrotra's choice of mu;
+   relax constraints without an interior; reduce the violation alone (restoration) */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -269,7 +267,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPRelaxInstead(tao, &relaxed));
     if (relaxed) PetscFunctionReturn(0);
   } else {
-    PetscCall(IPMeritMeasure(tao)); /* no line search has where there was no direction */
+    PetscCall(IPMeritMeasure(tao)); /* not measured by a line search if there was no direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
   }
@@ -280,8 +278,9 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscFunctionReturn(0);
 }
 
-/* If forces of equality constraints have become much larger than the gradient that they balance (constraints that
-   cannot be met), their multipliers dominate the Hessian. Then they are estimated again */
+/* Estimates the multipliers of equality constraints again if their forces have become much larger than the gradient
+   that they balance. This happens for constraints that cannot be met, where the multipliers would dominate the
+   Hessian */
 static PetscErrorCode RenewMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -326,7 +325,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the other method, if it is on */
+/* Ends the alternative method (see IPMethodOps) if it is active */
 static PetscErrorCode EndMethod(Tao tao)
 {
   IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
@@ -337,7 +336,7 @@ static PetscErrorCode EndMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Begins it, where there is one that applies */
+/* Starts the alternative method if it applies */
 static PetscErrorCode BeginMethod(Tao tao)
 {
   IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
@@ -351,7 +350,7 @@ static PetscErrorCode BeginMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Continues from the best iterate with the interior point method, if the other method does not converge */
+/* Continues from the best iterate with the interior point method if the alternative method failed */
 static PetscErrorCode LeaveMethod(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -380,13 +379,13 @@ static PetscErrorCode LeaveMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The other method is the only one for norm terms */
+/* Ends the solve if there are norm terms and the alternative method failed: no other method can treat them */
 static PetscErrorCode EndTerms(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error <= ip->opt.acceptable_tol)
+  if (ip->rec.best_error <= IP_ACCEPTABLE_TOL)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec.best_error,
       (double)ip->tol));
@@ -402,7 +401,7 @@ static PetscErrorCode EndTerms(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* One step of the method that is on */
+/* One step of the active method */
 static PetscErrorCode TakeStep(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -417,7 +416,7 @@ static PetscErrorCode TakeStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Which Hessian and inequality Jacobian the caller's matrices hold */
+/* Object states of the caller's Hessian and inequality Jacobian */
 static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
 {
   PetscFunctionBegin;
@@ -428,7 +427,7 @@ static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
   PetscFunctionReturn(0);
 }
 
-/* The starting point; *finite is false where it is none. Ends the solve there and where it is stationary. */
+/* Evaluates the starting point. Ends the solve there if it is not finite (*finite: false) or already stationary. */
 static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -466,7 +465,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Returns the best iterate, in the caller's units */
+/* Returns the best iterate in the caller's units */
 static PetscErrorCode EndSolve(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -497,7 +496,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   PetscCall(IPSetUpSizes(tao));
   PetscCall(IPMatricesCheck(tao, &other_operator));
   if (other_operator) PetscCall(ForgetSystem(tao));
-  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* PETSc's 0 asks for as much as there is */
+  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* TAO's 0 asks for the best accuracy possible */
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));
   if (!finite) PetscFunctionReturn(0);

@@ -1,15 +1,15 @@
-/* An objective that falls without end. */
+/* Detects an unbounded objective. */
 #include "driverimpl.h"
 
-/* Decrease of the objective, relative to its first value and to the gain of a Newton step from the start, that
-   indicates an unbounded one */
+/* The decrease of the objective that counts as unbounded, from its first value and the gain of a Newton step at the
+   start */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
-  return ip->opt.unbounded_factor * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
-                                      PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
+                                 PetscSqr(ip->first.gradient) / ip->stiff.hscale);
 }
 
-/* Whether every unknown has two bounds, or is fixed: no objective falls without end between them */
+/* bounded: whether every unknown has two bounds or is fixed; the objective is then bounded */
 static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -27,8 +27,8 @@ static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
   PetscFunctionReturn(0);
 }
 
-/* Whether the iterate shows it; where constraints are violated beside their first values, which do not grow with x, or
-   beside their own terms, that says nothing */
+/* Whether the iterate shows an unbounded objective. It does not if constraints are violated, relative to their first
+   values or to their own terms */
 static PetscErrorCode UnboundedHere(Tao tao, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -43,8 +43,8 @@ static PetscErrorCode UnboundedHere(Tao tao, PetscBool *unbounded)
   PetscFunctionReturn(0);
 }
 
-/* Counts successive full steps that only a shift of the Hessian kept short, and along which the objective fell
-   linearly */
+/* Counts successive full steps that only the shift of the Hessian kept short and along which the objective fell
+   linearly; fall: the decrease per step */
 static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -64,7 +64,8 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   PetscFunctionReturn(0);
 }
 
-/* Whether the trial point, `far` from the iterate, satisfies bounds and constraints up to rounding at that distance */
+/* admitted: whether the trial point, at distance `far` from the iterate, satisfies bounds and constraints up to
+   rounding at that distance */
 static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -95,8 +96,8 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
   PetscFunctionReturn(0);
 }
 
-/* Whether a multiple of the last step leads to a point that indicates an unbounded objective. Newton's method alone
-   would approach it slowly, since the shift limits its steps */
+/* Whether a multiple of the last step leads to a point that shows an unbounded objective. Newton's method would
+   approach it slowly, since the shift limits its steps */
 static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -112,7 +113,7 @@ static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, Pets
   PetscFunctionReturn(0);
 }
 
-/* Whether the objective falls without end, and how far that was seen; once an iteration */
+/* unbounded: whether the objective is unbounded; f: the lowest value found. Called once per iteration */
 PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;

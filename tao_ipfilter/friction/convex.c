@@ -1,26 +1,26 @@
 /*
-   A way to the laws of laws.c where Newton's method on them finds none. The bounds b are held at those of the last
-   forces, and follow them (Haslinger, Approximation of the Signorini problem with friction, obeying the Coulomb law,
-   1983). With b held the laws are those of a convex problem, whose augmented Lagrangian (Rockafellar, Augmented
-   Lagrangians and applications of the proximal point algorithm in convex programming, 1976) is convex and once
-   differentiable: forces f = p(v),
+   Solves the problem with the laws of laws.c where Newton's method fails. The bounds b are fixed at the values of the
+   last forces and updated in rounds (Haslinger, Approximation of the Signorini problem with friction, obeying the
+   Coulomb law, 1983). With fixed b the problem is convex. Its augmented Lagrangian (Rockafellar, Augmented Lagrangians
+   and applications of the proximal point algorithm in convex programming, 1976) is convex and once differentiable. Its
+   forces are f = p(v):
 
      lambda = max(0, lambda' - rho v_n),   tau = P_b(tau' - rho v_t),
 
-   of multipliers f' which are those of the last round. Newton's method with a line search finds its minimum from
-   anywhere, and sticking rows are linear in it.
+   with multipliers f' from the last round. Newton's method with a line search finds its minimum from any start. Its
+   equations are linear in sticking rows.
 */
 #include "frictionimpl.h"
 
 typedef struct {
-  PetscReal *multiplier; /* f' of all rows */
-  PetscReal *bound;      /* b of all terms */
+  PetscReal *multiplier; /* multipliers f' of all rows [force] */
+  PetscReal *bound;      /* bounds b of all terms [force] */
   PetscReal *p;          /* p(v) */
-  PetscReal *f, *v, *y;  /* where a step began */
-  PetscReal  largest;    /* of what rows give way by */
+  PetscReal *f, *v, *y;  /* forces, motions and coefficients at the start of a Newton step */
+  PetscReal  largest;    /* largest compliance of a row [length/force] */
 } TermConvex;
 
-/* How much stiffer than a row the springs are that press it: the stiffer, the fewer rounds */
+/* Penalty stiffness rho of a row: 100/(its compliance). Larger values need fewer rounds. */
 static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
 {
   const PetscReal times = 100.0;
@@ -28,7 +28,7 @@ static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
   return times / IPTermLawsGiveWay(set, row);
 }
 
-/* Whether a row can have a force: something gives way to it, and its bound is not zero */
+/* Whether a row can carry a force: its compliance and its bound are not zero */
 static PetscBool ConvexTakes(const IPTermSet *set, const TermConvex *convex, PetscInt row)
 {
   const PetscReal rounding = 1e-14, gives = IPTermLawsGiveWay(set, row);
@@ -37,7 +37,7 @@ static PetscBool ConvexTakes(const IPTermSet *set, const TermConvex *convex, Pet
   return (PetscBool)(gives > rounding * convex->largest && convex->bound[(row - set->m) / 2] > 0.0);
 }
 
-/* tau' - rho v of a term; its size */
+/* b = tau' - rho v of term i; returns |b| */
 static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscInt i,
   PetscReal b[2])
 {
@@ -49,7 +49,7 @@ static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, con
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
-/* p(v) of all rows */
+/* Forces p(v) of all rows */
 static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscReal p[])
 {
   for (PetscInt r = 0; r < set->m; r++)
@@ -66,9 +66,9 @@ static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const P
   }
 }
 
-/* Equation and coefficients of a row that takes part: of its two motions and its two forces. Slip, |b| tau = bound b,
-   is linearized as it stands, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual method for total
-   variation-based image restoration, 1999): as good where it is far from its end as near it. */
+/* Residual of a row that can carry a force, and its derivatives by the term's two motions and two forces. The slip
+   law is used in the form |b| tau = bound b, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual
+   method for total variation-based image restoration, 1999), which makes Newton's method converge from far away. */
 static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscInt row,
   PetscReal by_v[2], PetscReal by_f[2])
 {
@@ -95,7 +95,8 @@ static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const Term
   }
 }
 
-/* One row of the system, the column of a term's constraint with zeros; one that takes no part loses its force */
+/* Assembles one row of the system. The column of a term's constraint holds zeros. A row that can carry no force gets
+   the equation f = 0. */
 static PetscErrorCode ConvexAssembleRow(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
   PetscInt row)
 {
@@ -125,8 +126,8 @@ static PetscReal ConvexDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* The slope of the augmented Lagrangian along a step, at alpha of it: Fy and dFy, the residuals of the directions where
-   it begins, and by how much they change */
+/* Derivative of the augmented Lagrangian along the Newton step at the fraction alpha. Fy: residuals of the
+   directions at the start of the step; dFy: their change over the full step */
 static PetscReal ConvexSlope(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
   const PetscReal Fy[], const PetscReal dFy[], PetscReal alpha, PetscReal trial[])
 {
@@ -140,7 +141,8 @@ static PetscReal ConvexSlope(const IPTermSet *set, const IPReducedSystem *s, con
   return slope;
 }
 
-/* The part of the step that moves no row by much more than rows are apart: nothing may hold a body for now */
+/* Largest fraction of the step that moves no row by more than 100 times its usual motion. It limits the step of
+   bodies that nothing holds at present. */
 static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex)
 {
   const PetscReal much    = 100.0;
@@ -150,7 +152,8 @@ static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, 
   return largest > much * set->length ? much * set->length / largest : 1.0;
 }
 
-/* Back along the step to where the augmented Lagrangian is least on it; *fell: its slope where the step began */
+/* Line search: sets the state to the minimum of the augmented Lagrangian along the step, at the fraction *alpha.
+   *fell: minus its derivative at the start */
 static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscReal Fy[],
   PetscReal *fell, PetscReal *alpha)
 {
@@ -183,8 +186,8 @@ static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, con
   PetscFunctionReturn(0);
 }
 
-/* One step of Newton's method on the augmented Lagrangian; *fell: how steeply it fell where the step began, an
-   energy; *alpha: how far it went */
+/* One Newton step on the augmented Lagrangian. *fell: minus its derivative along the step at the start [energy];
+   *alpha: fraction of the step that was taken */
 static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal rtol,
   PetscReal *fell, PetscReal *alpha, PetscBool *solved)
 {
@@ -211,8 +214,8 @@ static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermC
   PetscFunctionReturn(0);
 }
 
-/* The minimum of the augmented Lagrangian, to an energy; *solved is false where it has none: where it is not convex,
-   or falls on and on */
+/* Minimizes the augmented Lagrangian until a step is predicted to gain less than `energy`. *solved: false if it is
+   not convex or unbounded below */
 static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal energy,
   PetscInt *steps, PetscBool *solved)
 {
@@ -236,8 +239,8 @@ static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, T
   PetscFunctionReturn(0);
 }
 
-/* Bounds by the present forces; where there are none yet all terms stick. Late, what has let go does not stick again:
-   a row may neither stick nor be free, and would change for ever. */
+/* Sets the bounds b from the present forces. If there are no forces yet, all terms stick. `late`: bounds of terms
+   with a very large coefficient may only fall, since such a row might alternate between stick and open for ever. */
 static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscBool begin,
   PetscBool late)
 {
@@ -254,7 +257,7 @@ static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, Term
   }
 }
 
-/* What laws and directions are off by, an energy */
+/* energy: squared residuals of the laws and of the directions, weighted as an energy */
 static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *energy)
 {
   PetscFunctionBegin;
@@ -263,7 +266,7 @@ static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscR
   PetscFunctionReturn(0);
 }
 
-/* What is closed, and takes part, at f */
+/* Marks constraints with positive force as closed, and updates the list of active rows */
 static PetscErrorCode ConvexTell(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscFunctionBegin;
@@ -272,9 +275,9 @@ static PetscErrorCode ConvexTell(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionReturn(0);
 }
 
-/* f, v and y that fulfil the laws to a part of `first`, the root of an energy, or come as near as they come: forces
-   and motions are in equilibrium in any case. *solved is false where nothing holds what moves. *steps: systems solved
-   are added. */
+/* Finds f, v and y whose residual is a small fraction of `first` (the square root of an energy), or the nearest that
+   the rounds reach. Forces and motions are in equilibrium in either case. *solved: false if nothing holds a moving
+   body. *steps is increased by the number of systems solved. */
 PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
   PetscBool *solved)
 {

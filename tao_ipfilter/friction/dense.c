@@ -1,9 +1,9 @@
-/* Solves the systems of system.c by dense factors, where GMRES gives up: soft bodies, along which motions of all
-   sizes are worth next to nothing. C is made once. */
+/* Solves the systems of system.c by a dense LU factorization where GMRES fails. That happens for soft bodies with
+   very different stiffnesses along their motions. C is computed once. */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* Whether there is room for C and the factors, and time */
+/* Whether C and the factors fit into memory and take acceptable time */
 PetscBool IPTermDenseFits(const IPTermSystem *t)
 {
   const PetscInt limit = 3000;
@@ -25,7 +25,7 @@ static PetscErrorCode TermDenseMakeCompliance(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* B_v times columns of length m, in the rows' scale, into those of N, by a factor and the columns' own scale */
+/* N += factor B_v columns, with rows scaled by the rows' scale and columns by `scale`; columns have length m */
 static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscInt n, const PetscReal columns[], PetscReal factor,
   const PetscReal scale[], PetscInt ld, PetscReal N[])
 {
@@ -43,7 +43,7 @@ static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscInt n, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* The whole matrix in its scale, columns of length m + k */
+/* Assembles the scaled matrix; its columns have length m + k */
 static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscReal N[])
 {
   const PetscInt m = t->m, k = s->k, ld = m + k;
@@ -67,7 +67,7 @@ static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution; *solved is false where the matrix is singular */
+/* Overwrites r_f and r_y with the solution. *solved: false if the matrix is singular */
 PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {

@@ -1,18 +1,17 @@
 /*
-   The preconditioner of the systems of system.c: what the lumped one is to FETI (Farhat and Roux, A method of
-   finite element tearing and interconnecting and its parallel solution algorithm, 1991),
+   Preconditioner of the systems of system.c, similar to the lumped preconditioner of FETI (Farhat and Roux, A method of
+   finite element tearing and interconnecting and its parallel solution algorithm, 1991):
 
      (B_v C + B_f)^-1 ~ A^-1 (B_v R D K_WW D R^T + B_f) A^-1,   A = B_v R D R^T + B_f,   D = diag(K_WW)^-1,
 
-   exact were R square, and H = T + RZ^T (...)^-1 B_v RZ with it for y. A is sparse, and like a mass matrix: ILU(0)
-   does. The condition number is a small one whatever the mesh. Old factors serve other B_v and B_f for as long as
-   GMRES is quick with them.
+   which would be exact for a square R. The Schur complement for y is H = T + RZ^T (...)^-1 B_v RZ. A is sparse and as
+   well conditioned as a mass matrix, so ILU(0) suffices for it. The condition number of the preconditioned system is
+   small on every mesh. Factors are kept for other B_v and B_f as long as GMRES converges fast with them.
 */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* Incomplete factors of A in the rows' scale, which makes its diagonal 1 or so: it is as well conditioned as a mass
-   matrix */
+/* ILU(0) of A with rows scaled so that its diagonal is about 1 */
 static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
 {
   const PetscReal tiny = 1e-12;
@@ -43,7 +42,7 @@ static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
   PetscFunctionReturn(0);
 }
 
-/* The factors of A for the present B_v and B_f, which are kept beside them; *factored is false where A is singular */
+/* Factors A for the present B_v and B_f and keeps copies of these. *factored: false if A is singular */
 static PetscErrorCode TermFactorAll(IPTermSystem *t, PetscBool *factored)
 {
   PetscFunctionBegin;
@@ -99,7 +98,7 @@ PetscErrorCode IPTermFactorApply(IPTermSystem *t, const PetscReal r[], PetscReal
   PetscFunctionReturn(0);
 }
 
-/* V = (...)^-1 P_v RZ, the columns that are new, and ZV = RZ^T V with them */
+/* V = (...)^-1 P_v RZ for the new directions, and ZV = RZ^T V */
 static PetscErrorCode TermFactorAppend(IPTermSystem *t, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, zero = 0.0;
@@ -129,8 +128,8 @@ static PetscErrorCode TermFactorAppend(IPTermSystem *t, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* L U = H = T + RZ^T V, its diagonal raised by as little as a body needs that nothing holds; *factored is false where
-   H is singular */
+/* L U = H = T + RZ^T V. The diagonal is raised slightly for bodies that no active row holds. *factored: false if H
+   is singular */
 static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal shift = 1e-14;
@@ -149,7 +148,7 @@ static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSyste
   PetscFunctionReturn(0);
 }
 
-/* What GMRES needs beside the rows: factors where there are none that serve, and what belongs to new directions */
+/* Prepares the preconditioner: new factors if the old ones are unusable, and the columns of new directions */
 PetscErrorCode IPTermFactorPrepare(IPTermSystem *t, const IPReducedSystem *s, PetscBool *ready)
 {
   const PetscInt before = t->k;

@@ -1,4 +1,4 @@
-/* The laws of norm terms as the subspace asks for them. */
+/* Friction implementation of the laws interface of the subspace method. */
 #include "frictionimpl.h"
 
 struct _p_IPLaws {

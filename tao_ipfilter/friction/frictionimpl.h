@@ -1,44 +1,46 @@
 /*
-   The map of tao_ipfilter/friction: the laws of norm terms, which are friction, on the filtered subspace.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/friction: the laws of norm terms (friction) on the filtered subspace. Files are in the order in which
+   they depend on each other.
 */
 #ifndef IPFILTER_FRICTIONIMPL_H
 #define IPFILTER_FRICTIONIMPL_H
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
-/* The system of a Newton step on the laws of constraints and norm terms: system.c */
+/* Linear system of a Newton step for constraints and norm terms: system.c */
 typedef struct {
-  PetscInt      m, k;        /* rows, directions in V */
+  PetscInt      m, k;        /* rows; directions in V */
   Mat           K, FK;       /* K_WW, and its factors */
-  Mat           R, RD, G;    /* R, R D and R D R^T */
-  Mat           Bv, Bf;      /* what the rows' equations take of v and f */
-  Mat           A, F;        /* B_v R D R^T + B_f in the rows' scale, and its factors, */
-  Mat           Pv, Pf;      /* and the B_v and B_f that they are of */
-  PetscReal    *gives;       /* what rows give way by, by D */
-  PetscReal    *scale;       /* force of a row over the root of its energy */
-  PetscReal    *V, *ZV, *H;  /* columns of length m; of length kmax; of length k */
+  Mat           R, RD, G;    /* R, R D and R D R^T with D = diag(K_WW)^-1 */
+  Mat           Bv, Bf;      /* coefficients of v and of f in the rows' equations */
+  Mat           A, F;        /* A = B_v R D R^T + B_f in scaled rows, and its incomplete factors */
+  Mat           Pv, Pf;      /* the B_v and B_f for which A was factored */
+  PetscReal    *gives;       /* diag(R D R^T), the estimated compliance of each row [length/force] */
+  PetscReal    *scale;       /* scale of a row: force divided by square root of energy */
+  PetscReal    *V, *ZV, *H;  /* V: columns of length m; ZV: of length kmax; H: of length k */
   PetscBLASInt *pivots;      /* of H */
-  Vec           S;           /* and the scale that A has */
+  Vec           S;           /* scale of the rows of A */
   PetscReal    *f, *v;       /* scratch, of rows */
   Vec           r, z, w, Kw; /* of rows and of W */
-  PetscInt      fresh;       /* iterations that GMRES took with the factors when they were new */
-  PetscBool     stale;       /* they no longer serve */
-  PetscReal    *C;           /* C, where GMRES has given up: dense.c; NULL: it has not */
+  PetscInt      fresh;       /* iterations that GMRES needed when the factors were new */
+  PetscBool     stale;       /* the factors must be renewed */
+  PetscReal    *C;           /* the dense matrix C, once GMRES has failed (dense.c); NULL: not computed */
 } IPTermSystem;
 
-/* What is closed and slips of constraints and norm terms: laws.c */
+/* State of constraints and norm terms: open or closed, stick or slip: laws.c */
 typedef struct {
   PetscInt     m, n;                /* constraints and terms */
-  PetscReal   *limit, *coefficient; /* of the terms; coefficient negative: none */
-  PetscReal   *rho, *slope;         /* force per length of a term; of its bound by the constraint's force, */
-  PetscReal   *theta, *way;         /* bound / |b| and b / |b|, where it was linearized */
-  PetscReal   *dead;                /* along which nothing gives way, two a term */
-  PetscReal    length;              /* size of the terms of a motion */
+  PetscReal   *limit, *coefficient; /* of the terms; a negative coefficient: the bound is the limit alone */
+  PetscReal   *rho, *slope;         /* rho: force per length of a term; slope: derivative of its bound by its
+                                       constraint's force */
+  PetscReal   *theta, *way;         /* theta = bound / |b| and way = b / |b| of slipping terms at the last
+                                       linearization */
+  PetscReal   *dead;                /* unit tangent along which a term cannot move, two entries a term; zero: none */
+  PetscReal    length;              /* magnitude of the motions, for tolerances [length] */
   PetscBool   *closed, *slips;
-  PetscBool   *takes, listed; /* the rows that take part, once they are known */
-  PetscInt     na;            /* and their number */
-  PetscBool    met;           /* the last solution fulfils the laws, as far as was asked */
+  PetscBool   *takes, listed; /* takes: rows that are active (may carry a force); listed: whether takes is up to date */
+  PetscInt     na;            /* number of active rows */
+  PetscBool    met;           /* the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
 } IPTermSet;

@@ -1,12 +1,12 @@
 /*
-   The laws of constraints and norm terms on the subspace, friction among them. With w eliminated and f = (lambda,
-   tau), v the motion of all rows,
+   Laws of constraints and norm terms (friction among them) on the subspace. With w eliminated, forces f = (lambda, tau)
+   and motions v of all rows satisfy
 
-     v = C f - RZ y - h,   T y + RZ^T f = t,   lambda >= 0, v_n >= 0, lambda v_n = 0,   tau = P(tau - rho v_t), P the
-     projection to |tau| <= b(lambda),
+     v = C f - RZ y - h,   T y + RZ^T f = t,
+     lambda >= 0,   v_n >= 0,   lambda v_n = 0,   tau = P(tau - rho v_t).
 
-   where R = [J; T], C = R K_WW^-1 R^T and RZ = R K_WW^-1 Q_W: which rows take part, how they move, and how far they
-   are from their laws.
+   P is the projection to |tau| <= b(lambda), R = [J; T], C = R K_WW^-1 R^T, RZ = R K_WW^-1 Q_W. This file finds the
+   active rows, computes the motions, and measures how far the laws are violated.
 */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
@@ -22,8 +22,8 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
   PetscFunctionReturn(0);
 }
 
-/* m constraints, all open, and n terms, all sticking, of rows R; K: K_WW, *definite is false where it is not positive
-   definite */
+/* Creates the state: m constraints, all open, and n terms, all sticking; R has their rows, K is K_WW. *definite:
+   false if K_WW is not positive definite */
 PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *set,
   PetscBool *definite)
 {
@@ -45,7 +45,7 @@ PetscInt IPTermLawsRow(const IPTermSet *set, PetscInt term)
   return set->m + 2 * term;
 }
 
-/* Whether a term can have a force now */
+/* Whether a term can carry a force with the present bound */
 static PetscBool TermLawsTakePart(const IPTermSet *set, PetscInt i)
 {
   if (set->limit[i] == 0.0 || set->coefficient[i] == 0.0) return PETSC_FALSE;
@@ -65,7 +65,7 @@ static PetscReal TermLawsLargest(PetscInt n, const PetscReal a[])
   return largest;
 }
 
-/* v = C f - RZ y - h, into s->gap, and the size of its terms */
+/* Computes v = C f - RZ y - h into s->gap, and the magnitude of its terms */
 PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -83,13 +83,13 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionReturn(0);
 }
 
-/* There are no forces along dead directions */
+/* Removes the components of forces along directions that cannot move */
 void IPTermLawsRelieve(const IPTermSet *set, const IPReducedSystem *s)
 {
   for (PetscInt i = 0; i < set->n; i++) IPTermRemoveDead(&set->dead[2 * i], &s->lambda[IPTermLawsRow(set, i)]);
 }
 
-/* What gives way to a row, or most to the two of a term */
+/* Compliance of a row, from the diagonal estimate; for the two rows of a term the larger one [length/force] */
 PetscReal IPTermLawsGiveWay(const IPTermSet *set, PetscInt row)
 {
   const PetscReal *gives = set->system.gives;
@@ -98,11 +98,12 @@ PetscReal IPTermLawsGiveWay(const IPTermSet *set, PetscInt row)
   return PetscMax(gives[first], row < set->m ? 0.0 : gives[first + 1]);
 }
 
-/* The rows that take part, as far as anything gives way to them: closed constraints, and the terms that can have a
-   force. The others have none. */
+/* Lists the active rows: closed constraints and terms that can carry a force, if their compliance is not zero. The
+   force of all other rows is set to zero. */
 static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
-  const PetscReal rounding = 1e-14; /* of what gives way most: tangents have that of directions that are held */
+  const PetscReal rounding = 1e-14; /* relative to the largest compliance: tangents of held directions have a
+                                       compliance of rounding size */
   PetscReal       largest  = TermLawsLargest(s->m, set->system.gives);
 
   set->na = 0;
@@ -115,7 +116,7 @@ static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
   }
 }
 
-/* Force per length of the rows of a term, from what they give way by themselves */
+/* rho of each term: the inverse of its compliance [force/length] */
 void IPTermLawsResist(IPTermSet *set)
 {
   for (PetscInt i = 0; i < set->n; i++) {
@@ -125,14 +126,14 @@ void IPTermLawsResist(IPTermSet *set)
   }
 }
 
-/* The motion of a term's two rows, without that along a dead direction */
+/* v: motion of a term's two rows, without the component along the direction that cannot move */
 void IPTermLawsMotion(const IPTermSet *set, const IPReducedSystem *s, PetscInt i, PetscReal v[2])
 {
   for (PetscInt a = 0; a < 2; a++) v[a] = s->gap[IPTermLawsRow(set, i) + a];
   IPTermRemoveDead(&set->dead[2 * i], v);
 }
 
-/* b = tau - rho v of a term; its size */
+/* b = tau - rho v of term i; returns |b| */
 PetscReal IPTermLawsTrial(const IPTermSet *set, const IPReducedSystem *s, PetscInt i, PetscReal b[2])
 {
   PetscReal v[2];
@@ -142,7 +143,7 @@ PetscReal IPTermLawsTrial(const IPTermSet *set, const IPReducedSystem *s, PetscI
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
-/* The term of a row, and which of its two it is; negative: a constraint's row */
+/* The term of a row, and `component`, which of its two rows it is; negative: a constraint's row */
 PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component)
 {
   if (row < set->m) return -1;
@@ -150,7 +151,7 @@ PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component
   return (row - set->m) / 2;
 }
 
-/* T y + RZ^T f - t */
+/* Residual of the directions' equations: Fy = T y + RZ^T f - t */
 PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -167,8 +168,8 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscFunctionReturn(0);
 }
 
-/* How far f and v are from the laws, an energy: the sum over all rows, constraints by min(lambda / rho, v), terms by
-   |tau - P(tau - rho v)| / rho, squared times rho */
+/* Violation of the laws by f and v [energy]: the sum of rho r^2 over all rows, with r = min(lambda / rho, v) for
+   constraints and r = |tau - P(tau - rho v)| / rho for terms */
 PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal merit = 0.0;
@@ -190,7 +191,7 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   return merit;
 }
 
-/* The rows that take part at f and y, and their v */
+/* Updates the list of active rows for f and y, and computes v */
 PetscErrorCode IPTermLawsRenew(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscFunctionBegin;

@@ -1,23 +1,24 @@
 /*
-   A way to the laws of laws.c where Newton's method on them finds none: along solutions of smoother ones,
+   Path-following start for the laws of laws.c where Newton's method fails. The laws are smoothed:
 
-     lambda w = m,  v_n = w,  lambda > 0,  w > 0,     r tau = -b(lambda) v_t,  r = sqrt(|v_t|^2 + e^2),
+     lambda w = m,   v_n = w,   lambda > 0,   w > 0,   r tau = -b(lambda) v_t,   r = sqrt(|v_t|^2 + e^2),
 
-   for m and e that go to zero, as interior point methods do for the first; the second linearized as it stands, not
-   divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
-   1999), is as good where a term sticks as where it slips. What is closed in the end is where Newton's method begins.
+   and m and e are reduced to zero, as in an interior point method. The friction law is linearized in the form above,
+   not divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
+   1999); that works for sticking and slipping terms. Newton's method then starts from the rows that are closed at the
+   end.
 */
 #include "frictionimpl.h"
 
 typedef struct {
-  PetscInt   n;       /* constraints that take part */
-  PetscReal *w;       /* of all constraints */
-  PetscReal  product; /* mean of lambda w */
+  PetscInt   n;       /* number of active constraints */
+  PetscReal *w;       /* slack w of each constraint [length] */
+  PetscReal  product; /* mean of lambda w over the active constraints [energy] */
   PetscReal  m, e;
 } TermPath;
 
-/* The same force for all constraints, such that they move each other as far as they are to be moved; w as large as
-   that */
+/* Initial point: the same force for all constraints, chosen so that they move each other by the largest gap; w is
+   the largest gap */
 static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, TermPath *path)
 {
   PetscReal length = 0.0, moved = 0.0, force;
@@ -48,7 +49,7 @@ static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, Te
   PetscFunctionReturn(0);
 }
 
-/* Equation and coefficients of a constraint */
+/* Residual of a constraint's equation and its coefficients in the linear system */
 static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i)
 {
   const PetscReal gives = set->system.gives[i], lambda = s->lambda[i], w = path->w[i],
@@ -61,7 +62,8 @@ static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSyste
   PetscFunctionReturn(0);
 }
 
-/* Of a term: by_v of its two motions; by_f of its two forces and of its constraint's, for component a */
+/* Linearizes component a of term i's law. by_v: derivatives by its two motions; by_f: by its two forces and by its
+   constraint's force; F: residual */
 static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i, PetscInt a,
   PetscReal by_v[3], PetscReal by_f[3], PetscReal *F)
 {
@@ -84,7 +86,7 @@ static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const Te
   *F      = sticks ? v[a] : (r * tau[a] + bound * v[a]) / size;
 }
 
-/* Equation and coefficients of a term's row; one that takes no part leaves its force as it is */
+/* Residual and coefficients of a term's row. The force of an inactive row is left unchanged. */
 static PetscErrorCode TermPathSetTerm(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt row)
 {
   const PetscReal tiny = 1e-9;
@@ -105,7 +107,7 @@ static PetscErrorCode TermPathSetTerm(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
-/* The longest step, 1 at most, that leaves x positive */
+/* Largest step up to alpha that keeps x + step dx positive, with a safety factor */
 static PetscReal TermPathToBoundary(PetscReal x, PetscReal dx, PetscReal alpha)
 {
   const PetscReal short_of = 0.995;
@@ -113,7 +115,7 @@ static PetscReal TermPathToBoundary(PetscReal x, PetscReal dx, PetscReal alpha)
   return dx < 0.0 ? PetscMin(alpha, -short_of * x / dx) : alpha;
 }
 
-/* A step of Newton's method on the smooth laws; alpha: its length */
+/* Newton step for the smoothed laws; alpha: the fraction of it that keeps lambda and w positive */
 static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal *alpha,
   PetscBool *solved)
 {
@@ -149,7 +151,7 @@ static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, Ter
   PetscFunctionReturn(0);
 }
 
-/* The next m and e: the less of the present ones the longer the last step was */
+/* Reduces m and e; more strongly after a long step */
 static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal alpha)
 {
   const PetscReal fraction = alpha > 0.9 ? 0.1 : alpha > 0.3 ? 0.3 : 0.7;
@@ -165,8 +167,8 @@ static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, Term
   path->e = path->m / force;
 }
 
-/* f, v and y at the end of the path, with what is closed there; *followed is false where it has none. *steps: systems
-   solved are added. */
+/* Follows the path to its end: f, v, y, and the rows that are closed there. *followed: false if a system could not
+   be solved or no constraint is active. *steps is increased by the number of systems solved. */
 PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *followed)
 {
   const PetscInt  limit = 100;

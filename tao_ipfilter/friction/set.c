@@ -1,12 +1,14 @@
 /*
-   The laws of laws.c by a semi-smooth Newton method (Alart and Curnier, A mixed formulation for frictional
-   contact problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active
-   set algorithm for three-dimensional contact problems with Coulomb friction, 2008): rows are open or closed, terms
-   stick, v_t = 0, or slip, tau = b d with d along tau - rho v_t. The systems are not symmetric: system.c.
+   Solves the laws of laws.c by a semi-smooth Newton method (Alart and Curnier, A mixed formulation for frictional
+   contact problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set
+   algorithm for three-dimensional contact problems with Coulomb friction, 2008). Constraints are open or closed. Terms
+   stick, v_t = 0, or slip, tau = b d with d the direction of tau - rho v_t. The linear systems are not symmetric:
+   system.c.
 */
 #include "frictionimpl.h"
 
-/* Opens and closes constraints by what the last step made of them: all, or the last of them alone */
+/* Updates which constraints are closed: a closed one opens under tension, an open one closes if penetrated. all: all
+   of them, else only the last one that is wrong. Returns whether any changed. */
 static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)
 {
   const PetscReal rounding = 1e-13;
@@ -21,8 +23,8 @@ static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   return changed;
 }
 
-/* The bound of a term; where its constraint has just closed, by the force that opens it again were nothing else to
-   move */
+/* Friction bound of a term. If its constraint has just closed, the bound is estimated from the force that would
+   remove the penetration if no other row moved. */
 static PetscReal TermSetForeseeBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal gives = i < set->m ? set->system.gives[i] : 0.0;
@@ -31,7 +33,7 @@ static PetscReal TermSetForeseeBound(const IPTermSet *set, const IPReducedSystem
   return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / gives);
 }
 
-/* Which terms slip */
+/* Updates which terms slip; returns whether any changed */
 static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscBool changed = PETSC_FALSE;
@@ -48,7 +50,8 @@ static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
   return changed;
 }
 
-/* Directions of slip, b / |b|, theta = bound / |b| and the bound's slope, where the equations are linearized */
+/* For slipping terms: the direction b / |b|, theta = bound / |b|, and the derivative of the bound, at which the
+   equations are linearized */
 static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
 {
   for (PetscInt i = 0; i < set->n; i++) {
@@ -63,8 +66,8 @@ static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
   }
 }
 
-/* The equations of the rows that take part, lengths: v of closed and sticking rows, (tau - bound d) / rho of slipping
-   ones; largest: of all */
+/* Residuals of the active rows [length]: v of closed and sticking rows, (tau - bound d) / rho of slipping ones.
+   Returns the largest. */
 static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal largest = 0.0;
@@ -93,8 +96,8 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   The derivative of a row's equation by the v of all rows and by f: coefficients by_v of the two rows of the term,
-   by_f of its two forces and of its constraint's. A closed or sticking row has by_v = 1 at itself.
+   Derivatives of a row's equation. by_v: by the motions of the term's two rows; by_f: by its two forces; by_lambda: by
+   the force of its constraint. A closed or sticking row has by_v = 1 at itself.
 */
 static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], PetscReal by_f[2], PetscReal *by_lambda)
 {
@@ -114,14 +117,15 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
 
     by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
     by_v[b] =
-      set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive; /* a dead direction is across the way */
+      /* a direction that cannot move is orthogonal to the slip direction */
+      set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive;
   }
   if (set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
 }
 
-/* One row of the system, its diagonal raised by as little as makes dependent rows no obstacle. Rows of terms depend
-   on one another wherever some of what they touch is held: their residuals, to which the diagonal adds nothing, are
-   what counts. A row that takes no part leaves its force as it is. */
+/* Assembles one row of the system. A tiny shift of the diagonal makes linearly dependent rows solvable; rows of
+   terms are dependent where bodies are held. The residual has no such shift, so the solution is not changed. The
+   force of an inactive row is left unchanged. */
 static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
 {
   const PetscReal shift = 1e-13, terms = 1e-9, gives = IPTermLawsGiveWay(set, row);
@@ -142,7 +146,7 @@ static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
   PetscFunctionReturn(0);
 }
 
-/* One step of Newton's method from f and y */
+/* One Newton step from f and y */
 static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, PetscReal rtol, PetscBool *solved)
 {
   PetscFunctionBegin;
@@ -165,8 +169,9 @@ static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], Pets
   for (PetscInt i = 0; i < n; i++) x[i] = x0[i] + alpha * (x[i] - x0[i]);
 }
 
-/* Back along the last step, from where f, v and y were and the directions off by `directions`, to the point on it
-   with the least energy of what laws and directions are off by: v is linear */
+/* Line search: from the end of a Newton step back towards its start (f, v, y), by halving, to the point of smallest
+   violation. directions: norm of the directions' residual at the start. v is linear along the step, so no system is
+   solved. */
 static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[],
   const PetscReal y[], PetscReal directions)
 {
@@ -197,7 +202,7 @@ static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, co
   PetscFunctionReturn(0);
 }
 
-/* The same, and as far along it as it leads to the laws */
+/* A Newton step with line search */
 static PetscErrorCode TermSetCarefulStep(IPTermSet *set, const IPReducedSystem *s, PetscReal rtol, PetscBool *solved)
 {
   PetscReal *before, directions = 0.0;
@@ -214,7 +219,7 @@ static PetscErrorCode TermSetCarefulStep(IPTermSet *set, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* The root of the energy that the residuals stand for */
+/* Square root of the squared residuals, weighted as an energy */
 static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal sum = 0.0;
@@ -226,7 +231,7 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
   return PetscSqrtReal(sum);
 }
 
-/* Opens, closes, and tells what slips; *changed: whether anything is not what it was */
+/* Updates which constraints are closed and which terms slip. *changed: whether anything changed */
 static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, PetscBool all, PetscBool *changed)
 {
   PetscFunctionBegin;
@@ -236,8 +241,8 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
-/* Newton's method in so many steps; *steps: systems solved are added. *first: what laws and directions were off by in
-   the beginning, negative: it is now. */
+/* At most `limit` Newton steps. *first: norm of the residual at the start; set if negative. *steps is increased by
+   the number of systems solved. */
 static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first,
   PetscInt *steps, PetscBool *solved)
 {
@@ -270,7 +275,8 @@ static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, P
   PetscFunctionReturn(0);
 }
 
-/* Whether any term sticks with next to any force: its law is one of open and closed, not smooth in the force */
+/* Whether any term has so large a coefficient that it sticks under almost any normal force. Its bound then jumps
+   between 0 and almost infinite, which a smoothed law cannot follow. */
 static PetscBool TermSetSticks(const IPTermSet *set)
 {
   const PetscReal large  = 100.0;
@@ -280,8 +286,8 @@ static PetscBool TermSetSticks(const IPTermSet *set)
   return sticks;
 }
 
-/* Newton's method from where we are, and where it finds no end from the end of a path. There is no path where terms
-   stick with next to any force. */
+/* Newton's method from the present state; if that fails, again from the end of a path of smoothed laws (path.c). The
+   path is not tried if TermSetSticks(). */
 static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
   PetscBool *solved)
 {
@@ -296,10 +302,10 @@ static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, Petsc
   PetscFunctionReturn(0);
 }
 
-/* f (in s->lambda), v (in s->gap) and y, from the last ones, to a small part of what the laws and the directions are
-   off by there, as the directions to come leave much more; *steps: systems solved; *solved is false where nothing
-   holds what moves, set->met where the laws are met no better than a convex problem meets them. Where v and f are
-   right but for rounding, it does not matter what rounding takes them for. */
+/* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
+   fraction of its start, since later directions will change the problem by more. If Newton's method and the path
+   fail, convex.c gives the solution, and set->met tells whether it satisfies the laws. *steps: number of systems
+   solved. *solved: false if nothing holds a moving body. */
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
 {
   PetscReal first = -1.0, *begin;

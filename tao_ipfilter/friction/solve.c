@@ -1,14 +1,14 @@
-/* Solves the systems of system.c by GMRES: no dense matrix is made of C, unless GMRES gives up. */
+/* Solves the systems of system.c by GMRES without forming C; by dense factors if GMRES fails. */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* What the shells of a solve know */
+/* Context of the shell matrix and shell preconditioner */
 typedef struct {
   IPTermSystem          *system;
   const IPReducedSystem *s;
 } TermSolveShell;
 
-/* a += factor RZ y, and b += RZ^T f, each where it is wanted */
+/* a += factor RZ y and b += RZ^T f; either is skipped if NULL */
 static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor, const PetscReal y[], PetscReal a[],
   const PetscReal f[], PetscReal b[])
 {
@@ -24,7 +24,7 @@ static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor
   PetscFunctionReturn(0);
 }
 
-/* The system's matrix, in rows and columns that are roots of energies */
+/* Multiplies by the system's matrix in scaled rows and columns */
 static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
 {
   const PetscReal    one = 1.0, zero = 0.0;
@@ -61,7 +61,7 @@ static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
   PetscFunctionReturn(0);
 }
 
-/* y = H^-1 (r_y - RZ^T P r_f), f = P r_f + V y */
+/* Applies the preconditioner: y = H^-1 (r_y - RZ^T P r_f), f = P r_f + V y */
 static PetscErrorCode TermSolvePrecondition(PC pc, Vec in, Vec out)
 {
   const PetscReal    one = 1.0;
@@ -114,7 +114,7 @@ static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, 
   PetscFunctionReturn(0);
 }
 
-/* x: the solution of the system with b on the right, from x on, by the factors there are */
+/* GMRES from the start x with the present factors; b: right hand side */
 static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, PetscInt limit, Vec b, Vec x,
   PetscInt *its, PetscBool *converged)
 {
@@ -132,7 +132,7 @@ static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, Pe
   PetscFunctionReturn(0);
 }
 
-/* b = (r_f, r_y), or back, with the rows' scale */
+/* Copies (r_f, r_y), scaled, to the vector b, or back */
 static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, PetscReal rf[], PetscReal ry[],
   PetscBool back)
 {
@@ -150,9 +150,8 @@ static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, Pe
   PetscFunctionReturn(0);
 }
 
-/* r_f and r_y, which become the solution where it has the residual that is asked for. Old factors serve while they
-   are not much slower than they were when new: soft bodies leave GMRES 20 to 30 iterations with any. Before the end
-   of so many there are new ones. */
+/* Overwrites r_f and r_y with the solution by GMRES. *converged: false if the residual was not reached. The factors
+   are renewed if GMRES needs many more iterations than with new factors; soft bodies need 20 to 30 even then. */
 static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool keep, PetscBool *converged)
 {
@@ -182,8 +181,8 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution to a relative residual, or what GMRES has made of it where there is no
-   room for dense factors; *solved is false where there is none */
+/* Overwrites r_f and r_y with the solution to the relative residual rtol. If dense factors do not fit into memory,
+   the result of GMRES is returned. *solved: false if there is no solution */
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {

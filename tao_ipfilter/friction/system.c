@@ -1,10 +1,10 @@
 /*
-   The linear systems of Newton's method on the laws of laws.c, for changes of the forces f of all rows R and of y,
+   Linear systems of Newton's method on the laws of laws.c, for changes of the forces f of all rows R and of y:
 
-     (B_v C + B_f) f - B_v RZ y = r_f,   RZ^T f + T y = r_y,   C = R K_WW^-1 R^T,
+     (B_v C + B_f) f - B_v RZ y = r_f,   RZ^T f + T y = r_y,   C = R K_WW^-1 R^T.
 
-   B_v and B_f made of blocks of a constraint and its term; K_WW is factored, and C is applied. Solved in solve.c,
-   with the preconditioner of factor.c.
+   B_v and B_f consist of blocks of a constraint and its term. K_WW is factored and C is applied, not formed. Solver:
+   solve.c; preconditioner: factor.c.
 */
 #include "frictionimpl.h"
 
@@ -34,7 +34,7 @@ PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* A matrix of all rows with the blocks of a constraint and its term, zeros */
+/* Creates a zero matrix for all rows with a block for each constraint and its term */
 static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
 {
   const PetscScalar zeros[9] = {0.0};
@@ -51,7 +51,7 @@ static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
   PetscFunctionReturn(0);
 }
 
-/* R D, and G = R D R^T with the blocks in it; what each row gives way by, were its unknowns alone */
+/* Computes R D and G = R D R^T with room for the blocks, and the diagonal compliances of all rows */
 static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
 {
   const PetscScalar *a;
@@ -76,7 +76,7 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* L U = K_WW by PETSc's own, which spends little on a solve; *definite: whether all pivots are positive */
+/* L U = K_WW by PETSc's LU, whose solves have little overhead. *definite: whether all pivots are positive */
 static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *definite)
 {
   MatFactorInfo  info;
@@ -102,8 +102,8 @@ static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *defi
   PetscFunctionReturn(0);
 }
 
-/* Of sequential K_WW and R, the rows of m constraints and below them two a term, n terms; with room for so many
-   directions; *definite is false where K_WW is not positive definite */
+/* Sets up for sequential K_WW and R. R has m rows of constraints, then two rows for each of n terms; kmax: largest
+   number of directions. *definite: false if K_WW is not positive definite */
 PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
   PetscBool *definite)
 {
@@ -128,7 +128,7 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Coefficients of one row: of v and of f, at the rows of its constraint and its term, n <= 3 */
+/* Sets the coefficients of one row: by_v and by_f in the n <= 3 columns of its constraint and its term */
 PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
 {
@@ -139,7 +139,7 @@ PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, con
   PetscFunctionReturn(0);
 }
 
-/* The rows are as they are to be */
+/* Call after all rows have been set */
 PetscErrorCode IPTermSystemAssemble(IPTermSystem *t)
 {
   const Mat B[2] = {t->Bv, t->Bf};

@@ -1,11 +1,12 @@
 /*
-   Equality constraints. Their multipliers are not eliminated: the symmetric indefinite system
+   Equality constraints in an augmented system. Their multipliers are not eliminated: the symmetric indefinite system
 
-     [ A    J_E^T    ] [ dx     ]   [  b             ]
-     [ J_E  -delta   ] [ y + dy ] = [ -c_E - delta y ]
+     [ A     J_E^T ] [ dx     ]   [  b              ]
+     [ J_E  -delta ] [ y + dy ] = [ -c_E - delta y  ]
 
-   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0), else delta grows in A, and delta of the last
-   block is switched on where the system is singular (dependent constraints).
+   is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0); otherwise a larger multiple of M_u is added to the
+   Hessian. If the system is singular because constraints depend on each other, a delta in the last block regularizes
+   it.
 */
 #include "linearimpl.h"
 #include "pc_amgf/mumps.h"
@@ -23,7 +24,7 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscFunctionReturn(0);
 }
 
-/* The factorization's KSP, prefix -tao_ipfilter_augmented_, and its diagonal block */
+/* Creates the KSP of the factorization, prefix -tao_ipfilter_augmented_, and its diagonal block */
 static PetscErrorCode AugmentedCreate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -51,7 +52,7 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* On any rank */
+/* misses: whether A lacks a diagonal entry on any rank */
 static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
 {
   PetscInt rstart, rend;
@@ -72,8 +73,8 @@ static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
   PetscFunctionReturn(0);
 }
 
-/* A as AIJ with all diagonal entries. Without a diagonal entry, PETSc 3.18 passes none of its row's upper triangle to
-   MUMPS on several ranks */
+/* Copies A to AIJ format with all diagonal entries. Without a diagonal entry, PETSc 3.18 on several ranks passes
+   none of its row's upper triangle to MUMPS */
 static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 {
   PetscBool missing;
@@ -91,8 +92,8 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* Copies the values into K if the pattern is the same, so that MUMPS's analysis is reused; else K becomes the given
-   matrix */
+/* Copies the values into aug->K if the pattern is the same, so that MUMPS's analysis is reused; otherwise K replaces
+   it */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
@@ -104,14 +105,14 @@ static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
     PetscCall(MatDestroy(K));
     PetscFunctionReturn(0);
   }
-  PetscCall(KSPReset(aug->ksp)); /* else the factor would be made anew without its settings */
+  PetscCall(KSPReset(aug->ksp)); /* otherwise the new factor would lack its settings */
   PetscCall(MatDestroy(&aug->K));
   PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
   aug->K = *K;
   PetscFunctionReturn(0);
 }
 
-/* K with A in its first block */
+/* Assembles K with A in its first block */
 static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -142,8 +143,8 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the KSP, with an ordering unless the user has chosen one. PETSc reads MUMPS's ordering from the options
-   database only */
+/* Sets up the KSP, with an ordering unless the user has chosen one. PETSc reads MUMPS's ordering only from the
+   options database */
 static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 {
   PetscOptions options;
@@ -163,9 +164,9 @@ static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 }
 
 /*
-   One factorization. Ordering: approximate minimum fill; without METIS, MUMPS would choose PORD, whose analysis of
-   the zero blocks takes longer than some factorizations and gains little. Pivots: a threshold as small as IPOPT's,
-   because delayed pivots cost work space
+   One factorization. Ordering: approximate minimum fill. Without METIS, MUMPS would choose PORD, whose analysis of the
+   zero blocks takes longer than some factorizations. Pivot threshold: as small as IPOPT's, because delayed pivots need
+   work space
 */
 static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
@@ -174,18 +175,19 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   const char *prefix;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored anew, be it with more work space alone */
+  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored again, even if only with more work space */
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(
-    MatSetOptionsPrefixFactor(aug->K, prefix)); /* as PCSetUp() does, too late for a factor that is made before */
+    MatSetOptionsPrefixFactor(aug->K, prefix)); /* PCSetUp() sets the prefix too late for a factor that is created
+                                                   before */
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatFactorClearError(F));
-  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* nothing of the analysis is to depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* the analysis must not depend on values, which change */
   PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
-  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which the inertia counts */
+  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which count for the inertia */
   PetscCall(AMGFMumpsSetCntl(F, 1, aug->pivot));
   PetscCall(AugmentedSetUpOrdered(aug->ksp));
   PetscCall(PCGetFailedReason(pc, failed));
@@ -193,10 +195,10 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   PetscFunctionReturn(0);
 }
 
-/* Factors; repeats with more work space if MUMPS had too little */
+/* Factors K; repeats with more work space if MUMPS had too little */
 static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
 {
-  const PetscInt  first = 100; /* per cent of work space beyond the estimate */
+  const PetscInt  first = 100; /* per cent of work space beyond MUMPS's estimate */
   const PetscReal pivot = 1e-6;
 
   PetscFunctionBegin;
@@ -204,16 +206,16 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   if (aug->pivot == 0.0) aug->pivot = pivot;
   PetscCall(AugmentedFactorOnce(aug, failed));
   while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
-    PetscCall(KSPReset(aug->ksp)); /* PETSc treats an error of MUMPS as one of its analysis from then on */
+    PetscCall(KSPReset(aug->ksp)); /* otherwise PETSc would treat MUMPS's error as one of the analysis */
     PetscCall(AugmentedFactorOnce(aug, failed));
   }
-  /* a factorization that failed is not to be reused */
+  /* a failed factorization must not be reused */
   if (*failed != PC_NOERROR) PetscCall(KSPReset(aug->ksp));
   PetscFunctionReturn(0);
 }
 
-/* Factors, and checks whether the inertia is that of a minimum and whether the matrix was singular. If MUMPS fails for
-   lack of memory or another reason, that says nothing about the matrix: ip->lin.failed */
+/* Factors K and checks the inertia (that of a minimum) and whether K was singular. If MUMPS fails for lack of memory
+   or another reason, ip->lin.failed is set: this says nothing about the matrix */
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
@@ -227,7 +229,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   PetscFunctionBegin;
   *singular = *inertia = PETSC_FALSE;
   PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
-  if (PetscIsInfOrNanReal(norm)) { /* MUMPS takes none */
+  if (PetscIsInfOrNanReal(norm)) { /* MUMPS does not accept such values */
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }
@@ -273,9 +275,8 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* residual = rhs - K sol, and its norm. *needless: it is far below what convergence requires of forces and
-   constraints; or, while that is far off, far below the present KKT error and negligible against the right-hand side
-   */
+/* Computes residual = rhs - K sol and its norm. *needless: no refinement is needed, because the residual is far
+   below what convergence requires, or far below the present KKT error and negligible against the right-hand side */
 static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -302,8 +303,7 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscFunctionReturn(0);
 }
 
-/* Iterative refinement, sol += K^-1 (rhs - K sol), as long as it halves the residual and the residual is neither
-   negligible nor needless */
+/* Iterative refinement sol += K^-1 (rhs - K sol), as long as it halves the residual and refinement is needed */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -332,7 +332,7 @@ static PetscErrorCode AugmentedRefine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The unit of delta: that of a row of J_E A^-1 J_E^T, beside which it stands */
+/* Unit of delta: a typical diagonal entry of J_E A^-1 J_E^T */
 static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -346,7 +346,7 @@ static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* Assembles and factors K; if it is singular, again with a regularization of dependent constraints */
+/* Assembles and factors K; if it is singular, again with regularization */
 static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -358,14 +358,14 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
   PetscCall(AugmentedUnit(tao, &unit));
-  ip->aug.delta    = ip->opt.delta_equality * unit;
+  ip->aug.delta    = IP_DELTA_EQUALITY * unit;
   ip->aug.centered = PETSC_TRUE;
   PetscCall(AugmentedAssemble(tao, ip->cond.A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   PetscFunctionReturn(0);
 }
 
-/* K sol = rhs, refined. Factors again with a larger pivot threshold if the residual stays too large */
+/* Solves K sol = rhs with refinement. Factors again with a larger pivot threshold if the residual stays too large */
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -389,8 +389,8 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* K (top, bottom) = (b, -ce), refined. A regularization draws the multipliers to the present ones, so that it vanishes
-   at a solution */
+/* Solves K (top, bottom) = (b, -ce) with refinement. The regularization is centred at the present multipliers, so
+   that it has no effect at a solution */
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -408,8 +408,8 @@ static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the new multipliers with the matrix cond.A; ce is the residual of the equality constraints.
-   matrix tells whether A is new since the last call. *usable is false where the inertia is wrong. */
+/* Solves for dx and the new multipliers with the matrix cond.A. ce: residual of the equality constraints; matrix: A
+   is new since the last call. *usable: false if the inertia is wrong */
 PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -430,8 +430,8 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscFunctionReturn(0);
 }
 
-/* y that brings the stationarity residual nearest to zero: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); zero where
-   that is singular */
+/* Estimates y by least squares of the stationarity residual: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); y = 0 if
+   this is singular */
 PetscErrorCode IPAugmentedMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

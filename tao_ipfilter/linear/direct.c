@@ -1,7 +1,7 @@
 /*
-   The whole condensed matrix by MUMPS, where Krylov methods fail: L D L^T, whose inertia tells for certain whether
-   the matrix is positive definite. MUMPS's analysis, of which there is one as long as the pattern stays, estimates
-   the memory before anything large is allocated.
+   The condensed matrix factored by MUMPS as L D L^T, used where Krylov methods fail. The inertia shows with certainty
+   whether the matrix is positive definite. MUMPS's analysis, done once per pattern, estimates the memory before
+   anything large is allocated.
 */
 #include "linearimpl.h"
 #include "pc_amgf/mumps.h"
@@ -15,8 +15,8 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* The present matrix in a format that MUMPS accepts as symmetric, AIJ or SBAIJ: direct.A; NULL if PETSc has no MUMPS
-   for it. Drops the factor if the matrix is another one; its analysis is reused as long as the pattern stays */
+/* Sets direct.A: the present matrix in AIJ or SBAIJ format, which MUMPS accepts as symmetric; NULL if PETSc has no
+   MUMPS for it. Drops the factor of another matrix; its analysis is reused as long as the pattern stays */
 static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 {
   PetscBool        baij, mumps;
@@ -47,7 +47,7 @@ static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* Analysis, and what the factors will take by it; no factor where it failed */
+/* MUMPS's analysis, and the memory that it predicts for the factors; no factor if it failed */
 static PetscErrorCode DirectAnalyse(Tao tao)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
@@ -63,9 +63,9 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscCall(TaoGetOptionsPrefix(tao, &prefix));
   PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
   PetscCall(MatSetOptionsPrefix(direct->F, own));
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* nothing of the analysis is to depend on values, which change: */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scaled by the diagonal of the matrix that is factored */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would hide the inertia of the root */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* the analysis must not depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scale by the diagonal of the matrix that is factored */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would hide the inertia of the root node */
   PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
@@ -77,7 +77,8 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Memory of the matrix itself [1e6 bytes]. The factors need more, so if this is too much no analysis is made */
+/* Lower bound of the memory of the factors: that of the matrix itself [1e6 bytes]. If it is too much, no analysis is
+   made */
 static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 {
   MatInfo info;
@@ -88,7 +89,7 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
   PetscFunctionReturn(0);
 }
 
-/* Whether factors of this size [1e6 bytes] are allowed; if not, records the reason */
+/* Whether factors of this size [1e6 bytes] are allowed; otherwise records why not */
 static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
 {
   PetscFunctionBegin;
@@ -100,8 +101,8 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Factors the matrix; repeats with more work space if MUMPS's own estimate was too small, and starts the next matrix
-   with that. A failed factorization is not reused */
+/* Factors the matrix; repeats with more work space if MUMPS's estimate was too small, and uses that for later
+   matrices too. A failed factorization is not reused */
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -130,7 +131,7 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
   PetscFunctionReturn(0);
 }
 
-/* Factors the present matrix; *factored is false where it cannot be, for which the record then has a reason */
+/* Factors the present matrix; *factored: false if that is impossible, with the reason in the record */
 static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
@@ -168,7 +169,8 @@ static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* A d = b by L D L^T, refined to rounding; failed where that takes more memory than allowed or MUMPS fails */
+/* Solves A d = b by L D L^T with refinement to rounding; the verdict is `failed` if that takes too much memory or
+   MUMPS fails */
 PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;

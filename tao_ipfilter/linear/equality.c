@@ -6,8 +6,8 @@
 #include "linearimpl.h"
 #include "pc_amgf/mumps.h"
 
-/* Whether the solver of the condensed system is one for stiff rows, and the rows are few and the unknowns many enough
-   for it */
+/* fits: whether the preconditioner can handle stiff rows, the equality constraints have few rows and the problem
+   enough unknowns */
 static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -23,14 +23,14 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   PetscCall(VecGetSize(tao->solution, &n));
   *fits = (PetscBool)(*fits && !ip->opt.direct_always && n >= many);
   if (!*fits) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceOf(tao, ip->jac.equality, &touched));
+  PetscCall(IPSubspaceOf(ip->jac.equality, &touched));
   PetscCall(ISGetSize(touched, &ntouched));
   PetscCall(ISDestroy(&touched));
   *fits = (PetscBool)(ntouched <= fraction * n);
   PetscFunctionReturn(0);
 }
 
-/* Chooses for this solve, whose Jacobian and Hessian at the start are at hand */
+/* Chooses the treatment for this solve, from Jacobian and Hessian at the start */
 PetscErrorCode IPEqualityChoose(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -62,9 +62,9 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the multipliers' direction with the matrix cond.A, from the guesses that stand there; ce is the
-   residual of the equality constraints, target the residual of forces asked for. matrix tells whether A is new since
-   the last call. */
+/* Solves for dx and the direction of the multipliers with the matrix cond.A, from the guesses in dx and the
+   direction. ce: residual of the equality constraints; target: residual of the forces to reach; matrix: A is new
+   since the last call */
 PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscReal target, PetscBool *usable)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -82,7 +82,7 @@ PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix,
   PetscFunctionReturn(0);
 }
 
-/* The step of a restoration */
+/* Computes dx of a restoration step */
 PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -91,7 +91,7 @@ PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usab
   PetscFunctionReturn(0);
 }
 
-/* y that brings the stationarity residual nearest to zero, by LSQR: a guess, which needs no more than a few digits */
+/* Estimates y by least squares of the stationarity residual with LSQR, to a few digits */
 static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -118,12 +118,13 @@ static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers for the present point, by a factorization of their own in small problems. None where the gradients of
-   the constraints are so nearly dependent that they would be huge (Waechter and Biegler 2006, section 3.6). */
+/* Estimates multipliers of the equality constraints at the present point, by a factorization in small problems. They
+   are set to zero if they would be huge because the gradients of the constraints are almost dependent (Waechter and
+   Biegler 2006, section 3.6). */
 PetscErrorCode IPEqualityMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal huge = 1e3; /* times the gradient */
+  const PetscReal huge = 1e3; /* relative to the gradient */
   const PetscInt  few  = 10000;
   PetscReal       y, g, j;
   PetscInt        n;

@@ -1,5 +1,5 @@
 /* Treats an error of a library inside a solver, such as hypre, as a failure of that solver, for which there are
-   remedies. It does not end the program. */
+   remedies, instead of ending the program. */
 #include "linearimpl.h"
 #include "pc_amgf/guard.h"
 
@@ -30,7 +30,8 @@ static PetscErrorCode GuardReplacePC(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether PCAMGF caught the error inside, on any rank. It reports that itself, and the KSP has ended on all ranks */
+/* KSPSolve() that survives errors of libraries. *failed: a library reported an error; x is then zero. PCAMGF handles
+   errors of its own solvers on any rank; other errors are assumed to occur on all ranks. */
 static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
 {
   PC             pc;

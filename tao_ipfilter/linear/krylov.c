@@ -1,18 +1,17 @@
-/* The condensed system by the user's Krylov method: its tolerance, what ends it early, verdict on its result, and the
-   record of iterations. */
+/* Solves the condensed system by the user's Krylov method: tolerance, early end, verdict, and record of iterations. */
 #include "linearimpl.h"
 
-/* The KSP's own convergence test, and what ends a run early */
+/* Context of the convergence test: the KSP's own test, and what is needed to detect stagnation */
 typedef struct {
   PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
   PetscErrorCode (*destroy)(void *);
   void     *ctx;
-  PetscReal close;   /* residual from which on it is looked at */
-  PetscReal least;   /* the last residual that was a progress, */
+  PetscReal close;   /* stagnation is tested only below this residual */
+  PetscReal least;   /* the last residual that counted as progress */
   PetscInt  reached; /* and when */
 } StallTest;
 
-/* Counts a linear solve of so many iterations */
+/* Adds a linear solve with its iterations to the record */
 PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -28,8 +27,8 @@ PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
   PetscFunctionReturn(0);
 }
 
-/* Iteration limit of the next solve. An indefinite matrix may keep a Krylov method busy without showing a negative
-   product. Ten times the longest successful solve is taken as a sign of that */
+/* Iteration limit of the next solve: ten times the longest successful solve. An indefinite matrix may keep a Krylov
+   method busy without a negative product p^T A p; exceeding the limit is taken as a sign of that */
 static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
 {
   const PetscInt factor = 10;
@@ -37,7 +36,7 @@ static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
   return ip->lin.longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin.longest)) : given;
 }
 
-/* Also ends a run that gains less than one digit in so many iterations close to the end */
+/* Convergence test that also ends a solve which gains less than one digit in a number of iterations near the end */
 static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
 {
   StallTest      *s        = (StallTest *)ctx;
@@ -55,7 +54,7 @@ static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KS
   PetscFunctionReturn(0);
 }
 
-/* IPGuardedSolve() with the test for stalling */
+/* IPGuardedSolve() with the test for stagnation */
 static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscBool *failed)
 {
   KSPNormType type;
@@ -72,7 +71,7 @@ static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscB
   PetscFunctionReturn(0);
 }
 
-/* One run of the KSP for A d = b, with adaptive forcing from the guess d to the present target */
+/* One KSP solve of A d = b; with adaptive forcing it starts from d and ends at the present target */
 static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -84,7 +83,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond.A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
-  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* takes no guess */
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* PREONLY takes no initial guess */
   ip->lin.limit = maxits;
   if (ip->opt.forcing == IP_FORCING_ADAPTIVE) {
     ip->lin.limit = KrylovLimit(ip, maxits);
@@ -103,10 +102,9 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 }
 
 /*
-   KrylovRun() for a correction, by flexible CG instead of CG. If J^T D J is stiff, PCAMGF's result has rounding
-   errors that these terms amplify. Relative to the residual they are the same in every step, so that the
-   preconditioner is not quite linear. CG's recurrence fails then. Flexible CG works, but does not detect negative
-   curvature
+   Computes a correction like KrylovRun(), but with flexible CG. If J^T D J is stiff, rounding errors in PCAMGF's result
+   are amplified by these terms. Relative to the residual they are equally large in every step, so the preconditioner is
+   not quite linear, and CG's recurrence fails. Flexible CG works, but does not detect negative curvature
 */
 static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
 {
@@ -139,8 +137,8 @@ static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* Drops a guess that is so bad that the KSP would report divergence. Its residual may exceed b's if the filter or the
-   first iterations correct it */
+/* Drops an initial guess whose residual is so large that the KSP would report divergence. The residual may exceed
+   that of zero if the filter or the first iterations correct it */
 static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -155,7 +153,7 @@ static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* The PC could not be set up because the matrix has a pivot of zero, not because something else failed */
+/* zero: whether the PC set-up failed because of a zero pivot, not for another reason */
 static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
 {
   PC             pc;
@@ -169,7 +167,7 @@ static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
   PetscFunctionReturn(0);
 }
 
-/* Whether J^T D J is so large compared with the Hessian that rounding may have changed the signs of pivots */
+/* drowned: whether J^T D J is so much larger than the Hessian that rounding may have changed the signs of pivots */
 static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -191,8 +189,8 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
   PetscFunctionReturn(0);
 }
 
-/* Whether factors of A, or of the filter's matrix, a principal part of it, have negative pivots: then A is indefinite,
-   which a Krylov method that these leave few iterations may not meet */
+/* indefinite: whether factors of A, or of the filter's matrix (a principal submatrix), have negative pivots. A
+   Krylov method with few iterations might not detect this */
 PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -214,7 +212,7 @@ PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
   PetscFunctionReturn(0);
 }
 
-/* A d = b by the KSP, refined */
+/* Solves A d = b by the KSP, with refinement */
 PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -233,7 +231,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   ip->lin.reason = reason;
   ip->lin.its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
-  /* looked at only where the problem has shown that it is not convex, and its constraints have an interior */
+  /* tested only if the problem has shown that it is not convex, and its constraints have an interior */
   if (ip->lin.filtered && ip->bar.curved && !ip->relax.times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
   if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
   else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
@@ -245,7 +243,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
     PetscCall(PetscInfo(tao,
       "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n",
       KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
-  /* a factorization that failed is not to be reused */
+  /* a failed factorization must not be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
   PetscFunctionReturn(0);
 }

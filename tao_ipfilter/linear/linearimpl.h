@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/linear: linear systems: Krylov methods, MUMPS, equality constraints.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/linear, linear systems: Krylov methods, MUMPS, equality constraints. Files are in the order in which
+   they depend on each other; they use the folders below.
 */
 #ifndef IPFILTER_LINEARIMPL_H
 #define IPFILTER_LINEARIMPL_H

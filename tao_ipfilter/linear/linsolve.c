@@ -1,5 +1,5 @@
-/* Solves the condensed system by the Krylov method, and if that fails, by one remedy after another. None of them
-   shifts the Hessian: failure of a solver is not negative curvature. */
+/* Solves the condensed system by the Krylov method and, if that fails, by one remedy after another. No remedy shifts
+   the Hessian, because the failure of a solver is not negative curvature. */
 #include "linearimpl.h"
 
 /* The PC, if it is a PCAMGF, else NULL */
@@ -14,7 +14,7 @@ static PetscErrorCode GetAMGF(Tao tao, PC *pc)
   PetscFunctionReturn(0);
 }
 
-/* Rebuilds an AMG that was kept from an older matrix */
+/* Remedy: rebuilds an AMG that was kept from an older matrix */
 static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
 {
   PC       pc;
@@ -30,7 +30,7 @@ static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Switches the filter on, if the AMG alone was used */
+/* Remedy: switches the filter on if the AMG alone was used */
 static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -47,7 +47,7 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Adds the neighbours to the subspace of this matrix, as long as it stays a small part of it */
+/* Remedy: adds the neighbours to the filtered unknowns of this matrix, as long as they stay a small part of all */
 static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -67,7 +67,7 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   *done = (PetscBool)(after > before && after <= fraction * n);
   if (*done) {
     PetscCall(PetscObjectCompose((PetscObject)ip->cond.A, PCAMGF_FILTER_KEY, (PetscObject)wide));
-    /* the switch makes it look for its subspace */
+    /* switching makes it look for its subspace again */
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
     ip->rec.fallbacks.filters++;
@@ -76,8 +76,8 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Krylov method failed as it does on indefinite matrices, if there is no certain sign. A limit of few
-   iterations is the caller's choice and no sign */
+/* Whether the Krylov method's failure suggests an indefinite matrix without proof. An iteration limit set low by the
+   caller is no sign */
 static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 {
   switch (ip->lin.reason) {
@@ -90,14 +90,15 @@ static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
   }
 }
 
-/* If nothing helped, a direction that reduces the residual tenfold is still good enough for an inexact Newton method */
+/* Whether the direction reduces the residual tenfold, which is good enough for an inexact Newton method if all
+   remedies failed */
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!IPUndefined(ip->lin.norm) &&
-                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, ip->opt.forcing_max * ip->lin.rhs));
+                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, IP_FORCING_MAX * ip->lin.rhs));
 }
 
-/* In the order in which they are tried: what is changed first, if anything can be, and who solves then */
+/* Remedies in the order in which they are tried: `prepare` changes something (if possible), `solve` solves then */
 static const struct {
   PetscErrorCode (*prepare)(Tao, PetscBool *);
   PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
@@ -109,7 +110,7 @@ static const struct {
   {NULL, IPDirectSolve},
 };
 
-/* Whether only MUMPS is tried: by the user's choice, or because only MUMPS could do the last solves */
+/* Whether only MUMPS is tried: by the user's choice, or because only MUMPS succeeded in the last solves */
 static PetscBool DirectOnly(const TAO_IPFILTER *ip)
 {
   const PetscInt in_vain = 2;
@@ -117,7 +118,7 @@ static PetscBool DirectOnly(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->opt.direct_always || ip->lin.ndirect >= in_vain);
 }
 
-/* A matrix or right-hand side that is not made of numbers ends the search for a solver */
+/* sound: whether matrix and right-hand side contain only numbers; otherwise no solver is tried */
 static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -131,7 +132,7 @@ static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
   PetscFunctionReturn(0);
 }
 
-/* The record of MUMPS on the whole matrix, and the verdict where it failed, too */
+/* Records the result of MUMPS, and sets the verdict if it failed too */
 static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -149,7 +150,7 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
   PetscFunctionReturn(0);
 }
 
-/* Goes through the remedies until one gives a verdict on the matrix */
+/* Tries the remedies until one gives a verdict on the matrix */
 static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   const size_t n     = PETSC_STATIC_ARRAY_LENGTH(remedies);
@@ -169,9 +170,9 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
 }
 
 /*
-   Solves A d = b from the guess d, to ||b - A d|| <= target; with fixed forcing the KSP's own tolerances and guess
-   hold. *usable is false if the matrix is not positive definite, or no solver gave a usable direction; then
-   ip->lin.failed is true, and no shift of the Hessian helps
+   Solves A d = b from the guess d to ||b - A d|| <= target. With fixed forcing the KSP's own tolerances and guess are
+   used. *usable: false if the matrix is not positive definite, or if no solver gave a usable direction; in the second
+   case ip->lin.failed is true, and shifting the Hessian does not help
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {

@@ -1,13 +1,13 @@
 /*
-   Equality constraints whose rows touch few unknowns, without a factorization of the whole matrix. With weights W far
-   above the stiffness that resists them, the condensed matrix A + J_E^T W J_E is one that PCAMGF takes, and the
-   method of multipliers
+   Equality constraints that involve few unknowns, without a factorization of the whole matrix. The weights W are much
+   larger than the stiffness that resists the constraints. PCAMGF can precondition the condensed matrix A + J_E^T W J_E.
+   The method of multipliers
 
      (A + J_E^T W J_E) dx = b - J_E^T (y + W c_E),   y <- y + W (J_E dx + c_E)
 
-   ends at the solution of the augmented system: what is left of J_E dx + c_E falls by the ratio of both stiffnesses
-   at each update of y. The residual of the forces is that of the condensed system, and each update changes its
-   right-hand side where PCAMGF solves exactly, so that it costs few iterations.
+   converges to the solution of the augmented system: each update reduces J_E dx + c_E by the ratio of the two
+   stiffnesses. The residual of the forces is that of the condensed system. An update changes the right-hand side only
+   where PCAMGF solves exactly, so it costs few iterations.
 */
 #include "linearimpl.h"
 
@@ -28,8 +28,8 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx += (A + J_E^T W J_E)^-1 times the residual of the right-hand side, unless it is within the target. The solve
-   reduces it to a tenth of the target, so that the next update of the multipliers does not exceed the target */
+/* dx += (A + J_E^T W J_E)^-1 (residual of rhs), unless the residual is within the target. It is reduced to a tenth
+   of the target, so that the next update of the multipliers does not exceed the target */
 static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target, PetscBool *usable, PetscBool *done)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -71,7 +71,8 @@ static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *
   PetscFunctionReturn(0);
 }
 
-/* The part of J_E dx + c_E that need not be reduced: negligible against its terms, or rounding of c_E */
+/* limit: the part of J_E dx + c_E that need not be reduced, because it is negligible relative to its terms or
+   rounding of c_E */
 static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -86,13 +87,13 @@ static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
   PetscFunctionReturn(0);
 }
 
-/* dx and the direction of the multipliers, from the guesses that stand there. *exact is false where J_E dx + c_E does
-   not vanish. */
+/* Solves for dx and the direction of the multipliers, from the guesses in them. *exact: false if J_E dx + c_E does
+   not vanish */
 PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target, PetscBool *usable, PetscBool *exact)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscInt  most  = 20;
-  const PetscReal close = 1e3; /* times the limit: rounding is what stops it there */
+  const PetscReal close = 1e3; /* multiple of the limit within which rounding is taken as the cause */
   PetscReal       left = PETSC_INFINITY, limit = 0.0;
   Vec             rhs, y;
 
@@ -123,7 +124,7 @@ PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target,
   PetscFunctionReturn(0);
 }
 
-/* dx of a restoration step: the weights are those of the violation, and nothing is to vanish */
+/* dx of a restoration step: one solve, with the weights of the violation and without updates */
 PetscErrorCode IPProximalRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
 {
   const PetscReal accuracy = 1e-3;

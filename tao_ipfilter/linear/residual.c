@@ -1,13 +1,13 @@
-/* The true residual of the condensed system decides about a solve, not a Krylov method's estimate. If it is too large,
-   the solve is continued from the iterate reached. */
+/* Judges linear solves by the true residual of the condensed system, not by a Krylov method's estimate. If it is too
+   large, the solve is continued from the iterate reached. */
 #include "linearimpl.h"
 
 #define IP_MAX_REFINEMENTS 3
-#define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* backward error below which refinement stops */
-#define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding causes in any solver */
+#define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* refinement stops below this backward error */
+#define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding may cause in any solver */
 
-/* r = b - A d, its norm, and the backward error: its ratio to the terms it is the difference of. A is positive
-   definite, so that diag(A) |d| stands for |A| |d|. */
+/* r = b - A d, its norm, and the backward error: the norm relative to that of its terms, with diag(A) |d| in place
+   of |A| |d| since A is positive definite */
 PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -28,26 +28,26 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Whether the residual meets the target, or is as small as rounding allows. With fixed forcing the KSP's own criterion
-   counts, unless its result is no direction at all */
+/* Whether the residual meets the target or is as small as rounding allows. With fixed forcing the KSP's own
+   criterion decides, unless its result is unusable */
 PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
   if (ip->lin.backward_error <= IP_ROUNDING) return PETSC_TRUE;
   if (ip->opt.forcing == IP_FORCING_FIXED)
-    return (PetscBool)(reason > 0 && ip->lin.norm <= ip->opt.forcing_max * ip->lin.rhs);
+    return (PetscBool)(reason > 0 && ip->lin.norm <= IP_FORCING_MAX * ip->lin.rhs);
   return (PetscBool)(ip->lin.norm <= 2.0 * ip->lin.target);
 }
 
-/* Whether more was asked for, be it more than rounding leaves */
+/* Whether the requested target was missed, even if rounding is the cause */
 static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   return ip->opt.forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason)
                                              : (PetscBool)(ip->lin.norm > 2.0 * ip->lin.target);
 }
 
-/* Whether continuing from the iterate reached may help: the last run stopped by its own estimate of the residual, or
-   rounding gave it a product of the wrong sign close to the end */
+/* Whether continuing from the iterate reached may help: the last solve ended by its own estimate of the residual, or
+   a product p^T A p got the wrong sign by rounding close to the end */
 static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
@@ -56,7 +56,8 @@ static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason re
   return (PetscBool)(reason > 0);
 }
 
-/* d += A^-1 (b - A d) by the given solver while that halves the residual; exact: to rounding, whatever was asked for */
+/* d += A^-1 (b - A d) by the given solver, repeated while it halves the residual; exact: down to rounding, whatever
+   the target */
 PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErrorCode (*solve)(Tao, Vec, Vec),
   KSPConvergedReason reason)
 {
@@ -87,7 +88,7 @@ PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErr
   PetscFunctionReturn(0);
 }
 
-/* Records a failure that no solver is to blame for */
+/* Records a failure that was caused by values that are not numbers, not by a solver */
 PetscErrorCode IPResidualNotANumber(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,18 +1,19 @@
 /*
-   Error bound in the objective. To first order the error is at most sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i -
-   s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i: stationarity residual r times lengths l_j of the unknowns,
-   violation times multipliers, and the complementarity gap. Each term is an energy, whatever the units of its row,
-   bound or unknown; and the last sum grows with the number of bounds as the error does. All are compared with the
-   objective.
+   Error bound of the objective. To first order the error is at most
+
+     sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i:
+
+   stationarity residual r times lengths l_j of the unknowns, violations times multipliers, and the complementarity gap.
+   Each term has the units of the objective, whatever the units of its row, bound or unknown. The last sum grows with
+   the number of bounds, as the error does. All terms are compared with the objective.
 */
 #include "measureimpl.h"
 
-#define IP_WORTH_MULTIPLE 20.0 /* of the tolerance: share of the objective allowed for the error bound */
-#define IP_WORTH_TERMS    1e-6 /* fraction of the terms of the objective that replaces it if they cancel */
-#define IP_WORTH_FIRST    1e-8 /* fraction of the first terms that replaces them if they vanish */
+#define IP_WORTH_MULTIPLE 20.0 /* allowed error bound relative to the objective, as a multiple of the tolerance */
+#define IP_WORTH_TERMS    1e-6 /* replaces the objective by this fraction of its terms if these cancel */
+#define IP_WORTH_FIRST    1e-8 /* replaces the terms by this fraction of their first values if they vanish */
 #define IP_WORTH_ROUNDING \
-  (100.0 * PETSC_MACHINE_EPSILON) /* fraction of the terms that is the least value of a
-                                                             residual */
+  (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding */
 
 /* sum_j |a_j b_j| */
 static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
@@ -32,8 +33,8 @@ static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* sum_j |r_j| l_j. l_j is the larger of the unknown's size and its own Newton step: an unknown that is zero may be far
-   from its solution. diagonal: of the condensed matrix */
+/* sum_j |r_j| l_j, where l_j is the larger of |x_j| and the unknown's own Newton step |r_j| / diagonal_j: an unknown
+   that is zero may be far from its solution. diagonal: of the condensed matrix */
 static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscReal *sum)
 {
   const Vec          v[4] = {r, tao->solution, diagonal, tao->gradient};
@@ -55,7 +56,8 @@ static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* The stationarity residual's worth. The diagonal is that of the last matrix, and the Hessian's before there is one. */
+/* Part of the stationarity residual in the error bound. The diagonal is that of the last condensed matrix; before
+   there is one, that of the Hessian. */
 static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -70,7 +72,7 @@ static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *worth)
   PetscFunctionReturn(0);
 }
 
-/* The violation's worth */
+/* Part of the violation in the error bound */
 static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -92,7 +94,7 @@ static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *worth)
   PetscFunctionReturn(0);
 }
 
-/* The gap of complementarity, sum m t z */
+/* Part of the complementarity gap in the error bound: sum m t z */
 static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -108,7 +110,7 @@ static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *worth)
   PetscFunctionReturn(0);
 }
 
-/* Terms that make up the objective: sum_j |x_j (H x)_j| + |x_j g_j| */
+/* Magnitude of the objective's terms: sum_j |x_j (H x)_j| + |x_j g_j| */
 PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -125,8 +127,8 @@ PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
   PetscFunctionReturn(0);
 }
 
-/* The same at the start, where the unknowns may all be zero: with what Newton steps of each alone would gain, and the
-   gap there */
+/* The same at the start, where all unknowns may be zero: adds the gains of Newton steps of single unknowns, and the
+   complementarity gap */
 static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,7 +141,7 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscFunctionReturn(0);
 }
 
-/* The objective that residuals are held against. A constant one has no size. */
+/* The objective's magnitude to which residuals are compared; 0 for a constant objective */
 PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -156,7 +158,7 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
   PetscFunctionReturn(0);
 }
 
-/* Fills kkt.work and kkt.work_dual: over the multiple of the objective that the tolerance stands for */
+/* Sets kkt.work and kkt.work_dual: the error bound relative to its allowed size */
 PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -204,26 +206,26 @@ PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
   PetscFunctionReturn(0);
 }
 
-/* The same in the units of the objective */
+/* Converts such a relative value to the units of the objective */
 PetscReal IPErrorBoundOfWork(const TAO_IPFILTER *ip, PetscReal work)
 {
   return work * IP_WORTH_MULTIPLE * ip->scale.energy;
 }
 
-/* Whether a gap of complementarity is within the tolerance */
+/* Whether a complementarity gap is within the tolerance */
 PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 {
   return (PetscBool)(gap <= IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy);
 }
 
-/* The norm of a stationarity residual of which both measures are 1 at most */
+/* Norm of the stationarity residual up to which both measures of the KKT error are at most 1 */
 PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 {
   return ip->kkt.work_dual > 0.0 ? PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual) : ip->scale.dual;
 }
 
-/* The same at the end of the step dx, where the objective is what a quadratic one would be: at a start of zero its
-   terms say nothing */
+/* The same at the end of the step dx, with the objective of the quadratic model: at a start of zero the objective's
+   terms are no guide */
 PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -240,8 +242,8 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* mu below which the method need not go: each product t z is within a tenth of the tolerance, and their sum within
-   half of it */
+/* Smallest mu that is needed: each product t z is then within a tenth of the tolerance, and their sum within half of
+   it */
 PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
 {
   PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale.product;

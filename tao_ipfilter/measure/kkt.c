@@ -1,8 +1,7 @@
 /* Residuals of the optimality conditions. */
 #include "measureimpl.h"
 
-/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms, for multipliers lambda or z
-   of the slacks */
+/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms; multiplier: lambda or z */
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -32,8 +31,7 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionReturn(0);
 }
 
-/* sum m (lambda - z)^2, z being that of both sides: the stationarity residual of the slacks in the norm of the
-   weights, squared */
+/* sum m (lambda - z)^2, with z of both sides: square of the slacks' stationarity residual in the weighted norm */
 static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -50,7 +48,7 @@ static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* The larger one, or NaN if one is; PetscMax() ignores NaN in the second place */
+/* The larger number, or NaN if one is NaN; PetscMax() ignores a NaN in its second argument */
 static PetscReal Larger(PetscReal a, PetscReal b)
 {
   return a > b || PetscIsNanReal(a) ? a : b;
@@ -75,7 +73,7 @@ static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* The stationarity residual: mass-weighted, or each part per unit of its scale */
+/* The stationarity residual: mass-weighted, or each part relative to its scale */
 static PetscErrorCode DualError(Tao tao, PetscReal *dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -92,8 +90,7 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
-/* Scale by which violations of successive iterates are compared: the constraints' first values, or their gradients
-   times x at the start */
+/* Scale for violations of successive iterates: the constraints' first values, or |J| |x| at the start */
 static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
 {
   const PetscReal size = PetscMax(values, jacobian * ip->first.x);
@@ -101,8 +98,8 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
   return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
-/* c_I - s into ip->rc, and how far the constraints and the laws of norm terms are from being met: per unit of their
-   scales, and in the caller's units */
+/* Sets ip->rc = c_I - s. primal: violation of constraints and of the laws of norm terms, relative to their scales;
+   largest: in the caller's units */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -133,18 +130,18 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   PetscFunctionReturn(0);
 }
 
-/* The larger one of the KKT error's two measures */
+/* The larger of the two measures of the KKT error */
 PetscReal IPBothErrors(const TAO_IPFILTER *ip)
 {
   return Larger(ip->kkt.error, ip->kkt.work);
 }
 
-/* Violations beside the constraints' own terms, where nothing else stands against the end. With scales that are given
+/* Measures the violation relative to the constraints' own terms if everything else has converged. With given scales
    violations are absolute. */
 static PetscErrorCode OwnNearEnd(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal near = PetscMax(ip->tol, ip->opt.acceptable_tol);
+  const PetscReal near = PetscMax(ip->tol, IP_ACCEPTABLE_TOL);
 
   PetscFunctionBegin;
   ip->kkt.own = 0.0;
@@ -155,7 +152,7 @@ static PetscErrorCode OwnNearEnd(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Residuals and errors at the current iterate: fills ip->rx, ip->rc, ip->scale and ip->kkt */
+/* Computes residuals and errors at the current iterate: ip->rx, ip->rc, ip->scale and ip->kkt */
 PetscErrorCode IPComputeKKT(Tao tao)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;

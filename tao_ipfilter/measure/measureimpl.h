@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/measure: sizes and residuals: stiffness, scales, norm terms, what residuals are worth, the
-   KKT error. Every file builds on those before it, and on the folders below.
+   tao_ipfilter/measure, sizes and residuals: stiffness, scales, norm terms, error bound, KKT error. Files are in the
+   order in which they depend on each other; they use the folders below.
 */
 #ifndef IPFILTER_MEASUREIMPL_H
 #define IPFILTER_MEASUREIMPL_H
@@ -29,7 +29,7 @@ PETSC_INTERN PetscErrorCode IPValuesWithinReach(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
 PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
 
-/* terms.c, beside the public functions */
+/* terms.c, in addition to its public functions */
 PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
 PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);

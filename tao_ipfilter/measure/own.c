@@ -1,8 +1,9 @@
-/* Violations beside the terms that the constraints themselves are made of, now: the sizes at a start that lay far off,
-   or those of other rows, would let anything pass. */
+/* Violation of each constraint relative to its own present terms. The size of the constraints at a distant start, or
+   of other rows, would make any violation look small. */
 #include "measureimpl.h"
 
-/* Of every row of J: sum_j |J_ij x_j|, the terms that cancel where it is met, and max_j |J_ij|; largest may be NULL */
+/* For every row of J: sums = sum_j |J_ij x_j|, the terms that cancel where the constraint is met; largest = max_j
+   |J_ij|, may be NULL */
 PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
 {
   Mat          terms;
@@ -42,7 +43,7 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscReal *own)
 {
   const PetscScalar *a[5];
-  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* and J x, the sums, the largest entries */
+  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* followed by J x, the sums, the largest entries */
   PetscReal          local = 0.0, xsize;
   PetscInt           n;
 
@@ -98,14 +99,14 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
   PetscFunctionReturn(0);
 }
 
-/* Size of the inequality constraints that are active, those whose slack is next to nothing beside the terms of the row:
-   the largest of these terms; 0 where none is */
+/* size: largest term of the active inequality constraints, i.e. of those with a slack that is negligible relative to
+   their terms; 0 if none is active */
 PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    active = 1e-3;
   const PetscScalar *a[4];
-  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* and J x, the sums */
+  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* followed by J x, the sums */
   PetscReal          local = 0.0;
   PetscInt           n;
 

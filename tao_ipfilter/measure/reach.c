@@ -1,13 +1,14 @@
 /*
-   Constraints out of reach: no unknown that moves as far as can be expected makes them zero. Rows of 1e8 or 1e10 that
-   stand for none are such. No size hangs on them: beside them all that matters would be small.
+   Constraints out of reach: no expected change of the unknowns makes them zero. Rows with values of 1e8 or 1e10 that
+   stand for missing constraints are of this kind. They are left out of all sizes, because relative to them any other
+   violation would look small.
 */
 #include "measureimpl.h"
 
-#define IP_FAR  1e3  /* times the change of a constraint that can be expected: its value is out of reach */
-#define IP_SOFT 1e-8 /* of the largest curvature: less counts as none */
+#define IP_FAR  1e3  /* a constraint is out of reach if its value exceeds its expected change by this factor */
+#define IP_SOFT 1e-8 /* curvatures below this fraction of the largest count as zero */
 
-/* |x_j|, and the Newton step of each unknown by itself */
+/* way: expected change of each unknown, |x_j| or its own Newton step */
 static PetscErrorCode ReachUnknowns(Tao tao, Vec way)
 {
   Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
@@ -32,12 +33,13 @@ static PetscErrorCode ReachUnknowns(Tao tao, Vec way)
   PetscFunctionReturn(0);
 }
 
-/* The way to constraints that are not met, and to the nearest of those that are: over the largest row of J */
+/* Distance (in unknowns, by the largest row entry of J) to the constraints that are violated, and to the nearest of
+   those that are met */
 static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nearest)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   const PetscScalar *c;
-  PetscReal          way[2] = {0.0, PETSC_NINFINITY}; /* the largest, - the least */
+  PetscReal          way[2] = {0.0, PETSC_NINFINITY}; /* the largest, and minus the smallest */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -55,8 +57,8 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
   PetscFunctionReturn(0);
 }
 
-/* How far each constraint may change, by its own unknowns, and no less than it takes to meet it; by all of them where
-   its own stay where they are */
+/* Expected change of each constraint: by its own unknowns, or by all unknowns if its own are not expected to change;
+   at least what it takes to meet it */
 static PetscErrorCode ReachRows(Tao tao, Vec way)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -79,8 +81,7 @@ static PetscErrorCode ReachRows(Tao tao, Vec way)
   PetscFunctionReturn(0);
 }
 
-/* How far unknowns and constraints may be expected to move, from what is known at the start. With it, what c_I measures
-   there. */
+/* Computes from the start how far unknowns and constraints may be expected to change, and the size of c_I there */
 PetscErrorCode IPMeasureReach(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -106,14 +107,13 @@ PetscErrorCode IPMeasureReach(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* No unknown is expected to move farther than that */
+/* Largest expected change of an unknown */
 PetscReal IPReachOfUnknowns(const TAO_IPFILTER *ip)
 {
   return ip->first.reach > 0.0 ? IP_FAR * ip->first.reach : PETSC_INFINITY;
 }
 
-/* The entries of v, a vector in the layout of c_I, that are within reach; zeros in the place of the others. The reach
-   grows with x. */
+/* near: the entries of v (layout of c_I) that are within reach, zeros for the others. The reach grows with x. */
 PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
@@ -138,7 +138,7 @@ PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
   PetscFunctionReturn(0);
 }
 
-/* The largest of them */
+/* size: largest entry of v within reach */
 PetscErrorCode IPSizeWithinReach(Tao tao, Vec v, PetscReal *size)
 {
   Vec near;

@@ -1,7 +1,7 @@
 /* Stiffness that resists the motions of norm terms, and directions in which they cannot move. */
 #include "measureimpl.h"
 
-/* The sums of both rows of each term */
+/* Creates the matrix of the sums of each term's two rows */
 static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
 {
   PetscInt rstart, rend, first, m, n, *counts;
@@ -36,8 +36,8 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscFunctionReturn(0);
 }
 
-/* Compliance of both components of a term, from the rows' own compliances and that of their sum; and the direction of
-   almost no compliance, zeros: none */
+/* From the compliances of both rows and of their sum: the principal compliances of a term, and the unit direction
+   `dead` of almost no compliance (zeros: none) */
 static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {
   const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
@@ -49,12 +49,12 @@ static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both
   dead[1] = none ? 0.0 : PetscCosReal(angle);
 }
 
-/* rho: stiffness that resists both components; 0 if nothing gives way. dead: a direction with almost no compliance and
-   almost no v, as across a symmetry plane. v does not depend on x there and counts as zero */
+/* rho: stiffness that resists each term; 0 if it has no compliance. dead: direction with almost no compliance and
+   almost no motion v, e.g. across a symmetry plane. There v does not depend on x and counts as zero */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
   IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    unmoved = 1e-6; /* of the largest motion */
+  const PetscReal    unmoved = 1e-6; /* relative to the largest motion */
   const PetscScalar *c, *b, *v;
   PetscScalar       *rho, *dead;
   PetscReal          sizes[2];

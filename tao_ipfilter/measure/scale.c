@@ -1,4 +1,4 @@
-/* Magnitudes that residuals are measured by. */
+/* Scales by which residuals are divided. */
 #include "measureimpl.h"
 
 #define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
@@ -8,17 +8,17 @@
 #define IP_STEEP   0.1   /* constraints that have become flatter than that started where they were steep */
 #define IP_RUNAWAY 100.0 /* largest ratio of an iterate's size to its first size */
 
-/* The size, limited by a multiple of that at the start: an iterate that runs away must not make its residuals look
-   small */
+/* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small */
 static PetscReal Within(PetscReal size, PetscReal limit)
 {
   return limit > 0.0 ? PetscMin(size, limit) : size;
 }
 
 /*
-   Length and pressure scales of the inequality constraints. If every constraint is active from the start, values and
-   slacks are zero, so displacements are used. Pressures cannot be: those of infeasible constraints grow without
-   limit. If none is active, a small fraction of the pressure that would balance the objective's gradient is used
+   Length and pressure scales of the inequality constraints: their values and multipliers. If every constraint is active
+   from the start, values and slacks are zero, and displacements are used for the length. Pressures of infeasible
+   constraints grow without limit, so they are limited. If no constraint is active, a small fraction of the pressure
+   that would balance the objective's gradient is used
 */
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
@@ -47,7 +47,7 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscFunctionReturn(0);
 }
 
-/* Values of the equality constraints: the first, or the terms of their linear parts */
+/* Scale of the equality constraints: their first values, or the terms of their linear parts */
 static PetscErrorCode EqualityScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -66,9 +66,9 @@ static PetscErrorCode EqualityScale(Tao tao)
 }
 
 /*
-   Force scale: the forces that cancel in the gradient; if none do, the gradient at the start, but no more than its
+   Force scale: the forces that cancel in the gradient. If none cancel, the gradient at the start, limited by its
    present terms, so that a distant start does not make every gradient look small. Gradients below ten roundings of
-   their terms have no meaning
+   their terms are meaningless
 */
 static PetscErrorCode DualScale(Tao tao)
 {
@@ -77,7 +77,7 @@ static PetscErrorCode DualScale(Tao tao)
   const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
   PetscReal       norm, terms, stiffness;
   const PetscReal least = PetscSqr(
-    PETSC_MACHINE_EPSILON); /* of the first gradient: smaller ones are no gain, be it that the unknowns run off */
+    PETSC_MACHINE_EPSILON); /* fraction of the first gradient: a smaller one is no gain, even if the unknowns diverge */
   const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
 
   PetscFunctionBegin;
@@ -90,7 +90,7 @@ static PetscErrorCode DualScale(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* An absolute limit as it was given, or what the scaling has */
+/* Absolute limit: the given one, or if negative that of the chosen scaling */
 PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
 {
   if (given >= 0.0) return given;
@@ -98,9 +98,9 @@ PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal
 }
 
 /*
-   Scales of the residuals. They have the problem's units, so that a change of units changes no decision: forces
-   against the forces that cancel, constraints against their largest value, products t z against length times
-   pressure. If these vanish, small fractions of first values, and of the stiffness's pressure, replace them
+   Computes the scales of the residuals. They have the problem's units, so that a change of units changes no decision:
+   forces relative to the forces that cancel, constraints to their largest value, products t z to length times pressure.
+   Scales that vanish are replaced by small fractions of first values, or by the pressure from the stiffness
 */
 PetscErrorCode IPComputeScale(Tao tao)
 {

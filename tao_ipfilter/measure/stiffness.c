@@ -1,7 +1,7 @@
-/* The objective's stiffness, from the diagonal of its Hessian: what units and sizes follow from. */
+/* Stiffness of the objective from the diagonal of its Hessian. Units and sizes are derived from it. */
 #include "measureimpl.h"
 
-/* Size of the terms that make up the gradient at x: rounding keeps the stationarity residual above a few eps times
+/* size: magnitude of the terms of the gradient at x. Rounding keeps the stationarity residual above a few eps times
    this */
 PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
 {
@@ -16,7 +16,7 @@ PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* Energies |H_jj| x_j^2 of the unknowns, each in its own units: the largest, and the mean; either may be NULL */
+/* Energies |H_jj| x_j^2 of the unknowns: the largest, and the mean; either may be NULL */
 PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -36,7 +36,7 @@ PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* 1/sqrt|H_jj|, of entries that are not next to nothing */
+/* 1/sqrt|H_jj|, 0 for negligible entries */
 static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
 {
   PetscScalar *h;
@@ -54,7 +54,7 @@ static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
   PetscFunctionReturn(0);
 }
 
-/* sum_j J_ij^2 / |H_jj| of every row */
+/* compliance_i = sum_j J_ij^2 / |H_jj| for every row i */
 PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -87,9 +87,10 @@ PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 }
 
 /*
-   rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that moves constraint i by one length, from the diagonal of
-   H. Its inverse sums the compliances of both sides of a contact, so the softer side decides. A row that hardly moves
-   anything (a vertex at the edge of an overlap) is limited to 100 times the mean, so that no scale depends on it
+   rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that changes constraint i by a unit length, from the diagonal
+   of H. The sum contains the compliances of both sides of a contact, so the softer side dominates. rho of a row with
+   very small entries (a vertex at the edge of an overlap) is limited to 100 times the mean, so that no scale depends on
+   it
 */
 static PetscErrorCode ConstraintStiffness(Tao tao)
 {
@@ -112,7 +113,7 @@ static PetscErrorCode ConstraintStiffness(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The present Hessian's diagonal, which the sizes of gradients follow from */
+/* Updates the diagonal of the present Hessian, from which sizes of gradients are derived */
 PetscErrorCode IPStiffnessUpdate(Tao tao)
 {
   Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;

@@ -1,12 +1,16 @@
 /*
-   Terms sum_i b_i |v_i|, v_i = T_i x + t_i of two components, beside the objective: those of a minimization where b_i
-   is given, friction where it follows the force of an inequality constraint. Optimality has grad f - J^T M lambda -
-   T^T tau = 0 with |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i is not zero: tau_i is the projection of
-   tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
+   Norm terms sum_i b_i |v_i|, v_i = T_i x + t_i with two components, in addition to the objective. If b_i is given,
+   this is a minimization. If b_i depends on the force of an inequality constraint, it is friction. Optimality:
+
+     grad f - J^T M lambda - T^T tau = 0,   |tau_i| <= b_i,   tau_i = -b_i v_i / |v_i| where v_i is not zero.
+
+   Equivalently, tau_i is the projection of tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
 */
 #include "measureimpl.h"
 
-#define IP_HARD 1e3 /* Multiple of a term's resistance that a sticking term has as stiffness */
+#define IP_HARD \
+  1e3 /* stiffness of a sticking term in the condensed matrix, as a multiple of the stiffness that
+                       resists it */
 
 PetscErrorCode IPTermsDestroy(IPTerms *terms)
 {
@@ -26,7 +30,7 @@ PetscErrorCode IPTermsDestroy(IPTerms *terms)
   PetscFunctionReturn(0);
 }
 
-/* A copy of T without the columns of fixed variables; T itself where there are none */
+/* Sets terms.T: a copy of T without the columns of fixed variables; T itself if there are none */
 static PetscErrorCode TermsTakeMatrix(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -84,7 +88,7 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Takes from the two components what they have along a dead direction, of length 1 or 0 */
+/* Removes the component of v along `dead`, a unit vector or zero */
 void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
 {
   const PetscScalar along = dead[0] * v[0] + dead[1] * v[1];
@@ -92,7 +96,7 @@ void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
   for (PetscInt a = 0; a < 2; a++) v[a] -= along * dead[a];
 }
 
-/* v = T x + t, without what it has along dead directions */
+/* v = T x + t, without components along directions that cannot move */
 PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 {
   IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
@@ -111,7 +115,7 @@ PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* What a solve begins with, but for the resistances */
+/* Sets up the terms for a solve, except for the resistances */
 PetscErrorCode IPTermsSetUp(Tao tao)
 {
   IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
@@ -157,12 +161,12 @@ PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
 
 PetscReal IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force)
 {
-  if (coefficient < 0.0) return limit; /* it follows no constraint */
+  if (coefficient < 0.0) return limit; /* the bound does not depend on a constraint */
   if (!(force > 0.0) || coefficient == 0.0) return 0.0;
   return coefficient >= PETSC_INFINITY ? limit : PetscMin(limit, coefficient * force);
 }
 
-/* |tau - P(tau - rho v)| / rho of the two components */
+/* Returns |tau - P(tau - rho v)| / rho for one term */
 PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho, PetscReal bound)
 {
   PetscReal b[2], size, square = 0.0;
@@ -174,7 +178,7 @@ PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], Pets
   return PetscSqrtReal(square) / rho;
 }
 
-/* b of each term, for forces M lambda of the constraints */
+/* Bounds b of all terms for the forces M lambda of the constraints */
 static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -205,8 +209,8 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
   PetscFunctionReturn(0);
 }
 
-/* sum_i b_i |v_i(x)|, b for forces M lambda of the constraints; those that nothing moves, which are the same
-   anywhere, are left out */
+/* sum_i b_i |v_i(x)| with b for the forces M lambda of the constraints. Terms that cannot move are left out, since
+   they are constant */
 PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 {
   IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
@@ -240,8 +244,8 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* The largest length by which a term's law is missed: slip that its force does not oppose, or a force out of its disc
-   over the resistance */
+/* largest: largest violation of a term's law as a length: slip that its force does not oppose, or the excess of a
+   force over its bound divided by the stiffness */
 PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -337,21 +341,18 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   Level: intermediate
 
   Notes:
-  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()`
-  gives it; `PETSC_INFINITY` is no limit,
-  as a coefficient one with any force of the constraint whatever. With coefficients there are as many terms as
-  constraints.
+  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives
+  it; `PETSC_INFINITY` is no limit, as a coefficient one with any force of the constraint whatever. With coefficients
+  there are as many terms as constraints.
 
   With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law,
-  which is none: the solution x, y, tau has
-  grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For
-  large coefficients there may be none, or several.
+  which is none: the solution x, y, tau has grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where
+  v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
 
-  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace
-  method, whose reduced problem, of the size of what T and the constraints touch,
-  holds all that is not smooth; where the objective is not quadratic by Newton's method on it. Residuals of the laws
-  are part of the KKT error: the largest length by which a projection to |tau_i| <= b_i is missed, over the resistance
-  of what T_i moves.
+  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method,
+  whose reduced problem, of the size of what T and the constraints touch, holds all that is not smooth; where the
+  objective is not quadratic by Newton's method on it. Residuals of the laws are part of the KKT error: the largest
+  length by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 

@@ -1,7 +1,8 @@
 /* Variable bounds x_l <= x <= x_u as complementarity pairs. */
 #include "problemimpl.h"
 
-/* Whether an entry of a bound makes a pair: finite, and not of a fixed variable; other: its counterpart, or NULL */
+/* Whether an entry of a bound makes a pair: it is finite and the variable is not fixed; other: the opposite bound,
+   or NULL */
 static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
 {
   return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
@@ -37,7 +38,7 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign,
   PetscFunctionReturn(0);
 }
 
-/* Distances of x from its bounds, into t of the pairs or into their trial vectors */
+/* Distances of x from its bounds, stored in t of the pairs, or in their trial vectors */
 PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -50,7 +51,7 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
   PetscFunctionReturn(0);
 }
 
-/* Entries of a bound vector that make pairs, over all ranks */
+/* Number of entries of a bound vector that make pairs, on all ranks */
 static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
 {
   const PetscScalar *b, *o    = NULL;
@@ -67,7 +68,8 @@ static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
   PetscFunctionReturn(0);
 }
 
-/* Pairs for the finite bounds. Their weight is the mean of M_s, so that t z has one unit, that of mu, in all pairs. */
+/* Sets up the pairs of the finite bounds. Their weight is the mean of M_s, so that m t z has the unit of mu in all
+   pairs. */
 PetscErrorCode IPBoundsSetUp(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -89,15 +91,15 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether this solve begins with multipliers of the bounds that the caller gave; without those of the rows they are
-   of no use */
+/* Whether this solve starts from the caller's multipliers of the bounds; they are not used without multipliers of
+   the rows */
 PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) &&
                      (!ip->mi || ip->given.warm_s));
 }
 
-/* Size of an unknown and its bound; all: of all unknowns */
+/* Size of an unknown and its bound; if both are zero, `all`, the size of all unknowns */
 static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 {
   const PetscReal size = PetscMax(PetscAbsReal(bound), PetscAbsReal(x));
@@ -107,14 +109,14 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 
 /*
    Moves x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and computes the distances. The
-   margin is a fraction of the size of the bound or of the unknown, or if both are zero, of all unknowns. It is also
-   limited by a fraction of the distance between the bounds, so that a distant bound without effect does not push x
-   from the other one. If multipliers are given that tell how near to its bounds x belongs, the margin is almost zero
+   margin is a fraction of the size of the bound or unknown, or of all unknowns if both are zero. It is also limited by
+   a fraction of the distance between the two bounds, so that a distant bound does not push x from the other one. If
+   multipliers are given, which show how close x belongs to its bounds, the margin is almost zero
 */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : ip->opt.bound_push;
+  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : IP_BOUND_PUSH;
   Vec                v[2] = {tao->XL, tao->XU};
   const PetscScalar *b[2] = {NULL, NULL};
   PetscScalar       *x;
@@ -172,7 +174,7 @@ PetscErrorCode IPBoundsDirection(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* v += the forces w target / t of the bounds, towards the interior */
+/* v += w target / t for the bounds, directed to the interior */
 PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -191,7 +193,7 @@ PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of the bounds on the central path of the present mu */
+/* Sets the multipliers of the bounds to the central path of the present mu */
 PetscErrorCode IPBoundsCenter(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -201,8 +203,8 @@ PetscErrorCode IPBoundsCenter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of the bounds in TAO's convention, which has the gradient of f + DE^T c_E - DI^T c_I be DL + DU: those
-   of upper bounds are negative */
+/* Multipliers of the bounds in TAO's convention: the gradient of f + DE^T c_E - DI^T c_I is DL + DU, so those of
+   upper bounds are negative */
 PetscErrorCode IPBoundsMultipliers(Tao tao, Vec DL, Vec DU)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

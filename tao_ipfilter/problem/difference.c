@@ -1,4 +1,4 @@
-/* A Hessian of the Lagrangian by differences of its gradient, where the caller gives none. */
+/* Hessian of the Lagrangian by differences of its gradient, if the caller gives none. */
 #include "problemimpl.h"
 
 /* Gradient of f + DE^T c_E - DI^T c_I at x. Leaves the Jacobians at x. */

@@ -1,7 +1,7 @@
 /* The caller's functions at a point: constraints and derivatives. */
 #include "problemimpl.h"
 
-/* c_E at x: the caller's own, and the rows of c_I that are some, which are there already */
+/* Evaluates c_E at x: the caller's equality constraints. The rows of c_I with equal bounds have been stored already */
 static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -16,7 +16,7 @@ static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* c_I from its bounds and c_E, scaled; c_I relaxed */
+/* Evaluates c_I (from its bounds, relaxed) and c_E, both scaled */
 PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -32,7 +32,8 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Gradient and constraint Jacobians at tao->solution, whose objective is in ip->at.f. Fixed variables have none. */
+/* Evaluates gradient and constraint Jacobians at tao->solution; ip->at.f has the objective. Entries of fixed
+   variables are zero. */
 PetscErrorCode IPEvaluateDerivatives(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -52,8 +53,8 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* tao->DI = M lambda and tao->DE = y, scaled back: the multipliers of f + DE^T c_E - DI^T c_I, whose Hessian is asked
-   for */
+/* Sets tao->DI = M lambda and tao->DE = y in the caller's units: the multipliers in f + DE^T c_E - DI^T c_I, whose
+   Hessian the caller computes */
 PetscErrorCode IPSetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

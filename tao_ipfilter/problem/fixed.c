@@ -1,4 +1,5 @@
-/* Fixed variables, x_l = x_u: held at their value, out of the linear system. They have no barrier and no multiplier. */
+/* Fixed variables, x_l = x_u, keep their value and are removed from the linear system. They have no barrier term and
+   no multiplier. */
 #include "problemimpl.h"
 
 /* Whether a variable is fixed */
@@ -7,7 +8,7 @@ PetscBool IPIsFixed(PetscScalar lower, PetscScalar upper)
   return (PetscBool)(lower == upper && PetscAbsScalar(lower) < PETSC_INFINITY);
 }
 
-/* The smallest index whose lower bound exceeds its upper bound is an error, with the values, on all ranks */
+/* Raises an error on all ranks for the smallest index with a lower bound above its upper bound */
 static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscScalar u[])
 {
   MPI_Comm  comm      = PetscObjectComm((PetscObject)tao);
@@ -34,8 +35,8 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
     (double)bounds[0], (double)bounds[1]);
 }
 
-/* Sets x at its fixed values and makes the IS of fixed variables of this rank; NULL if no rank has one. *changed: it
-   is another one than in the last solve. */
+/* Sets x to its fixed values and creates the IS of this rank's fixed variables; NULL if no rank has one. *changed:
+   it differs from that of the last solve */
 PetscErrorCode IPFixedSetUp(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -83,7 +84,7 @@ PetscErrorCode IPFixedZero(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Cuts the fixed variables out of A: rows and columns zero, a diagonal of the Hessian's size */
+/* Removes the fixed variables from A: zero rows and columns, and a diagonal entry of the Hessian's size */
 PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

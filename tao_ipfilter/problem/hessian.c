@@ -1,4 +1,4 @@
-/* The Hessian as the iteration sees it: the caller's matrix, or what it was converted to. */
+/* The Hessian used by the iteration: the caller's matrix, or what it was converted to. */
 #include "problemimpl.h"
 
 PetscErrorCode IPHessianDestroy(IPHessian *hess)
@@ -10,7 +10,7 @@ PetscErrorCode IPHessianDestroy(IPHessian *hess)
   PetscFunctionReturn(0);
 }
 
-/* The Hessian of the Lagrangian at tao->solution */
+/* Evaluates the Hessian of the Lagrangian at tao->solution */
 PetscErrorCode IPHessianEvaluate(Tao tao)
 {
   IPHessian *hess = &((TAO_IPFILTER *)tao->data)->hess;
@@ -31,7 +31,7 @@ PetscErrorCode IPHessianEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* v_i = 1 or -1, in an order that differs from probe to probe and has no period that a matrix might have */
+/* v_i = 1 or -1 in a pattern that differs from probe to probe and is not periodic */
 static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
 {
   const PetscReal golden = 0.6180339887498949;
@@ -47,8 +47,9 @@ static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
   PetscFunctionReturn(0);
 }
 
-/* Estimates the diagonal of a matrix that only has products, from v . H v with v of +1 and -1: off-diagonal terms
-   cancel in the mean. Accurate to some tens of per cent, and at least a thousandth of the mean */
+/* Estimates the diagonal of a matrix that only has products by the mean of v_i (H v)_i over vectors v of +1 and -1;
+   off-diagonal terms cancel in the mean. The accuracy is some tens of per cent. Entries are at least a thousandth of
+   the mean */
 static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -80,7 +81,7 @@ static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
   PetscFunctionReturn(0);
 }
 
-/* The diagonal, or where the matrix gives none an estimate of its size */
+/* The diagonal of the Hessian, or an estimate if the matrix does not give it */
 PetscErrorCode IPHessianDiagonal(Tao tao, Vec diagonal)
 {
   IPHessian *hess = &((TAO_IPFILTER *)tao->data)->hess;

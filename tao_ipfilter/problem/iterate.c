@@ -1,4 +1,4 @@
-/* Iterates and directions: made, copied and destroyed as wholes, so that no part of one is left behind. */
+/* Iterates and directions are created, copied and destroyed as a whole. */
 #include "problemimpl.h"
 
 static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
@@ -10,8 +10,8 @@ static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
   PetscFunctionReturn(0);
 }
 
-/* The point and the values of the constraints there; a layout of NULL: none. Slacks and multipliers are the caller's
-   to make. */
+/* Creates an iterate's point and constraint values; a NULL layout: none. Slacks and multipliers are created by the
+   caller. */
 PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *it)
 {
   PetscFunctionBegin;
@@ -30,9 +30,9 @@ static PetscErrorCode ReferenceInto(Vec from, Vec *to)
   PetscFunctionReturn(0);
 }
 
-/* The current iterate's x is the caller's solution, its slacks and multipliers are those of the pairs, as are the
-   trial slacks: called where any of them may have been made anew. The best iterate gets room for what the current one
-   has. */
+/* Makes the current iterate refer to the caller's solution, and its slacks, trial slacks and multipliers to those of
+   the pairs. Called whenever one of these may have been recreated. The best iterate gets vectors for what the
+   current one has. */
 PetscErrorCode IPIterateBind(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -58,7 +58,7 @@ static PetscErrorCode CopyUnlessNull(Vec from, Vec to)
   PetscFunctionReturn(0);
 }
 
-/* The point and the values of the caller's functions there */
+/* Copies the point and the values of the caller's functions there */
 PetscErrorCode IPIterateCopyPoint(const IPIterate *from, IPIterate *to)
 {
   PetscFunctionBegin;
@@ -69,7 +69,7 @@ PetscErrorCode IPIterateCopyPoint(const IPIterate *from, IPIterate *to)
   PetscFunctionReturn(0);
 }
 
-/* All that both have */
+/* Copies all parts that both iterates have */
 PetscErrorCode IPIterateCopy(const IPIterate *from, IPIterate *to)
 {
   PetscFunctionBegin;
@@ -103,7 +103,7 @@ PetscErrorCode IPDirectionCreate(Vec x, Vec c, Vec ce, IPDirection *d)
   PetscFunctionReturn(0);
 }
 
-/* All that both have */
+/* Copies all parts that both directions have */
 PetscErrorCode IPDirectionCopy(const IPDirection *from, IPDirection *to)
 {
   PetscFunctionBegin;

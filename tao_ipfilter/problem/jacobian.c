@@ -1,4 +1,4 @@
-/* The constraints' Jacobians as the iteration sees them: as AIJ, rows scaled, columns of fixed variables zeroed. */
+/* The constraints' Jacobians used by the iteration: AIJ, rows scaled, columns of fixed variables zeroed. */
 #include "problemimpl.h"
 
 PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
@@ -12,8 +12,7 @@ PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
   PetscFunctionReturn(0);
 }
 
-/* A copy with rows scaled and the columns of fixed variables zeroed, or the Jacobian itself where nothing is to be
-   done */
+/* scaled: a copy with scaled rows and zeroed columns of fixed variables, or J itself if nothing is to be changed */
 static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
 {
   Vec mask;
@@ -33,7 +32,7 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian of the caller's as AIJ: itself, or converted; converted may be NULL for one that is AIJ */
+/* Gets a Jacobian of the caller as AIJ: itself, or converted; `converted` may be NULL if it is AIJ */
 static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
 {
   PetscBool aij;
@@ -46,8 +45,8 @@ static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
   PetscFunctionReturn(0);
 }
 
-/* Takes over a Jacobian of the caller's, converted to AIJ if necessary, unless it is unchanged. Matrices of blocks or
-   products do not tell whether they changed, and their conversion has no fixed pattern, since zeros may be dropped */
+/* Takes over a Jacobian of the caller, converted to AIJ if necessary, unless it is unchanged. Nested and shell
+   matrices do not show whether they changed, and their conversion may drop zeros, so its pattern may change */
 static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
 {
   PetscObjectState state;
@@ -65,8 +64,7 @@ static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted,
   PetscFunctionReturn(0);
 }
 
-/* Rows of a matrix of this rank, by their numbers from its first one, or all of them: into another one from the row
-   at on */
+/* Copies n local rows (numbered from the rank's first), or all of them, into another matrix from its row `at` on */
 static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows[], Mat to, PetscInt at)
 {
   PetscInt rstart;
@@ -86,7 +84,7 @@ static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows
   PetscFunctionReturn(0);
 }
 
-/* Longest row of this rank */
+/* Length of the longest row on this rank */
 static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
 {
   PetscInt rstart, rend;
@@ -103,8 +101,8 @@ static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* The caller's equality Jacobian, if it has one, with the rows of the inequality Jacobian that have equal bounds
-   behind it on each rank */
+/* stack: on each rank the caller's equality Jacobian, if any, followed by the rows of the inequality Jacobian with
+   equal bounds */
 static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -128,8 +126,7 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
   PetscFunctionReturn(0);
 }
 
-/* The same where rows have equal bounds, kept as converted matrices are. The inequality Jacobian has been taken over,
-   and converted if need be. */
+/* Updates the stacked Jacobian if rows have equal bounds. The inequality Jacobian has been taken over before. */
 static PetscErrorCode JacobianTakeStack(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -145,7 +142,7 @@ static PetscErrorCode JacobianTakeStack(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Takes over the equality Jacobian at tao->solution, after that of the inequalities */
+/* Takes over the equality Jacobian at tao->solution; call after that of the inequalities */
 PetscErrorCode IPJacobianEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

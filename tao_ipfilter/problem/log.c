@@ -6,7 +6,7 @@ PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IP
 
 static PetscBool registered = PETSC_FALSE;
 
-/* Events end with PetscFinalize() */
+/* Resets the events, which end with PetscFinalize() */
 static PetscErrorCode LogFinalize(void)
 {
   PetscFunctionBegin;

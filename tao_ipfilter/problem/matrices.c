@@ -1,17 +1,18 @@
 /*
-   The caller's matrices by type. AIJ, and BAIJ, SBAIJ or dense Hessians, are used as they are. Types that
-   MatConvert() can convert to AIJ are converted at every evaluation. Matrices with products only serve as Hessian for
+   Treatment of the caller's matrices by type. AIJ, and BAIJ, SBAIJ or dense Hessians, are used directly. Types that
+   MatConvert() can convert to AIJ are converted at every evaluation. A Hessian that only has products can be used with
    solvers that need no entries; small ones are read column by column.
 */
 #include "problemimpl.h"
 
 #define IP_COLUMNS_MAX \
-  1000 /* unknowns up to which a matrix that gives products alone is read by products with the unit vectors */
+  1000 /* up to this many unknowns a matrix that only has products is read by multiplying unit vectors */
 
-/* Types that MatConvert() has a way for without rows at hand */
+/* Types that MatConvert() converts although they do not give rows */
 static const char *const converted_types[] = {MATNEST, MATIS, MATHYPRE, MATTRANSPOSEVIRTUAL, NULL};
 
-/* Preconditioners that read the entries of their matrix. A type that is not here may be the caller's own. */
+/* Preconditioners that read the entries of their matrix. A type that is not listed may be the caller's own and is
+   assumed not to. */
 static const char *const reading_pcs[] = {PCAMGF, PCHYPRE, PCGAMG, PCML, PCMG, PCHMG, PCBJACOBI, PCASM, PCGASM, PCSOR,
   PCEISENSTAT, PCLU, PCILU, PCCHOLESKY, PCICC, PCQR, PCSVD, PCREDUNDANT, PCTELESCOPE, PCPBJACOBI, PCVPBJACOBI,
   PCKACZMARZ, PCSPAI, PCBDDC, PCNN, PCFIELDSPLIT, PCTFS, PCDEFLATION, PCCP, NULL};
@@ -37,7 +38,7 @@ static PetscErrorCode MatrixHasRows(Mat A, PetscBool *has)
 
 static PetscErrorCode MatrixHasEntries(Mat, PetscBool *);
 
-/* Whether every block of a nest has entries */
+/* Whether every block of a nested matrix has entries */
 static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
 {
   PetscInt m, n;
@@ -50,7 +51,7 @@ static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
   PetscFunctionReturn(0);
 }
 
-/* Whether a matrix can be read, as it is or converted */
+/* Whether a matrix has entries, directly or after conversion */
 static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
 {
   PetscBool nest;
@@ -64,7 +65,7 @@ static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
   PetscFunctionReturn(0);
 }
 
-/* Whether two matrices of one layout have the same nonzeros, on all ranks */
+/* Whether two matrices of the same layout have the same nonzero pattern, on all ranks */
 PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
 {
   PetscInt rstart, rend;
@@ -87,8 +88,8 @@ PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* A fresh matrix into the kept one where the pattern is the same, so that what was made from it serves again; else in
-   its place */
+/* Copies a new matrix into the kept one if the pattern is the same, so that data derived from it can be reused;
+   otherwise replaces it */
 PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
 {
   PetscBool same = PETSC_FALSE;
@@ -106,7 +107,7 @@ PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
   PetscFunctionReturn(0);
 }
 
-/* A matrix as AIJ, kept */
+/* Converts a matrix to AIJ; the result is kept */
 PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
 {
   PetscBool has;
@@ -120,7 +121,7 @@ PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Hessian's entries are needed, what for, and what could be done without them */
+/* needed: whether the Hessian's entries are needed; reader: by what; instead: what would not need them */
 static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *reader[], const char *instead[])
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,7 +140,7 @@ static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *read
   PetscFunctionReturn(0);
 }
 
-/* A Jacobian is read by rows, whatever solves */
+/* Checks that a Jacobian can be read by rows, which every solver needs */
 static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)tao);
@@ -171,8 +172,8 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
   PetscFunctionReturn(0);
 }
 
-/* Rejects matrices that cannot be used, and finds out whether the Hessian is used by products alone. *changed:
-   otherwise than in the last solve */
+/* Rejects matrices that cannot be used, and finds out whether only products with the Hessian are used. *changed:
+   this differs from the last solve */
 PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* Complementarity pairs (t, z): elementwise algebra of the barrier terms. An absent pair has t = PETSC_INFINITY. */
+/* Complementarity pairs (t, z): entrywise operations of the barrier terms. An absent pair has t = PETSC_INFINITY. */
 #include "problemimpl.h"
 
 PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
@@ -36,7 +36,7 @@ PetscErrorCode IPPairDestroy(IPPair *p)
   PetscFunctionReturn(0);
 }
 
-/* Opens the arrays of n vectors of one layout for reading */
+/* Gets read access to the arrays of n vectors of one layout */
 static PetscErrorCode PairRead(PetscInt n, const Vec v[], const PetscScalar *a[])
 {
   PetscFunctionBegin;
@@ -56,7 +56,7 @@ static inline PetscBool Present(PetscScalar t)
   return (PetscBool)(PetscRealPart(t) < PETSC_INFINITY);
 }
 
-/* target = mu - dt dz, the second-order term of the last direction kept within +-corrector_max; 0 leaves it out */
+/* target = mu - dt dz, with the second-order term of the last direction limited to +-corrector_max; 0 omits it */
 PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
 {
   const Vec          v[2] = {p->dt, p->dz};
@@ -78,7 +78,7 @@ PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
   PetscFunctionReturn(0);
 }
 
-/* On the central path of mu with t as it is: z = mu / t */
+/* Moves z to the central path of mu for the present t: z = mu / t */
 PetscErrorCode IPPairCenter(IPPair *p, PetscReal mu)
 {
   const PetscScalar *t;
@@ -192,7 +192,7 @@ PetscErrorCode IPPairLogSum(const IPPair *p, Vec t, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* sum w dt / t: the slope of the logarithms along the direction */
+/* slope = sum w dt / t: derivative of the sum of logarithms along the direction */
 PetscErrorCode IPPairLogSlope(const IPPair *p, PetscReal *slope)
 {
   const Vec          v[3] = {p->w, p->dt, p->t};
@@ -240,7 +240,7 @@ PetscErrorCode IPPairProducts(const IPPair *p, PetscReal mu, PetscReal *deviatio
   PetscFunctionReturn(0);
 }
 
-/* largest (t + alpha_t dt)(z + alpha_z dz) and the sum of w times them; either may be NULL */
+/* Largest product (t + alpha_t dt)(z + alpha_z dz), and the sum of w times the products; either may be NULL */
 PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal alpha_z, PetscReal *largest,
   PetscReal *sum)
 {
@@ -269,7 +269,7 @@ PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Keep z within [1/kappa, kappa] mu/t (Waechter and Biegler 2006, equation (16)) */
+/* Keeps z within [1/kappa, kappa] mu/t (Waechter and Biegler 2006, equation (16)) */
 PetscErrorCode IPPairSafeguard(IPPair *p, PetscReal mu, PetscReal kappa)
 {
   const PetscScalar *t;
@@ -291,7 +291,7 @@ PetscErrorCode IPPairSafeguard(IPPair *p, PetscReal mu, PetscReal kappa)
   PetscFunctionReturn(0);
 }
 
-/* t >= least min(z / rho, length) */
+/* Raises t to at least `least` min(z / rho, length) */
 PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
 {
   const Vec          v[2] = {p->z, rho};
@@ -325,8 +325,8 @@ PetscErrorCode IPPairWeightedSquare(Tao tao, Vec v, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* Largest steps up to the given ones that keep a fraction 1 - tau of every t and z, in the blocks from first on; dual
-   may be NULL */
+/* Reduces the steps so that every t and z keeps a fraction 1 - tau of its value, for the blocks from `first` on;
+   dual may be NULL */
 PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -342,7 +342,7 @@ PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, Pets
   PetscFunctionReturn(0);
 }
 
-/* The point of the central path of one constraint that a penalty of stiffness rho bends: s z = mu and s - q = z/rho */
+/* Point of the central path with a penalty of stiffness rho: s z = mu and s - q = z/rho */
 PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
 {
   const PetscScalar *qa, *ra;
@@ -358,7 +358,7 @@ PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal g = PetscRealPart(qa[i]), r = PetscRealPart(ra[i]), root = PetscSqrtReal(g * g + 4.0 * mu / r);
 
-    /* the root that does not cancel, and the other from their product mu/rho */
+    /* the root without cancellation, and the other from their product mu/rho */
     if (g >= 0.0) {
       sa[i] = 0.5 * (g + root);
       za[i] = mu / PetscRealPart(sa[i]);

@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/problem: the problem as the iteration sees it: pairs, iterates, bounds, sides, scales of
-   rows, Jacobians, Hessian. Every file builds on those before it, and on the folders below.
+   tao_ipfilter/problem, the problem as used by the iteration: pairs, iterates, bounds, sides, row scales, Jacobians,
+   Hessian. Files are in the order in which they depend on each other.
 */
 #ifndef IPFILTER_PROBLEMIMPL_H
 #define IPFILTER_PROBLEMIMPL_H

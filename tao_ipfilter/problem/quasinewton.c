@@ -1,10 +1,8 @@
 /*
-   A limited-memory approximation of the Hessian of the Lagrangian, where the caller gives none and differences would
-   cost too much: damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank.
-
-   The matrix that is assembled, and preconditioned, has sigma I in the place of the Hessian. Products with the
-   condensed matrix add the rest, of rank twice the history's length, which costs a Krylov method a few iterations
-   more.
+   A limited-memory approximation of the Hessian of the Lagrangian, if the caller gives none and differences would be
+   too expensive: damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank. The condensed matrix
+   is assembled and preconditioned with sigma I. Products with it add the low-rank part, whose rank is twice the
+   history's length; this costs a Krylov method a few more iterations.
 */
 #include "problemimpl.h"
 
@@ -22,7 +20,7 @@ PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *qn)
   PetscFunctionReturn(0);
 }
 
-/* y += (B - sigma I) x, on the variables that are not fixed; nothing with a Hessian of the caller's */
+/* y += (B - sigma I) x on the variables that are not fixed; nothing if the caller gives a Hessian */
 PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -43,7 +41,7 @@ PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* The condensed matrix with all of B */
+/* Multiplies by the condensed matrix with all of B */
 static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
 {
   Tao tao;
@@ -55,13 +53,13 @@ static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* What a Krylov method multiplies with: the condensed matrix, or one that adds what is not in it */
+/* The operator of the Krylov method: the condensed matrix, or a shell that adds the low-rank part */
 Mat IPQuasiNewtonOperator(const TAO_IPFILTER *ip)
 {
   return ip->qn.npairs ? ip->qn.A : ip->cond.A;
 }
 
-/* g += J^T force, or -J^T force */
+/* g += sign J^T force */
 static PetscErrorCode AddTransposed(Mat J, Vec force, PetscReal sign, Vec g)
 {
   Vec product;
@@ -74,7 +72,7 @@ static PetscErrorCode AddTransposed(Mat J, Vec force, PetscReal sign, Vec g)
   PetscFunctionReturn(0);
 }
 
-/* g += (J - J_old)^T force for a Jacobian of the caller's, of which a copy is kept while it changes */
+/* g += sign (J - J_old)^T force for a Jacobian of the caller; a copy is kept while it changes */
 static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *old, PetscObjectState *state, Vec g)
 {
   PetscObjectState now;
@@ -93,8 +91,8 @@ static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *o
   PetscFunctionReturn(0);
 }
 
-/* The changes of x and of the gradient of f + DE^T c_E - DI^T c_I since the last call, for the present multipliers;
-   the last point and the last Jacobians become the present ones. Either may be NULL, for no change. */
+/* s: change of x; y: change of the gradient of f + DE^T c_E - DI^T c_I, for the present multipliers; both since the
+   last call. Stores the present point and Jacobians. Either may be NULL. */
 static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
 {
   TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
@@ -113,7 +111,7 @@ static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* B's part of full rank, in H, too */
+/* Sets the multiple of the identity in B and in H */
 static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
 {
   IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
@@ -126,7 +124,7 @@ static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
   PetscFunctionReturn(0);
 }
 
-/* At the start: sigma is the curvature of the objective along its gradient, by a difference; 1 where that has none */
+/* Initial sigma: the curvature of the objective along its gradient, by a difference; 1 if that is not positive */
 static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
 {
   IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
@@ -160,7 +158,7 @@ static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
   PetscFunctionReturn(0);
 }
 
-/* y is replaced by a mean of it and of B s that has curvature enough to keep B positive definite */
+/* Replaces y by a weighted mean of y and B s that has enough curvature to keep B positive definite */
 static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
 {
   const PetscReal least = 0.2;
@@ -183,7 +181,7 @@ static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
   PetscFunctionReturn(0);
 }
 
-/* B at x, from the steps of this solve */
+/* Hessian routine: B at x, updated with the steps of this solve */
 static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *ctx)
 {
   IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
@@ -204,7 +202,7 @@ static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *
   if (step > 0.0) {
     PetscCall(QuasiNewtonDamp(qn->B, s, y, &sy));
     PetscCall(VecAXPY(qn->sum, 1.0, y));
-    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* which since PETSc 3.22 scales B anew, by another rule */
+    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* since PETSc 3.22 this also rescales B by another rule */
     if (sy > 0.0) PetscCall(QuasiNewtonSetScale(tao, H, sy / (step * step)));
     qn->npairs++;
   }
@@ -213,14 +211,14 @@ static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *
   PetscFunctionReturn(0);
 }
 
-/* Forgets the steps of the last solve */
+/* Discards the steps of the last solve */
 void IPQuasiNewtonReset(IPQuasiNewton *qn)
 {
   qn->begun  = PETSC_FALSE;
   qn->npairs = 0;
 }
 
-/* Without TaoSetHessian(), for large problems: a diagonal matrix as tao->hessian, and B beside it */
+/* Used without TaoSetHessian() for large problems: a diagonal matrix as tao->hessian, and B */
 PetscErrorCode IPQuasiNewtonSetUp(Tao tao)
 {
   IPQuasiNewton *qn   = &((TAO_IPFILTER *)tao->data)->qn;

@@ -1,24 +1,25 @@
 /*
-   Scales constraints by their gradients at the start: row d_i c_i with d_i such that its gradient is at most
-   row_ratio times the smallest one, or gradient_max. With row_ratio, rows of similar size stay unscaled, whatever the
-   units. The whole iteration uses scaled rows; multipliers and slacks are scaled back on return.
+   Scales constraints by their gradients at the start: row d_i c_i, with d_i such that its largest entry is at most
+   IP_ROW_RATIO times that of the smallest row, or at most IP_GRADIENT_MAX. With the ratio, rows of similar size stay
+   unscaled in any units. The iteration uses scaled rows; multipliers and slacks are scaled back at the end.
 */
 #include "problemimpl.h"
 
 #define IP_LEAST_SCALE 1e-20
 
-/* Largest entry that a row may keep: a multiple of that of the smallest row, or one that is given */
+/* Largest entry that a row may keep: a multiple of the smallest row's, or a given one */
 static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
 {
-  return opt->scaling == IP_SCALING_GRADIENT ? opt->gradient_max : opt->row_ratio * smallest;
+  return opt->scaling == IP_SCALING_GRADIENT ? IP_GRADIENT_MAX : IP_ROW_RATIO * smallest;
 }
 
-/* d = NULL where no row is larger than the limit */
+/* Computes the scales d; NULL if no row exceeds the limit */
 static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
 {
   PetscScalar *a;
   PetscInt     rstart, rend;
-  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* -smallest and largest row, over all ranks */
+  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* minus the smallest, and the largest row, over all
+                                                                   ranks */
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(layout, d));
@@ -47,23 +48,21 @@ static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the scales of this solve from the Jacobians just evaluated; tells whether there are any */
+/* Chooses the scales of this solve from the Jacobians at the start; scaled: whether there are any */
 PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->opt.scaling == IP_SCALING_NONE ||
-      (ip->opt.scaling == IP_SCALING_PROBLEM ? ip->opt.row_ratio : ip->opt.gradient_max) <= 0.0)
-    PetscFunctionReturn(0);
+  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
   if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
   if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
   *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);
   PetscFunctionReturn(0);
 }
 
-/* Forgets the scales of the last solve. *changed: a Jacobian had been scaled by them. */
+/* Resets the scales of the last solve. *changed: a Jacobian was scaled by them */
 PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -75,7 +74,7 @@ PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers of a pair of the inequalities from the caller's units, or back to them */
+/* Scales slacks and multipliers of the inequalities from the caller's units, or back */
 PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -92,7 +91,7 @@ PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* Largest entry of a residual of the constraints in the caller's units */
+/* norm: largest entry of a constraint residual in the caller's units */
 PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

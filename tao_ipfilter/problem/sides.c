@@ -22,7 +22,7 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscFunctionReturn(0);
 }
 
-/* Rows whose bound is this far off have none: IPOPT's nlp_lower_bound_inf and its counterpart */
+/* bounds of this magnitude count as infinite, as IPOPT's nlp_lower_bound_inf and nlp_upper_bound_inf */
 #define IP_NO_BOUND 1e19
 
 static inline PetscBool Finite(PetscReal bound)
@@ -30,8 +30,8 @@ static inline PetscBool Finite(PetscReal bound)
   return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
 }
 
-/* Whether c is measured from the lower bound: not where that is so far off beside the upper one that rounding would
-   take what matters */
+/* Whether c is measured from the lower bound. The upper bound is used if the lower one is so much larger that the
+   difference would lose digits */
 static inline PetscBool FromLower(PetscReal l, PetscReal u)
 {
   const PetscReal far = 1e6;
@@ -39,8 +39,8 @@ static inline PetscBool FromLower(PetscReal l, PetscReal u)
   return (PetscBool)(Finite(l) && !(Finite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
 }
 
-/* One row: its sign (0: no inequality), what c is measured from, and its range; *equal tells that it is an equality
-   constraint, rounding apart */
+/* Classifies one row: sign (0: no inequality), base (the bound that c is measured from), and range. *equal: it is an
+   equality constraint up to rounding */
 static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range,
   PetscBool *equal)
 {
@@ -50,7 +50,7 @@ static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar
   *range = Finite(l) && Finite(u) && !*equal ? u - l : PETSC_INFINITY;
 }
 
-/* A lower bound above its upper one is an error, with the row and the values, on all ranks */
+/* Raises an error on all ranks, with row and values, if a lower bound exceeds its upper bound */
 static PetscErrorCode CheckRows(Tao tao, const PetscScalar l[], const PetscScalar u[], PetscInt n)
 {
   MPI_Comm  comm      = PetscObjectComm((PetscObject)tao);
@@ -73,7 +73,7 @@ static PetscErrorCode CheckRows(Tao tao, const PetscScalar l[], const PetscScala
     (double)bounds[1]);
 }
 
-/* Fills sign, base and range, and lists the equality constraints; counts: rows that are no inequality, with a range,
+/* Sets sign, base and range, and lists the equality constraints. counts: rows that are no inequality; with a range;
    with equal bounds */
 static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
 {
@@ -108,7 +108,7 @@ static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
   PetscFunctionReturn(0);
 }
 
-/* What kind every row is, from the bounds as they are now */
+/* Classifies every row by its present bounds */
 PetscErrorCode IPSidesSetUp(Tao tao)
 {
   IPSides *sides     = &((TAO_IPFILTER *)tao->data)->sides;
@@ -128,13 +128,13 @@ PetscErrorCode IPSidesSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Pairs for the upper sides of the rows with a range, of the slacks' weights */
+/* Sets up pairs for the upper sides of rows with a range, with the weights of their slacks */
 PetscErrorCode IPSidesSetUpPairs(Tao tao)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
   IPPair            *ceiling = &ip->pair[IP_CEILING];
   const PetscScalar *range, *w;
-  PetscReal          sum[2] = {0.0, 0.0}; /* rows, and their weights */
+  PetscReal          sum[2] = {0.0, 0.0}; /* number of rows, and sum of their weights */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -157,8 +157,7 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The ranges in the scale of the rows, and as wide as the relaxation makes them: called where one of these has
-   changed */
+/* Updates the widths: ranges scaled like the rows, plus the relaxation. Called when one of these has changed */
 PetscErrorCode IPSidesUpdateWidth(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -182,7 +181,7 @@ PetscErrorCode IPSidesUpdateWidth(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* c_I - l of the equality constraints among the rows, into the last entries of this rank's ce */
+/* Stores c_I - l of the equality constraints among the rows in the last entries of this rank's ce */
 static PetscErrorCode TakeEqualRows(const IPSides *sides, Vec c, Vec ce)
 {
   const PetscScalar *v, *base;
@@ -221,7 +220,8 @@ static PetscErrorCode FillVoidRows(IPSides *sides, Vec c)
   PetscFunctionReturn(0);
 }
 
-/* The caller's c_I as the iteration sees it; ce: all equality constraints, may be NULL where there are none */
+/* Turns the caller's c_I into the form used by the iteration. ce: all equality constraints, may be NULL if there are
+   none */
 PetscErrorCode IPSidesConstraints(Tao tao, Vec c, Vec ce)
 {
   IPSides *sides = &((TAO_IPFILTER *)tao->data)->sides;
@@ -239,7 +239,7 @@ PetscErrorCode IPSidesConstraints(Tao tao, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* The caller's values of its own equality constraints into the first entries of each rank, or back */
+/* Copies the caller's own equality constraints to the first entries of each rank's vector, or back */
 PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
 {
   PetscScalar *o, *a;
@@ -255,8 +255,8 @@ PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* DI from that of the rows as the iteration sees them, and from y of the equality constraints among them, in the
-   caller's units */
+/* Computes DI from the multipliers of the rows as used by the iteration, and from y of the equality constraints
+   among them, in the caller's units */
 PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
 {
   const IPSides     *sides = &((TAO_IPFILTER *)tao->data)->sides;
@@ -277,7 +277,7 @@ PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
   PetscFunctionReturn(0);
 }
 
-/* y of the equality constraints among the rows, from the multipliers z that the caller gave for them */
+/* Sets y of the equality constraints among the rows from the caller's multipliers z */
 PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -298,8 +298,8 @@ PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers that the caller gave, a negative one for an upper bound, into the pairs. Sides that do not
-   press get the mean product of those that do. */
+/* Distributes the caller's slacks and multipliers (negative for an upper bound) to the pairs. Sides with zero
+   multiplier get the mean product of the others. */
 PetscErrorCode IPSidesTakePairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -345,8 +345,8 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers of the rows as the caller gets them, from tao->DI: z of an upper bound is negative, a row
-   that is no inequality has no slack */
+/* Sets the slacks and multipliers returned to the caller, from tao->DI: z of an upper bound is negative; a row that
+   is no inequality has no slack */
 PetscErrorCode IPSidesReturnPairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;

@@ -1,7 +1,7 @@
-/* The slacks of c_I, 0 <= s, or 0 <= s <= width: what their one or two pairs make together. */
+/* The slacks of c_I, 0 <= s or 0 <= s <= width: combined operations on their one or two pairs. */
 #include "problemimpl.h"
 
-/* D = w z/s, and the same of the upper sides */
+/* D = w z/s, plus the same of the upper sides */
 PetscErrorCode IPSlackSigma(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -17,7 +17,7 @@ PetscErrorCode IPSlackSigma(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* w target/s, less that of the upper sides */
+/* force = w target/s, minus the same of the upper sides */
 PetscErrorCode IPSlackForce(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -33,7 +33,7 @@ PetscErrorCode IPSlackForce(Tao tao, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* What lambda is where the slacks are stationary: z, less that of the upper sides */
+/* lambda for which the slacks are stationary: z minus that of the upper sides */
 PetscErrorCode IPSlackPressure(Tao tao, Vec lambda)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -44,7 +44,7 @@ PetscErrorCode IPSlackPressure(Tao tao, Vec lambda)
   PetscFunctionReturn(0);
 }
 
-/* Directions of the upper sides from ds, and lambda + dlambda of the pairs' dual directions */
+/* Computes the upper sides' directions from ds, and lambda + dlambda from the pairs' dual directions */
 PetscErrorCode IPSlackDirection(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -61,7 +61,7 @@ PetscErrorCode IPSlackDirection(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Distances of slacks from their upper sides, which rounding has not made zero, into t of the pair or into its trial
+/* Distances of slacks from their upper sides, kept positive against rounding, in t of the pair or in its trial
    vector */
 PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
 {
@@ -112,8 +112,8 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* s between 0 and width with rho (s - q) = mu/s - mu/(width - s), by bisection: the left side less the right one
-   rises from -inf to inf */
+/* Solves rho (s - q) = mu/s - mu/(width - s) for s between 0 and width by bisection; left minus right side rises
+   from -inf to inf */
 static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscReal width)
 {
   const PetscInt halvings = 100;
@@ -128,8 +128,8 @@ static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscR
   return PetscMin(PetscMax(0.5 * (low + high), PETSC_MACHINE_EPSILON * width), (1.0 - PETSC_MACHINE_EPSILON) * width);
 }
 
-/* The point of the central path that penalties of the rows' stiffness bend, as IPCentralPair(), between two sides
-   where there are two */
+/* Point of the central path with penalties of the rows' stiffness, as IPCentralPair(), also for slacks with two
+   sides */
 PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -159,7 +159,7 @@ PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* Slacks that lie beyond their upper side, or next to it, are put where a fraction of the width is left */
+/* Moves slacks that are beyond or too close to their upper side to a distance of `fraction` of the width */
 PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -180,7 +180,7 @@ PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Upper sides on the central path of mu for the slacks as they are, and lambda of both sides */
+/* Moves the upper sides to the central path of mu for the present slacks, and computes lambda of both sides */
 PetscErrorCode IPSlackCenterUpper(Tao tao, PetscReal mu)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

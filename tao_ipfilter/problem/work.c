@@ -1,4 +1,4 @@
-/* Scratch vectors: a function takes one and returns it before it ends. They are created when first needed. */
+/* Work vectors: a function takes one and returns it before it ends. They are created on demand. */
 #include "problemimpl.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
@@ -6,7 +6,7 @@ static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
   return space == IP_UNKNOWNS ? ip->rx : (space == IP_INEQUALITIES ? ip->at.c : ip->at.ce);
 }
 
-/* A vector of the given layout, whose entries are anything; NULL where there are no such constraints */
+/* Gets a work vector of the given layout, with arbitrary entries; NULL if there are no such constraints */
 PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

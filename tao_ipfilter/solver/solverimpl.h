@@ -1,6 +1,6 @@
 /*
-   What a TAOIPFILTER is made of: plain structs that all folders know, in the order of these, and the solver itself.
-   What belongs to one folder alone has its struct there: the filtered subspace and the laws of friction.
+   Data of a TAOIPFILTER: plain structs that all folders know, and the solver itself. Structs that belong to one folder
+   only (filtered subspace, friction) are declared there.
 */
 #ifndef IPFILTER_SOLVERIMPL_H
 #define IPFILTER_SOLVERIMPL_H
@@ -15,38 +15,33 @@
 
 typedef struct _n_TAO_IPFILTER TAO_IPFILTER;
 
-/* Layouts of scratch vectors: unknowns, inequality and equality constraints */
-typedef enum {
-  IP_UNKNOWNS,
-  IP_INEQUALITIES,
-  IP_EQUALITIES,
-  IP_NSPACES
-} IPSpace;
+/* Layouts of work vectors: unknowns, inequality and equality constraints */
+typedef enum { IP_UNKNOWNS, IP_INEQUALITIES, IP_EQUALITIES, IP_NSPACES } IPSpace;
 
-/* The limited-memory approximation B of the Hessian, where the caller gives none: quasinewton.c */
+/* quasinewton.c: the limited-memory approximation B of the Hessian */
 typedef struct {
-  Mat              B;                    /* NULL: the caller's Hessian, or differences */
-  Mat              A;                    /* the condensed matrix with all of B */
-  PetscReal        sigma;                /* B is this multiple of the identity, and a matrix of low rank */
-  PetscInt         npairs;               /* steps of this solve that B has learnt from */
-  PetscBool        begun;                /* in this solve */
-  Vec              x, gradient;          /* the last point, and the objective's gradient there, */
-  Mat              inequality, equality; /* and the caller's Jacobians, */
+  Mat              B;                    /* NULL: the Hessian is the caller's or differenced */
+  Mat              A;                    /* shell of the condensed matrix with all of B */
+  PetscReal        sigma;                /* B = sigma I + a matrix of low rank */
+  PetscInt         npairs;               /* number of steps of this solve in B */
+  PetscBool        begun;                /* whether B was initialized in this solve */
+  Vec              x, gradient;          /* last point, and the objective's gradient there */
+  Mat              inequality, equality; /* copies of the caller's Jacobians at the last point */
   PetscObjectState inequality_state, equality_state;
-  Vec              sum; /* of all damped changes of the gradient */
+  Vec              sum; /* sum of all damped gradient changes */
 } IPQuasiNewton;
 
-/* Scratch vectors; whoever takes one must return it */
+/* Work vectors; a function that takes one must return it */
 #define IP_MAX_WORK 8
 typedef struct {
-  Vec       v[IP_NSPACES][IP_MAX_WORK]; /* made when first asked for */
+  Vec       v[IP_NSPACES][IP_MAX_WORK]; /* created on demand */
   PetscBool lent[IP_NSPACES][IP_MAX_WORK];
 } IPWork;
 
 /* Blocks of complementarity pairs */
 enum {
   IP_SLACK,
-  IP_CEILING, /* upper sides of slacks with two */
+  IP_CEILING, /* upper sides of slacks with two sides */
   IP_LOWER,
   IP_UPPER,
   IP_NPAIRS
@@ -54,70 +49,70 @@ enum {
 
 /* Pairs (t_i, z_i), t_i z_i -> mu. Where a bound is absent t is PETSC_INFINITY and z is zero. */
 typedef struct {
-  PetscInt  n;      /* pairs present, over all ranks; the vectors are NULL when there are none */
-  PetscReal sign;   /* of t's change with x, or with c_I: -1 for upper bounds and sides, +1 for the others */
-  PetscReal weight; /* sum of the weights of the pairs present */
+  PetscInt  n;      /* number of pairs on all ranks; 0: the vectors are NULL */
+  PetscReal sign;   /* dt/dx or dt/dc_I: -1 for upper bounds and upper sides, +1 for others */
+  PetscReal weight; /* sum of the weights of all pairs */
   Vec       w;      /* weights m_i */
-  Vec       t, z;   /* distance to the boundary and its multiplier */
+  Vec       t, z;   /* distance to the bound, and its multiplier */
   Vec       dt, dz; /* direction */
-  Vec       target; /* right-hand side of the linearized t z = target: mu, or mu less the second-order term */
+  Vec       target; /* right-hand side of the linearized t z = target: mu, or mu minus the second-order term */
   Vec       trial;  /* t at a trial point */
 } IPPair;
 
-/* An iterate, or what of it is known of another point: the members that are not kept are NULL */
+/* An iterate; members that are not kept are NULL */
 typedef struct {
   Vec       x, c, ce;     /* the point, c_I and c_E there */
   Vec       s, lambda, y; /* slacks, multipliers of c_I (a density: the force is M lambda) and of c_E */
-  Vec       z[IP_NPAIRS]; /* multipliers of the pairs */
+  Vec       z[IP_NPAIRS]; /* multipliers z of the pairs */
   PetscReal f;
 } IPIterate;
 
-/* A direction. Those of slacks, of the distances to bounds and of the pairs' multipliers stand in the pairs and
-   follow from x. */
+/* A direction. Directions of slacks, of distances to bounds and of the pairs' multipliers are stored in the pairs;
+   they follow from x. */
 typedef struct {
   Vec       x, lambda, y;
   PetscReal norm; /* largest entry of x */
 } IPDirection;
 
-/* Where a matrix came from: two stamps alike have the same */
+/* Identifies a matrix and its state; equal stamps mean an unchanged matrix */
 typedef struct {
   PetscObjectId    value_id; /* which matrix, */
   PetscObjectState value_state;
-  PetscObjectId    pattern_id; /* and which pattern */
+  PetscObjectId    pattern_id; /* object and state of its nonzero pattern */
   PetscObjectState pattern_state;
 } IPStamp;
 
-/* The constraints' Jacobians as the iteration sees them: rows scaled, columns of fixed variables zeroed */
+/* jacobian.c: the constraints' Jacobians used by the iteration: rows scaled, columns of fixed variables zeroed */
 typedef struct {
   Mat     inequality, equality;             /* AIJ */
-  IPStamp inequality_stamp, equality_stamp; /* of the caller's matrices, or of */
-  Mat     converted[2];                     /* what they were converted to */
+  IPStamp inequality_stamp, equality_stamp; /* stamps of the caller's matrices */
+  Mat     converted[2];                     /* conversions to AIJ */
 } IPJacobian;
 
-/* What TaoSetInequalityBounds() makes of the rows of c_I: sides.c */
+/* sides.c: rows of c_I classified by TaoSetInequalityBounds() */
 typedef struct {
-  Vec       sign;         /* +1, -1: upper bound alone, 0: no inequality; NULL: all +1 */
-  Vec       base;         /* the bound that c is measured from; NULL: IL, or 0 */
-  Vec       range;        /* between two bounds, else PETSC_INFINITY; NULL: no row has two */
-  Vec       width;        /* the same in the scale of the iteration */
-  PetscReal constant;     /* value of c in rows that are no inequality; 0: not chosen yet */
-  PetscInt  nequal, nall; /* rows with equal bounds, of this rank and of all */
-  PetscInt *equal;        /* which, from this rank's first row */
+  Vec       sign;         /* +1; -1: upper bound only; 0: no inequality; NULL: all +1 */
+  Vec       base;         /* the bound that c is measured from; NULL: the lower bound, or 0 */
+  Vec       range;        /* upper minus lower bound, or PETSC_INFINITY; NULL: no row has two bounds */
+  Vec       width;        /* range, scaled and relaxed */
+  PetscReal constant;     /* value of c in rows that are no inequality; 0: not set yet */
+  PetscInt  nequal, nall; /* rows with equal bounds, on this rank and on all */
+  PetscInt *equal;        /* these rows, numbered from this rank's first */
 } IPSides;
 
-/* The Hessian as the iteration sees it */
+/* The Hessian used by the iteration */
 typedef struct {
   Mat       H;
-  Mat       converted; /* to AIJ from a type that is not worked with */
-  PetscBool products;  /* it gives products alone, and so does the condensed matrix */
+  Mat       converted; /* conversion to AIJ, for types that cannot be used directly */
+  PetscBool products;  /* only products are available, also of the condensed matrix */
 } IPHessian;
 
-/* Scales of the rows of c_I and c_E; NULL: 1 */
+/* Row scales of c_I and c_E; NULL: 1 */
 typedef struct {
   Vec inequality, equality;
 } IPRowScale;
 
-/* No value of a function there: NaN, or infinite, be it C's infinity or PETSc's large number */
+/* Whether a function value is NaN or infinite, or PETSc's large number */
 static inline PetscBool IPUndefined(PetscReal value)
 {
   return (PetscBool)(PetscIsInfOrNanReal(value) || PetscAbsReal(value) >= PETSC_INFINITY);
@@ -125,11 +120,11 @@ static inline PetscBool IPUndefined(PetscReal value)
 
 /* Sizes at the starting point */
 typedef struct {
-  PetscReal f, gradient; /* objective and norm of its gradient */
-  PetscReal unit;        /* of the objective, with scaling by gradients: 1, or what brings them down to the limit */
-  PetscReal length, equality; /* of c_I, but for rows that are out of reach, and of c_E */
+  PetscReal f, gradient;      /* objective, and norm of its gradient */
+  PetscReal unit;             /* scale of the objective with scaling by gradients; else 1 */
+  PetscReal length, equality; /* sizes of c_I (without rows out of reach) and of c_E */
   PetscReal x;
-  PetscReal reach;             /* how far unknowns may be expected to move: reach.c; 0: not known */
+  PetscReal reach;             /* expected change of the unknowns (reach.c); 0: unknown */
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* of the terms that make up the objective */
@@ -138,179 +133,180 @@ typedef struct {
 
 /* Stiffness of the objective at the start, from the diagonal of H */
 typedef struct {
-  Vec       rho;    /* pressure per length that resists each constraint */
-  Vec       reach;  /* how far each constraint's value may be expected to change: reach.c; NULL: not known */
-  PetscReal mean;   /* harmonic mean of rho, weighted */
-  Vec       hdiag;  /* |diagonal of H|, now */
-  PetscReal hscale; /* its mean at the start, */
-  PetscBool flat;   /* stiffness where nothing resists a constraint */
+  Vec       rho;    /* rho: pressure that changes each constraint by a unit length */
+  Vec       reach;  /* expected change of each constraint (reach.c); NULL: unknown */
+  PetscReal mean;   /* weighted harmonic mean of rho */
+  Vec       hdiag;  /* |diagonal of H|, up to date */
+  PetscReal hscale; /* mean of hdiag at the start */
+  PetscBool flat;   /* no constraint is resisted by any stiffness */
 } IPStiffness;
 
-/* Terms sum_i b_i |T_i x + t_i| beside the objective, b_i = min(limit_i, coefficient_i times the force of inequality
-   constraint i): terms.c */
+/* terms.c: norm terms sum_i b_i |T_i x + t_i|, b_i = min(limit_i, coefficient_i x force of inequality constraint i) */
 typedef struct {
-  PetscInt n;                  /* of all ranks; 0: none in this solve */
-  Mat      given, T;           /* two rows a term; without the columns of fixed variables */
+  PetscInt n;                  /* number of terms on all ranks; 0: none in this solve */
+  Mat      given, T;           /* two rows per term; T: without the columns of fixed variables */
   IPStamp  stamp;              /* of T */
-  Vec      t;                  /* two entries a term */
-  Vec      limit, coefficient; /* one a term; NULL: no limit, or limits alone */
+  Vec      t;                  /* two entries per term */
+  Vec      limit, coefficient; /* one per term; limit NULL: no limits; coefficient NULL: limits only */
   Vec      force, best, last,
-    warm;  /* tau at the present point, at the best one and at the last, two a term; what the first is to be: NULL: 0 */
-  Vec rho; /* force per length that resists a term */
-  Vec dead; /* of two entries a term: unit vector along which next to nothing gives way, and v counts as none; zeros:
-               there is none */
+    warm;   /* tau at the present point, the best one, the last one; warm: initial tau, NULL: 0. Two entries per term */
+  Vec rho;  /* stiffness that resists each term (resistance.c) */
+  Vec dead; /* two entries per term: unit vector along which the term cannot move, so that v counts as zero; zeros:
+               none */
 } IPTerms;
 
-/* Sizes by which residuals are divided; all 1 in the published measure */
+/* Scales of residuals; all 1 in the published measure */
 typedef struct {
   PetscReal dual;           /* forces that cancel in the stationarity condition */
-  PetscReal length;         /* values of c_I */
-  PetscReal equality;       /* values of c_E */
-  PetscReal equality_terms; /* terms that cancel in c_E, now */
+  PetscReal length;         /* size of c_I */
+  PetscReal equality;       /* size of c_E */
+  PetscReal equality_terms; /* terms that cancel in c_E at the present point */
   PetscReal pressure;       /* multipliers, */
-  PetscReal balance; /* and those of one active constraint that balances the objective's gradient; 0: not known */
-  PetscReal product; /* length x pressure: complementarity and mu */
-  PetscReal energy;  /* the objective; PETSC_INFINITY in the measures that do not ask for it */
+  PetscReal balance;        /* terms of an active constraint that balances the objective's gradient; 0: unknown */
+  PetscReal product;        /* length x pressure: scale of complementarity and mu */
+  PetscReal energy;         /* size of the objective; PETSC_INFINITY if not used by the measure */
 } IPScale;
 
 /* Residuals of the optimality conditions at the current iterate */
 typedef struct {
-  PetscReal dual, primal, complementarity; /* divided by the scales, mu = 0 */
-  PetscReal centrality;                    /* as complementarity, for the present mu */
-  PetscReal error;                         /* max(dual, primal, complementarity): decides convergence, together with */
-  PetscReal work;      /* what the residuals are worth in the objective, over a multiple of its size */
-  PetscReal work_dual; /* the stationarity residual's share of it */
-  PetscReal own;       /* largest violation over the terms of its own constraint; looked at near the end alone: own.c */
-  PetscReal violation; /* of constraints, slacks apart, over their first size */
-  PetscReal unscaled;  /* largest absolute entry of all residuals, mu = 0 */
+  PetscReal dual, primal, complementarity; /* relative to the scales, for mu = 0 */
+  PetscReal centrality;                    /* complementarity error for the present mu */
+  PetscReal error;                         /* max(dual, primal, complementarity): decides convergence together with
+                                              work */
+  PetscReal work;                          /* error bound in the objective, relative to its allowed size */
+  PetscReal work_dual;                     /* part of the stationarity residual in work */
+  PetscReal own;       /* largest violation relative to the constraint's own terms (own.c); computed near convergence
+                          only */
+  PetscReal violation; /* violation of the constraints without slacks, relative to their first size */
+  PetscReal unscaled;  /* largest absolute entry of all residuals, for mu = 0 */
   PetscReal dual_norm; /* 2-norm of the stationarity residual */
-  PetscReal inf_pr, inf_du, inf_compl; /* largest absolute entries of the primal and the dual residual, and of t z */
+  PetscReal inf_pr, inf_du, inf_compl; /* largest absolute entries of primal residual, dual residual, and t z */
 } IPKKT;
 
-/* The rows that are condensed: those of c_I, and below them on each rank those of c_E where these are condensed, too,
+/* rows.c: rows that are condensed: those of c_I, and on each rank below them those of condensed equality constraints
    or of norm terms */
 typedef struct {
   Mat     J; /* NULL: none */
   Vec     D; /* their weights */
   IPStamp stamp;
-  IPStamp source[2];         /* of the matrices that one of both was made from */
-  Vec     inequality, below; /* weights of either kind */
+  IPStamp source[2];         /* stamps of the matrices that J was made from */
+  Vec     inequality, below; /* weights of the upper and lower rows */
 } IPRows;
 
-/* The condensed matrix A = H + Sigma + J^T D J + delta M_u and what its assembly reuses */
+/* condense.c: the condensed matrix A = H + Sigma + J^T D J + delta M_u, and data to reuse its assembly */
 typedef struct {
   IPRows           rows;
   Mat              A;
   Mat              DJ, JtDJ;           /* D J, J^T D J */
-  Vec              shift;              /* Sigma + delta M_u, the diagonal added to H */
-  Vec              hdiag;              /* diagonal of H, kept while a shift is added to it */
-  PetscBool        shifted;            /* A's diagonal holds a shift */
-  PetscObjectId    H_id;               /* which H A was assembled from, */
+  Vec              shift;              /* the diagonal Sigma + delta M_u that is added to H */
+  Vec              hdiag;              /* diagonal of H, while a shift is added to it */
+  PetscBool        shifted;            /* A's diagonal contains a shift */
+  PetscObjectId    H_id;               /* the H from which A was assembled, */
   PetscObjectState H_state, H_nonzero; /* with which values and pattern */
-  PetscObjectId    J_id;               /* which Jacobian the product's pattern came from, */
+  PetscObjectId    J_id;               /* the Jacobian of the product's pattern, */
   PetscObjectState J_nonzero;          /* with which pattern */
-  PetscObjectId    filter_id;          /* which Jacobian the filter came from, */
+  PetscObjectId    filter_id;          /* the Jacobian of the filter, */
   PetscObjectState filter_state;       /* with which values */
-  PetscInt         ntouched;           /* rows of this rank touched by J^T D J */
+  PetscInt         ntouched;           /* local rows with entries of J^T D J */
   PetscInt        *touched;
   IS               filter; /* composed on A under PCAMGF_FILTER_KEY */
 } IPCondensed;
 
-/* What came of a linear solve */
+/* Verdict on a linear solve */
 typedef enum {
   IP_LINEAR_SOLVED,
   IP_LINEAR_INDEFINITE, /* the matrix is not positive definite */
-  IP_LINEAR_FAILED      /* the solver has failed, which says nothing about the matrix */
+  IP_LINEAR_FAILED      /* the solver failed; says nothing about the matrix */
 } IPLinearVerdict;
 
-/* The present linear system and its last solve */
+/* The current linear system and its last solve */
 typedef struct {
-  KSP                flexible;       /* for corrections; NULL until one is needed */
+  KSP                flexible;       /* flexible CG for corrections; NULL until needed */
   Vec                residual;       /* b - A d */
-  PetscReal          target, rhs;    /* ||b - A d|| asked for, and ||b|| */
+  PetscReal          target, rhs;    /* requested ||b - A d||; ||b|| */
   PetscReal          norm;           /* ||b - A d||, */
-  PetscReal          backward_error; /* and over the terms it is the difference of */
+  PetscReal          backward_error; /* and relative to the norm of its terms */
   PetscInt           its, limit;     /* Krylov iterations, and their limit */
-  PetscInt           longest;        /* largest number of them in a solve that gave a direction */
+  PetscInt           longest;        /* largest number of iterations in a successful solve */
   KSPConvergedReason reason;
-  PetscBool          failed;        /* no solver gave a direction, for reasons other than the matrix's inertia */
-  char               why[128];      /* why the last remedy did not help */
-  PetscInt           ndirect;       /* solves in a row that only MUMPS could do */
-  PetscBool          filtered;      /* preconditioned with the filter */
+  PetscBool          failed;        /* no solver gave a direction, for other reasons than the matrix's inertia */
+  char               why[128];      /* why the last remedy failed */
+  PetscInt           ndirect;       /* consecutive solves in which only MUMPS succeeded */
+  PetscBool          filtered;      /* the filter was used */
   PetscBool          filter_forced; /* the filter stays on */
 } IPLinear;
 
-/* The condensed matrix factored by MUMPS, where the Krylov method fails */
+/* direct.c: the condensed matrix factored by MUMPS */
 typedef struct {
-  Mat              A, F;          /* the matrix as MUMPS takes it, and its factors */
-  PetscBool        converted;     /* A is a copy */
-  PetscObjectId    pattern_id;    /* which matrix it analysed, */
-  PetscObjectState pattern_state; /* with which pattern, */
-  PetscReal        memory;        /* and what the factors take by that, in 1e6 bytes over all ranks */
-  PetscInt         system;        /* which condensed matrix was factored, by rec.nsystems */
+  Mat              A, F;          /* the matrix in MUMPS's format, and its factors */
+  PetscBool        converted;     /* A is a converted copy */
+  PetscObjectId    pattern_id;    /* the matrix that was analysed, */
+  PetscObjectState pattern_state; /* and state of its pattern */
+  PetscReal        memory;        /* predicted memory of the factors, all ranks [1e6 bytes] */
+  PetscInt         system;        /* the factored matrix, by its number rec.nsystems */
   PetscInt
-    relaxation; /* per cent of work space beyond MUMPS's estimate: what the last factorization came to; 0: none yet */
-  PetscInt negative; /* its negative pivots */
+    relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: none yet */
+  PetscInt negative; /* number of negative pivots */
 } IPDirect;
 
-/* The symmetric system [A J_E^T; J_E -delta] that equality constraints lead to, and its factorization */
+/* augmented.c: the symmetric system [A J_E^T; J_E -delta] for equality constraints, and its factorization */
 typedef struct {
   KSP       ksp;
   Mat       K;
   Mat       shift;      /* -delta I */
-  PetscReal delta;      /* of restoration steps, or regularization of dependent constraints: */
-  PetscBool centered;   /* about the present multipliers, instead of zero */
-  PetscInt  relaxation; /* per cent of work space beyond MUMPS's estimate, and */
-  PetscReal pivot;      /* relative threshold of its pivots: what the last factorization came to; 0: none yet */
+  PetscReal delta;      /* of a restoration step, or regularization of dependent constraints: */
+  PetscBool centered;   /* the regularization acts on the change of the multipliers, not on the multipliers */
+  PetscInt  relaxation; /* work space beyond MUMPS's estimate [per cent], and */
+  PetscReal pivot;      /* relative pivot threshold, in the last successful factorization; 0: none yet */
   Vec       rhs, sol, residual, correction;
 } IPAugmented;
 
-/* Equality constraints whose rows touch few unknowns: condensed with the others, their multipliers found by proximal
-   updates */
+/* proximal.c: equality constraints that involve few unknowns: condensed, with proximal updates of their multipliers */
 typedef struct {
-  PetscBool condensed; /* in this solve, until they turn out not to be fit for it */
-  PetscInt  nupdates;  /* of the multipliers beyond the first of each solve */
+  PetscBool condensed; /* in this solve, unless it turns out not to work */
+  PetscInt  nupdates;  /* updates of the multipliers beyond the first in each solve */
 } IPProximal;
 
-/* The multiple delta of M_u that is added to the Hessian */
+/* The multiple delta of M_u added to the Hessian */
 typedef struct {
-  PetscReal delta, last; /* now, and of the last step that had one */
+  PetscReal delta, last; /* delta: present; last: of the last step that needed one */
 } IPShift;
 
-/* How mu is chosen */
+/* Choice of mu */
 typedef struct {
-  PetscBool free;          /* mehrotra: mu follows the affine step; otherwise Fiacco-McCormick */
-  PetscReal corrector_max; /* mehrotra: bound of the second-order term */
-  PetscReal first;         /* mean product at the start */
-  PetscReal errors[4];     /* KKT errors that the free mode must improve on */
+  PetscBool free;          /* mehrotra: mu from the affine step; otherwise Fiacco and McCormick's rule */
+  PetscReal corrector_max; /* mehrotra: limit of the second-order term */
+  PetscReal first;         /* mean product t z at the start */
+  PetscReal errors[4];     /* recent KKT errors, which the free mode must improve on */
   PetscInt  nerrors;
-  PetscBool curved; /* a step has shown constraints that are not linear, or an objective that is not convex */
-  PetscInt  hold;   /* mehrotra: iterations left in the monotone mode that a failed line search called for */
+  PetscBool curved; /* a step has shown nonlinear constraints or an objective that is not convex */
+  PetscInt  hold;   /* mehrotra: iterations left in the monotone mode after a failed line search */
 } IPBarrier;
 
-/* Pairs (theta, phi) that no later iterate may be dominated by */
+/* The filter: pairs (theta, phi) that later iterates must improve on */
 typedef struct {
   PetscInt   n, max;
   PetscReal *theta, *phi;
 } IPFilterSet;
 
-/* The line search: measures of the present iterate, their units, and the last step */
+/* Line search: measures of the present iterate, their units, and the last step */
 typedef struct {
   PetscReal theta, phi;
-  PetscReal theta0;             /* at the first iterate; negative: none yet */
+  PetscReal theta0;             /* theta at the first iterate; negative: none yet */
   PetscReal theta_ref, phi_ref; /* units */
-  PetscReal equality_weight;    /* brings c_E to the units of theta */
-  PetscReal rounding;           /* changes of phi below this mean nothing, */
-  PetscReal theta_rounding;     /* and values of theta */
+  PetscReal equality_weight;    /* converts c_E to the units of theta */
+  PetscReal rounding;           /* rounding error of phi, */
+  PetscReal theta_rounding;     /* and of theta */
   PetscReal alpha, alpha_dual;
   PetscReal before; /* norm of the direction before the last one */
   PetscInt  ntrials;
-  PetscBool blocked;              /* whether it was the filter alone that refused the last trial point refused */
-  PetscInt  nblocked, nunblocked; /* steps in a row that were shortened so; how often the filter was cleared for that */
+  PetscBool blocked;              /* the last rejected trial point was rejected by the filter alone */
+  PetscInt  nblocked, nunblocked; /* consecutive steps shortened by the filter; number of times it was cleared for
+                                     that */
   char      tag;                  /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
 } IPSearch;
 
-/* Relaxation of constraints without an interior */
+/* relax.c: relaxation of constraints without an interior */
 typedef struct {
   PetscReal by;          /* what c_I is raised by, */
   PetscReal size;        /* the size of the constraints that it is a fraction of, */
@@ -324,93 +320,101 @@ typedef struct {
 
 /* Feasibility restoration */
 typedef struct {
-  PetscReal zeta; /* weight of the distance from the last point against the violation */
+  PetscReal zeta; /* restore.c: weight of the distance from the last point relative to the violation */
   Vec       D;    /* m/zeta in the violated rows */
 } IPRestoration;
 
 /*
-   Another method than steps of the interior point method, for the problems that it applies to: what it can do, and its
-   data. The driver knows no more of it; register.c names the one that there is.
+   Interface of an alternative to the interior point method, for problems that it applies to, and its data. The driver
+   knows nothing else about it; register.c names the implementation.
 */
 typedef struct {
   const char *name;
   PetscErrorCode (*create)(Tao);
-  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* public functions of its own */
-  PetscErrorCode (*applies)(Tao, PetscBool *);          /* to the problem at the first point */
+  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* composes its public functions with the Tao */
+  PetscErrorCode (*applies)(Tao, PetscBool *);          /* whether it applies to the problem at the first point */
   PetscErrorCode (*begin)(Tao, PetscBool *begun);       /* moves to its first point */
-  PetscErrorCode (*step)(Tao, PetscBool *done);         /* not done: it leads no further */
-  PetscErrorCode (*end)(Tao);                           /* of a solve; what serves later ones is kept */
+  PetscErrorCode (*step)(Tao, PetscBool *done);         /* done: false if it makes no more progress */
+  PetscErrorCode (*end)(Tao);                           /* ends a solve; data for later solves are kept */
   PetscErrorCode (*forget)(Tao);                        /* that, too */
-  PetscErrorCode (*monitor)(Tao, PetscBool *monitored); /* prints an iteration in columns of its own */
+  PetscErrorCode (*monitor)(Tao, PetscBool *monitored); /* prints an iteration in its own columns */
   PetscErrorCode (*destroy)(Tao);
 } IPMethodOps;
 
 typedef struct {
-  const IPMethodOps *ops; /* NULL: there is none */
+  const IPMethodOps *ops; /* NULL: no alternative method */
   void              *data;
   PetscBool          on;
-  PetscBool          linear;      /* the routine of the Jacobian has left its matrix alone: linear constraints, */
-  PetscBool          constant;    /* and that of the Hessian too: a quadratic program */
-  PetscBool          multipliers; /* those of the present point are its own */
+  PetscBool          linear;      /* the caller's Jacobian routine left its matrix unchanged: constraints are linear, */
+  PetscBool          constant;    /* and so did the Hessian routine: a quadratic program */
+  PetscBool          multipliers; /* the present multipliers were computed by the method */
 } IPMethod;
 
-typedef enum {
-  IP_START_COLD,
-  IP_START_PREDICT,
-  IP_START_WARM
-} IPStart;
-typedef enum {
-  IP_BARRIER_MONOTONE,
-  IP_BARRIER_MEHROTRA
-} IPBarrierRule;
-typedef enum {
-  IP_KKT_RELATIVE,
-  IP_KKT_MASS
-} IPKKTMeasure;
-typedef enum {
-  IP_FORCING_ADAPTIVE,
-  IP_FORCING_FIXED
-} IPForcing;
-typedef enum {
-  IP_SCALING_PROBLEM,
-  IP_SCALING_GRADIENT,
-  IP_SCALING_NONE
-} IPScaling;
-typedef enum {
-  IP_EQUALITY_AUTO,
-  IP_EQUALITY_AUGMENTED,
-  IP_EQUALITY_CONDENSED
-} IPEqualityMethod;
+typedef enum { IP_START_COLD, IP_START_PREDICT, IP_START_WARM } IPStart;
+typedef enum { IP_BARRIER_MONOTONE, IP_BARRIER_MEHROTRA } IPBarrierRule;
+typedef enum { IP_KKT_RELATIVE, IP_KKT_MASS } IPKKTMeasure;
+typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
+typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
+typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
 
-typedef enum {
-  IP_SUBSPACE_FALSE,
-  IP_SUBSPACE_TRUE,
-  IP_SUBSPACE_AUTO
-} IPSubspaceUse;
+typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
 
-/* Parameters that the user may set; the names are those of the options in opts.c */
+/* Constants. Names follow Waechter and Biegler (2006); most values are IPOPT's */
+#define IP_ACCEPTABLE_TOL   1e-6  /* KKT error that is acceptable if no further progress is made, */
+#define IP_ACCEPTABLE_IT    15    /* after this many consecutive acceptable iterates */
+#define IP_UNBOUNDED_FACTOR 1e10  /* decrease of the objective relative to its first size that counts as unbounded */
+#define IP_ROW_RATIO        100.0 /* row scaling: largest gradient at the start, relative to the smallest */
+#define IP_GRADIENT_MAX     100.0 /* scaling by gradients: largest entry of all gradients at the start */
+#define IP_BOUND_PUSH       1e-2  /* distance of the start from its bounds, relative to their size or distance */
+#define IP_PREDICT_MU       0.3   /* predicted start: mu relative to mean length x mean pressure */
+#define IP_PREDICT_FORCING  0.1   /* residual of its linear solve, relative to the forces that the rows transmit */
+#define IP_WARM_MU          3e-2  /* warm start: smallest mu relative to mean length x mean pressure */
+#define IP_KAPPA_EPSILON    10.0  /* monotone: mu falls when the barrier error is below this multiple of mu, */
+#define IP_KAPPA_DUAL       0.1   /* and (relative measure) the stationarity error below this; */
+#define IP_KAPPA_MU         0.2   /* mu is multiplied by this factor, */
+#define IP_THETA_MU         1.5   /* or raised to this power, */
+#define IP_MU_REDUCTIONS    1     /* at most this often per iteration after the first */
+#define IP_KAPPA_PROGRESS \
+  0.9999                          /* Mehrotra: the KKT error must fall below this fraction of the worst of four,
+                                      else mu becomes monotone */
+#define IP_TAU_MIN          0.99  /* smallest fraction of the step to the boundary */
+#define IP_KAPPA_SIGMA      1e10  /* multipliers are kept within this factor of mu / s */
+#define IP_GAMMA_THETA      1e-5  /* filter: sufficient reduction of the violation theta */
+#define IP_DELTA_SWITCH     1.0   /* switching condition: constant, */
+#define IP_S_THETA          1.1   /* exponent of the violation, */
+#define IP_S_PHI            2.3   /* exponent of the slope */
+#define IP_GAMMA_ALPHA      0.05  /* safety factor for the smallest step */
+#define IP_THETA_MIN_FACT   1e-4  /* Armijo's condition is used below this violation, relative to the first */
+#define IP_THETA_MAX_FACT   1e4   /* largest accepted violation, relative to the first */
+#define IP_OBJ_MAX_INC      1e5   /* largest rise of the barrier function for less violation, relative to its size */
+#define IP_KAPPA_SOC        0.99  /* a correction must reduce the violation by this factor to be continued */
+#define IP_KAPPA_CURVATURE  1e-11 /* curvature d^T W d required of a direction, relative to d^T d */
+#define IP_DELTA_FIRST      1e-4  /* first delta (multiple of M_u), in its unit, */
+#define IP_DELTA_GROW_FIRST 100.0 /* its growth until one has worked, */
+#define IP_DELTA_GROW       8.0   /* its growth later, */
+#define IP_DELTA_SHRINK     (1.0 / 3.0) /* and its decrease from step to step */
+#define IP_DELTA_EQUALITY   1e-8 /* regularization of dependent equality constraints, in units of J_E H^-1 J_E^T */
+#define IP_FORCING_MAX \
+  0.1                         /* adaptive forcing: linear residual while mu falls, relative to the forces in
+                                     balance, */
+#define IP_FORCING_REDUCE 0.7 /* relative to the last stationarity residual, */
+#define IP_FORCING_LAST   0.5 /* and relative to the tolerance in the step that would finish */
+#define IP_FILTER_THRESHOLD \
+  1e-12 /* columns of J belong to the filter if they have an entry above this fraction of
+                                     the largest */
+
+/* Parameters that the user may set; opts.c has the options of the same names */
 typedef struct {
-  PetscReal     acceptable_tol;
-  PetscInt      acceptable_it;
-  IPStart       start;
-  IPBarrierRule barrier;
-  IPKKTMeasure  measure;
-  IPForcing     forcing;
-  IPScaling     scaling;
-  PetscBool     monitor;
-  PetscReal     delta_equality, kappa_progress;
-  PetscReal     mu0, s0, z0, mu_start, mu_warm, forcing_start;
-  PetscReal     kappa_epsilon, kappa_dual, kappa_mu, theta_mu, tau_min, kappa_sigma;
-  PetscInt      max_mu_first, max_mu_later;
-  PetscReal gamma_theta, gamma_phi, eta_phi, delta_switch, s_theta, s_phi, gamma_alpha, theta_min_fact, theta_max_fact,
-    obj_max_inc;
-  PetscInt         max_soc;
-  PetscReal        kappa_soc;
-  PetscReal        forcing_max, forcing_reduce, forcing_last;
-  PetscReal        kappa_curvature, delta_first, delta_max, delta_grow_first, delta_grow, delta_shrink;
-  PetscReal        filter_threshold, filter_switch, row_ratio, gradient_max;
-  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: what the scaling has */
-  PetscReal        bound_push, unbounded_factor;
+  IPStart          start;
+  IPBarrierRule    barrier;
+  IPKKTMeasure     measure;
+  IPForcing        forcing;
+  IPScaling        scaling;
+  PetscBool        monitor;
+  PetscReal        mu0, s0, z0;
+  PetscInt         max_mu_first, max_soc;
+  PetscReal        gamma_phi, eta_phi, delta_max, filter_switch;
+  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: default of the chosen scaling */
   PetscReal        direct_memory;
   PetscBool        direct_always;
   IPSubspaceUse    subspace;
@@ -419,16 +423,16 @@ typedef struct {
   PetscReal        proximal;
 } IPOptions;
 
-/* What the caller set by TaoIPFilterSet...(); NULL: not set */
+/* Set by the caller through TaoIPFilterSet...(); NULL: not set */
 typedef struct {
   Vec      slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
-  Vec      warm_s, warm_z;          /* starting slacks and multipliers, */
-  Vec      warm_y;                  /* multipliers of the equality constraints, */
-  Vec      warm_lower, warm_upper;  /* and of the bounds */
-  PetscInt solves_to_come;          /* number of solves with the same Hessian, the next one included; 0: unknown */
+  Vec      warm_s, warm_z;          /* initial slacks and multipliers, */
+  Vec      warm_y;                  /* initial multipliers of the equality constraints, */
+  Vec      warm_lower, warm_upper;  /* initial multipliers of the bounds */
+  PetscInt solves_to_come;          /* number of solves with the same Hessian, including the next; 0: unknown */
 } IPGiven;
 
-/* What a TaoSolve() did */
+/* Record of a TaoSolve() */
 typedef struct {
   PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
   PetscInt             nsystems, nfiltered; /* condensed matrices, and those preconditioned with the filter */
@@ -452,18 +456,19 @@ typedef struct {
 /* The solver */
 struct _n_TAO_IPFILTER {
   IPOptions     opt;
-  PetscReal     tol; /* of this solve: tao->gatol */
+  PetscReal     tol; /* tolerance of this solve: tao->gatol */
   IPGiven       given;
   IPWork        work;
-  PetscInt      mi, me; /* inequality and equality constraints, all ranks: rows with equal bounds are both */
+  PetscInt      mi, me; /* inequality and equality constraints on all ranks; rows with equal bounds count as both */
   IPSides       sides;
-  IS            fixed; /* variables of this rank with equal bounds; NULL if no rank has one */
+  IS            fixed; /* this rank's variables with equal bounds; NULL if no rank has any */
   IPRowScale    rows;
   IPJacobian    jac;
   IPQuasiNewton qn;
   IPHessian     hess;
   IPPair        pair[IP_NPAIRS];
-  IPIterate     at, best, trial; /* at.x is tao->solution; at.s and at.z are the pairs'; best: smallest KKT error */
+  IPIterate     at, best, trial; /* at.x is tao->solution, at.s and at.z belong to the pairs; best: smallest KKT
+                                    error */
   IPDirection   dir;
   Vec           rx, rc; /* grad f - J^T M lambda + J_E^T y - bound multipliers, and c_I - s */
   IPFirst       first;
@@ -484,17 +489,15 @@ struct _n_TAO_IPFILTER {
   IPRelaxation  relax;
   IPRestoration restore;
   IPMethod      method;
-  const struct _n_IPLawsOps *laws; /* of norm terms; NULL: there are none */
+  const struct _n_IPLawsOps *laws; /* laws of norm terms; NULL: not registered */
   IPRecord                   rec;
 };
 
-#define IP_TINY_STEP (10.0 * PETSC_MACHINE_EPSILON) /* of x: rounding makes such steps */
+#define IP_TINY_STEP (10.0 * PETSC_MACHINE_EPSILON) /* relative to x: smaller steps are rounding */
 #define IP_LEAST_SLACK \
-  1e-14 /* fraction of the constraints' size: smaller slacks only cost accuracy, and indicate that there is no interior
-           */
-#define IP_CLOSE 1e-6 /* fraction of ||b|| below which rounding may stop a Krylov method */
+  1e-14 /* relative to the constraints' size: smaller slacks lose accuracy and indicate that there is no interior */
+#define IP_CLOSE 1e-6 /* relative to ||b||: below this residual rounding may stop a Krylov method */
 #define IP_MANY_ITERATIONS \
-  500 /* iterations of a Krylov method above which it counts as failed, if others of the same
-                                   problem took few */
+  500 /* iterations of a Krylov method that count as failure if other systems of the problem took few */
 
 #endif

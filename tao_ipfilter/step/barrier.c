@@ -19,28 +19,28 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. In the relative measure the forces need to balance
-   only to the per cents at which the linear solves aim, because pairs, not forces, follow mu */
+/* Whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to
+   balance only to the few per cent at which the linear solves aim, because mu affects the pairs, not the forces */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = &ip->kkt;
-  const PetscReal limit   = ip->opt.kappa_epsilon * mu,
-                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, ip->opt.kappa_dual);
+  const PetscReal limit   = IP_KAPPA_EPSILON * mu,
+                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, IP_KAPPA_DUAL);
 
   return (PetscBool)(k->centrality <= limit && k->primal <= PetscMax(limit, ip->tol) && k->dual <= balance);
 }
 
-/* mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), mu in units of the scale of products */
+/* Monotone rule: mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), with mu in units of the product scale */
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscInt limit = tao->niter ? ip->opt.max_mu_later : ip->opt.max_mu_first;
+  const PetscInt limit = tao->niter ? IP_MU_REDUCTIONS : ip->opt.max_mu_first;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
     const PetscReal next =
-      PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(ip->opt.kappa_mu * mu, PetscPowReal(mu, ip->opt.theta_mu)));
+      PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(IP_KAPPA_MU * mu, PetscPowReal(mu, IP_THETA_MU)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
@@ -50,8 +50,8 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Mehrotra's choice: mu = sigma times the mean product, sigma the cube of what a step towards mu = 0 leaves of it.
-   The second-order term counts for no more than a hundred times the mean product. */
+/* Mehrotra's choice: mu = sigma x mean product, where sigma is the cube of the fraction of the mean product that an
+   affine step (mu = 0) leaves. The second-order term is limited to a hundred times the mean product. */
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -77,21 +77,21 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error is below the worst of the last iterates in free mode, which it then replaces there
-   (Nocedal, Waechter and Waltz 2009, section 4) */
+/* Whether the KKT error is below the worst of the last iterates in free mode, and stores it in its place (Nocedal,
+   Waechter and Waltz 2009, section 4) */
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
   const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar.errors);
   PetscReal      worst  = 0.0;
 
   for (PetscInt k = 0; k < PetscMin(ip->bar.nerrors, length); k++) worst = PetscMax(worst, ip->bar.errors[k]);
-  if (ip->bar.nerrors >= length && ip->kkt.error > ip->opt.kappa_progress * worst) return PETSC_FALSE;
+  if (ip->bar.nerrors >= length && ip->kkt.error > IP_KAPPA_PROGRESS * worst) return PETSC_FALSE;
   ip->bar.errors[ip->bar.nerrors++ % length] = ip->kkt.error;
   return PETSC_TRUE;
 }
 
-/* Changes from Mehrotra's method to the monotone one, with a mu near the present products, limited to a few times
-   those of the start */
+/* Changes from Mehrotra's rule to the monotone one, with mu near the present products, limited to a few times the
+   mean at the start */
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -106,7 +106,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The same for some iterations at least, whatever progress there is */
+/* The same for at least this many iterations */
 PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 {
   PetscFunctionBegin;
@@ -116,9 +116,9 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 }
 
 /*
-   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's method suits convex objectives and
-   linear constraints, where the affine step predicts mu. The monotone method replaces it if the problem is different,
-   and while the KKT error does not fall
+   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives and linear
+   constraints, where the affine step predicts mu. The monotone rule replaces it for other problems, and while the KKT
+   error does not fall
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {

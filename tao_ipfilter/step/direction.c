@@ -2,7 +2,7 @@
    curvature. */
 #include "stepimpl.h"
 
-/* The square with which the curvature of d is compared: d^T d, in the unit of H. With scale-free constants at most d^T
+/* Square to which the curvature of d is compared: d^T d in the unit of H. With scale-free constants at most d^T
    |diag(H)| d, so that unknowns of different units count equally */
 static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
 {
@@ -22,7 +22,7 @@ static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* d^T (H + Sigma + delta M_u) d */
+/* curvature = d^T (H + Sigma + delta M_u) d */
 static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -43,7 +43,8 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
   PetscFunctionReturn(0);
 }
 
-/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) and, with constants in the problem's units, ds^T ds */
+/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) to the curvature and, with constants in the problem's units, ds^T ds
+   to the square */
 static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscReal *square)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -68,7 +69,7 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Adds max(-y+^T c_E, 0): what a step towards the constraints takes from d^T W d */
+/* Adds max(-y+^T c_E, 0): the part of d^T W d that a step towards the constraints uses up */
 static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -84,13 +85,13 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
   PetscFunctionReturn(0);
 }
 
-/* d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on the
-   unknowns and D on the slacks. A, which holds J^T D J instead, would lose d^T H d to rounding once D is large. A
-   step that rounding makes of x has no curvature to speak of. */
+/* Tests d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on
+   the unknowns and D on the slacks. Computed with A, which contains J^T D J instead, d^T H d would be lost to
+   rounding for large D. A step of rounding size passes. */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal kappa     = ip->opt.kappa_curvature;
+  const PetscReal kappa     = IP_KAPPA_CURVATURE;
   PetscReal       curvature = 0.0, square = 0.0, step, size;
 
   PetscFunctionBegin;
@@ -109,8 +110,8 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
   PetscFunctionReturn(0);
 }
 
-/* Whether the whole step would end the solve but for the forces left out of balance: steps of one, well away from the
-   boundary, and all products (t + dt)(z + dz) within the tolerance */
+/* finish: whether the full step would end the solve except for the force residual: step lengths of 1, not close to
+   the boundary, and all products (t + dt)(z + dz) within the tolerance */
 static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
@@ -131,18 +132,18 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
   PetscFunctionReturn(0);
 }
 
-/* Target for ||b - A d||: a few per cent of the forces in balance, always less than the present imbalance, and not
-   below last. With bounds alone also a few per cent of b, since the forces may be small compared with those at the
-   start */
+/* Target for ||b - A d||: a few per cent of the forces in balance, but less than the present imbalance and at least
+   `last`. With bounds only also at most a few per cent of b, since the forces may be small compared with those at
+   the start */
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
-  PetscReal loose = PetscMin(ip->opt.forcing_max * ip->scale.dual, ip->opt.forcing_reduce * ip->kkt.dual_norm);
+  PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale.dual, IP_FORCING_REDUCE * ip->kkt.dual_norm);
 
-  if (!ip->mi && !ip->me) loose = PetscMin(loose, ip->opt.forcing_max * rhs);
+  if (!ip->mi && !ip->me) loose = PetscMin(loose, IP_FORCING_MAX * rhs);
   return PetscMax(loose, last);
 }
 
-/* dx, and the direction of the equality constraints' multipliers, by whatever solves for them */
+/* Solves for dx, and for the direction of the equality multipliers, with the chosen solver */
 static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target,
   PetscBool *usable)
 {
@@ -160,13 +161,13 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
   return (PetscBool)(!ip->me || ip->prox.condensed);
 }
 
-/* The direction for the residuals rc, ce and the pairs' targets, from the guess in dx. While mu falls the forces need
-   balance only to a few percent, so that the multipliers are right to a few percent; a step that would finish is
-   continued to what convergence asks for. matrix tells that A is new. */
+/* Computes the direction for the residuals rc and ce and the pairs' targets, from the guess in dx. While mu falls,
+   forces and multipliers need to be accurate only to a few per cent; a step that would finish is solved to the
+   accuracy that convergence requires. matrix: A is new */
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal factor = ip->opt.forcing_last * ip->tol;
+  const PetscReal factor = IP_FORCING_LAST * ip->tol;
   PetscReal       norm, last = factor * IPErrorBoundForceUnit(ip);
   PetscBool       finish = PETSC_FALSE;
   Vec             rhs;
@@ -191,7 +192,7 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscFunctionReturn(0);
 }
 
-/* Right-hand sides of the pairs */
+/* Sets the right-hand sides of the pairs */
 static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corrector_max)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -201,7 +202,7 @@ static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corre
   PetscFunctionReturn(0);
 }
 
-/* How far apart the weights of the inequality rows are, with -info */
+/* Prints (-info) how far apart the weights of the inequality rows are */
 static PetscErrorCode DirectionTellWeights(Tao tao, Vec D)
 {
   PetscBool told;
@@ -216,7 +217,7 @@ static PetscErrorCode DirectionTellWeights(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* The matrix with the present delta */
+/* Assembles the matrix with the present delta */
 static PetscErrorCode DirectionAssemble(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -239,8 +240,8 @@ static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
 }
 
-/* Solves the system; in Mehrotra's method first for mu = 0, whose step chooses mu and gives the second-order term and
-   the guess of the direction proper. */
+/* Solves the system. Mehrotra's rule first solves for mu = 0; that step determines mu and the second-order term, and
+   is the guess for the direction */
 static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -261,7 +262,7 @@ static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Another direction with the matrix of the last one, for the residuals of a second-order correction */
+/* A further direction with the last matrix, for the residuals of a second-order correction */
 PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -294,7 +295,7 @@ static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The direction of the next step; *ok is false where there is none of sufficient curvature, or no solver gives it */
+/* Computes the direction of the next step; *ok: false if none has enough curvature, or no solver found it */
 PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,5 +1,5 @@
-/* The filter: pairs (theta, phi) of constraint violation and barrier function. Later iterates must improve on each
-   pair in one of the two. */
+/* The filter: pairs (theta, phi) of violation and barrier function. Later iterates must improve on each pair in one
+   of the two. */
 #include "stepimpl.h"
 
 PetscErrorCode IPFilterSetReset(IPFilterSet *f)
@@ -18,7 +18,7 @@ PetscErrorCode IPFilterSetDestroy(IPFilterSet *f)
   PetscFunctionReturn(0);
 }
 
-/* Adds a pair and drops those it dominates */
+/* Adds a pair and removes those that it dominates */
 PetscErrorCode IPFilterSetAdd(IPFilterSet *f, PetscReal theta, PetscReal phi)
 {
   PetscInt kept = 0;

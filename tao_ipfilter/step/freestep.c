@@ -1,12 +1,12 @@
-/* A step of the problem without its bounds, from which a start between them is predicted. */
+/* A step of the problem without its bounds, used to predict a start between them. */
 #include "stepimpl.h"
 
-/* The step, to a tenth of its residual; of no use where the Hessian is not convex along it, or has no positive
-   diagonal that an AMG could be built from */
+/* Computes the step to a tenth of its residual. usable: false if the Hessian is not convex along it, or has no
+   positive diagonal, without which no AMG can be built */
 static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal coarse = 0.1, singular = 1e-8; /* shift of a Hessian that the bounds may have to hold */
+  const PetscReal coarse = 0.1, singular = 1e-8; /* shift for a Hessian that may be singular without the bounds */
   PetscScalar     descent;
   PetscReal       norm, least;
   Vec             rhs;
@@ -32,8 +32,7 @@ static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The trial point after the step, which leaves a margin to the bounds, but for no more than a part of the distance
-   between two */
+/* The trial point after the step: keeps a margin to the bounds, limited to a part of the distance between two */
 static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -63,7 +62,7 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
   PetscFunctionReturn(0);
 }
 
-/* Sizes at the point that the step has led to, in the place of those of a start that may have lain anywhere */
+/* Measures sizes at the point after the step. They replace those of the start, which may be far off */
 static PetscErrorCode FreeMeasure(Tao tao)
 {
   IPFirst *first = &((TAO_IPFILTER *)tao->data)->first;
@@ -75,12 +74,12 @@ static PetscErrorCode FreeMeasure(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the step, if that lowers the objective; *energy is the mean size of the step times that of the
-   gradient there, per unknown */
+/* Moves x along the step if that reduces the objective. *energy: mean step x mean gradient at the new point, per
+   unknown */
 PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal margin = 0.1; /* of the mean step */
+  const PetscReal margin = 0.1; /* relative to the mean step */
   PetscReal       step, gradient;
   PetscBool       usable = PETSC_FALSE;
   PetscInt        n;

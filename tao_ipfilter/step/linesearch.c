@@ -4,8 +4,8 @@
 */
 #include "stepimpl.h"
 
-/* theta and phi at x + alpha dx, s + alpha ds. *finite is false if the callbacks returned no number; then nothing else
-   is evaluated */
+/* Computes theta and phi at x + alpha dx, s + alpha ds. *finite: false if the callbacks returned no number; nothing
+   else is evaluated then */
 static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -25,34 +25,35 @@ static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, Pe
   PetscFunctionReturn(0);
 }
 
-/* (-slope)^s_phi alpha > delta theta^s_theta: the step promises more for the objective than for the constraints */
+/* Switching condition (-slope)^s_phi alpha > delta theta^s_theta: the expected decrease of the objective outweighs
+   the violation */
 static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
 {
   if (slope >= 0.0) return PETSC_FALSE;
-  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, ip->opt.s_phi) >
-                     ip->opt.delta_switch * PetscPowReal(ip->search.theta / ip->search.theta_ref, ip->opt.s_theta));
+  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, IP_S_PHI) >
+                     IP_DELTA_SWITCH * PetscPowReal(ip->search.theta / ip->search.theta_ref, IP_S_THETA));
 }
 
-/* Violation that theta's limits are fractions and multiples of */
+/* The violation to which theta's limits are relative */
 static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 {
   return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
 }
 
-/* Allowed increase of the objective for a smaller violation: little, if there is hardly any violation left */
+/* Largest allowed increase of the objective for a smaller violation: little if hardly any violation is left */
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = &ip->search;
   const PetscReal trace = 1e-10, worth = 1e-2,
-                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : ip->opt.obj_max_inc;
+                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : IP_OBJ_MAX_INC;
 
   return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY
                                             : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
 }
 
-/* Whether (theta, phi) at step alpha is acceptable; *objective tells that the objective falls as the switching
-   condition promises, or that there is no violation that could fall instead: the iterate left behind then stays out
-   of the filter (equations (18) to (20) there) */
+/* accepted: whether (theta, phi) at step alpha is acceptable. *objective: whether it is accepted for its objective,
+   which falls as the switching condition predicts, or because no violation is left to reduce; the old iterate then
+   stays out of the filter (Waechter and Biegler 2006, equations (18) to (20)) */
 static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi,
   PetscBool *accepted, PetscBool *objective)
 {
@@ -67,11 +68,11 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
 
   PetscFunctionBegin;
   *objective = (PetscBool)(alone || (switches && armijo));
-  if (theta > opt->theta_max_fact * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
-  else if (alone || (search->theta <= opt->theta_min_fact * first && switches)) *accepted = armijo;
+  if (theta > IP_THETA_MAX_FACT * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
+  else if (alone || (search->theta <= IP_THETA_MIN_FACT * first && switches)) *accepted = armijo;
   else
     *accepted =
-      (PetscBool)(theta <= (1.0 - opt->gamma_theta) * search->theta ||
+      (PetscBool)(theta <= (1.0 - IP_GAMMA_THETA) * search->theta ||
                   change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
   descends = *accepted;
   if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
@@ -83,17 +84,16 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
 static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
 {
   const PetscReal theta = ip->search.theta / ip->search.theta_ref, descent = -slope / ip->search.phi_ref;
-  PetscReal       least = ip->opt.gamma_theta;
+  PetscReal       least = IP_GAMMA_THETA;
 
   if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
-  if (descent > 0.0 && ip->search.theta <= ip->opt.theta_min_fact * SearchFirstViolation(ip))
-    least = PetscMin(least,
-      ip->opt.delta_switch * PetscPowReal(theta, ip->opt.s_theta) / PetscPowReal(descent, ip->opt.s_phi));
-  return PetscMax(ip->opt.gamma_alpha * least, 1e-12);
+  if (descent > 0.0 && ip->search.theta <= IP_THETA_MIN_FACT * SearchFirstViolation(ip))
+    least = PetscMin(least, IP_DELTA_SWITCH * PetscPowReal(theta, IP_S_THETA) / PetscPowReal(descent, IP_S_PHI));
+  return PetscMax(IP_GAMMA_ALPHA * least, 1e-12);
 }
 
-/* Takes the accepted step: the trial point, multipliers of the constraints by alpha, those of the pairs by their own
-   step. Slacks that are so small that J^T D J would exceed the Hessian's digits are increased slightly */
+/* Takes the accepted step: the trial point; multipliers of the constraints by alpha, of the pairs by their own step
+   length. Slacks so small that J^T D J would swamp the Hessian are increased slightly */
 static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -106,7 +106,7 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
     if (!p->n) continue;
     if (b != IP_SLACK) PetscCall(VecCopy(p->trial, p->t));
     PetscCall(VecAXPY(p->z, dual, p->dz));
-    PetscCall(IPPairSafeguard(p, ip->mu, ip->opt.kappa_sigma));
+    PetscCall(IPPairSafeguard(p, ip->mu, IP_KAPPA_SIGMA));
   }
   ip->relax.least_bound = PETSC_INFINITY;
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
@@ -128,8 +128,8 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   PetscFunctionReturn(0);
 }
 
-/* Whether residuals of the constraints at the trial point are other than the 1 - alpha times the present ones that
-   linear constraints leave */
+/* Tests whether the constraints' residuals at the trial point differ from 1 - alpha times the present ones, which
+   linear constraints would give */
 static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -159,7 +159,7 @@ static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
   PetscFunctionReturn(0);
 }
 
-/* Takes the step, and puts the iterate left behind into the filter, unless Armijo decided */
+/* Takes the step, and adds the old iterate to the filter unless Armijo's condition decided */
 static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, PetscBool objective, PetscBool corrected)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -171,8 +171,8 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
   PetscFunctionReturn(0);
 }
 
-/* The corrections proper: the residuals rc and ce of the first trial point, and then of each correction's, with those
-   of the iterate they were made from, give another direction */
+/* Second-order corrections: a new direction from the residuals rc and ce of the first trial point, then from those
+   of each correction, combined with the iterate's */
 static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
   Vec rc, Vec ce, PetscBool *ok)
 {
@@ -198,14 +198,14 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
     ip->search.ntrials++;
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
     if (*ok) PetscCall(SearchAccept(tao, step, dual, objective, PETSC_TRUE));
-    else if (!finite || theta > ip->opt.kappa_soc * last) break;
+    else if (!finite || theta > IP_KAPPA_SOC * last) break;
     last = theta;
   }
   PetscFunctionReturn(0);
 }
 
-/* Second-order correction (section 2.4 there), where the first trial point violates the constraints more than the
-   iterate. The direction is as it was where no correction is accepted. */
+/* Second-order correction (section 2.4 there), if the first trial point increases the violation. If no correction is
+   accepted the direction is unchanged. */
 static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
   PetscBool *ok)
 {
@@ -235,8 +235,8 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* If the filter alone shortens descending steps several times in a row, it contains iterates of another region. It is
-   then cleared, a few times a solve (IPOPT's filter_reset_trigger and max_filter_resets) */
+/* Clears the filter, a few times per solve, if the filter alone has shortened several descent steps in a row: it
+   then contains iterates from another region (IPOPT's filter_reset_trigger and max_filter_resets) */
 static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 {
   const PetscInt patience = 5, limit = 5;
@@ -250,11 +250,11 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks along the direction until the filter accepts; *ok is false where no step is acceptable */
+/* Backtracks along the direction until the filter accepts; *ok: false if no step is acceptable */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal tau   = PetscMax(ip->opt.tau_min, 1.0 - ip->mu / ip->scale.product);
+  const PetscReal tau   = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale.product);
   PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
 
   PetscFunctionBegin;

@@ -1,7 +1,7 @@
-/* The two quantities of the line search: theta, the violation of the constraints, and phi, the barrier function. */
+/* The two merit functions of the line search: theta, the constraint violation, and phi, the barrier function. */
 #include "stepimpl.h"
 
-/* theta: c - s in the norm of the weights and c_E, both per unit of their references */
+/* theta: weighted norm of c - s, and c_E, each relative to its reference */
 static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *theta)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -20,7 +20,7 @@ static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *th
   PetscFunctionReturn(0);
 }
 
-/* phi = f - mu sum w log t, with the pairs' t or their trial values */
+/* phi = f - mu sum w log t, with t of the pairs or their trial values */
 static PetscErrorCode MeritBarrier(Tao tao, PetscReal f, PetscBool trial, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -54,8 +54,8 @@ static PetscErrorCode MeritRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What rounding leaves of theta where all constraints are met: a few eps of their values, and of the terms that cancel
-   in equality constraints */
+/* Rounding error of theta where all constraints are met: a few eps of their values and of the terms that cancel in
+   equality constraints */
 static PetscErrorCode MeritViolationRounding(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -75,7 +75,7 @@ static PetscErrorCode MeritViolationRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Units of theta and phi, and theta at the first iterate, which its limits follow from */
+/* Sets the units of theta and phi, and theta at the first iterate, from which limits are derived */
 static PetscErrorCode MeritUnits(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -96,7 +96,7 @@ static PetscErrorCode MeritUnits(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* theta and phi at the current iterate */
+/* Computes theta and phi at the current iterate */
 PetscErrorCode IPMeritMeasure(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -110,7 +110,7 @@ PetscErrorCode IPMeritMeasure(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slope of the barrier function along the direction */
+/* Derivative of the barrier function along the direction */
 PetscErrorCode IPMeritSlope(Tao tao, PetscReal *slope)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -128,7 +128,7 @@ PetscErrorCode IPMeritSlope(Tao tao, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* theta and phi of the trial point, whose values are at hand */
+/* Computes theta and phi at the trial point, from values evaluated there */
 PetscErrorCode IPMeritMeasureTrial(Tao tao, PetscReal *theta, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,13 +139,13 @@ PetscErrorCode IPMeritMeasureTrial(Tao tao, PetscReal *theta, PetscReal *phi)
   PetscFunctionReturn(0);
 }
 
-/* Puts the present iterate, with its margins, into the filter */
+/* Adds the present iterate, with margins, to the filter */
 PetscErrorCode IPMeritFilterAdd(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - ip->opt.gamma_theta) * ip->search.theta,
+  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - IP_GAMMA_THETA) * ip->search.theta,
     ip->search.phi - ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta));
   PetscFunctionReturn(0);
 }

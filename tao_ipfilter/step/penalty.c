@@ -1,8 +1,8 @@
-/* A step of the penalized problem, from which slacks and multipliers are predicted: f + 1/2 sum m rho v^2 with the
-   violations v. */
+/* A step of the penalized problem f + 1/2 sum m rho v^2, with violations v. Slacks and multipliers are predicted
+   from it. */
 #include "stepimpl.h"
 
-/* Pressures that a penalty of the constraints' stiffness gives at the constraint values c: z = -rho v */
+/* Pressures z = -rho v of a penalty with the constraints' stiffness, for constraint values c */
 PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -14,7 +14,7 @@ PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* Their forces, m z */
+/* Forces m z of these pressures */
 static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
 {
   PetscFunctionBegin;
@@ -23,7 +23,7 @@ static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Norm of the forces that the constraints transmit to the unknowns after the step dx, by the model */
+/* norm: of the forces from constraints to unknowns after the step dx, by the linear model */
 static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -43,7 +43,7 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* Whether the penalized problem is convex along dx, and wherever factors tell it */
+/* convex: whether the penalized problem is convex along dx and, if factors are available, by their inertia */
 static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -63,7 +63,7 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
   PetscFunctionReturn(0);
 }
 
-/* The matrix and the right-hand side of the penalized problem */
+/* Assembles the matrix and the right-hand side of the penalized problem */
 static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -80,8 +80,8 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx of the penalized problem, until the forces out of balance are a fraction of those the constraints transmit; of
-   no use along a direction in which it is not convex */
+/* Solves for dx until the force residual is a fraction of the forces that the constraints transmit. usable: false if
+   the problem is not convex along dx */
 static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -97,10 +97,10 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
   for (PetscInt pass = 0; pass < 3 && *usable; pass++) {
     PetscReal force;
 
-    target *= ip->opt.forcing_start;
+    target *= IP_PREDICT_FORCING;
     PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
     PetscCall(PenaltyTransmitted(tao, &force));
-    if (ip->lin.norm <= ip->opt.forcing_start * force || force == 0.0) break;
+    if (ip->lin.norm <= IP_PREDICT_FORCING * force || force == 0.0) break;
     target = force;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
@@ -108,7 +108,7 @@ static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The penalized objective at the point of an iterate, whose values of objective and constraints are set */
+/* value: the penalized objective at an iterate whose objective and constraints are known */
 static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal *value)
 {
   PetscScalar penalty;
@@ -130,8 +130,8 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Whether objective and constraints at x + alpha dx, at hand, are those of their models from x: for a quadratic
-   program always */
+/* hold: whether objective and constraints at x + alpha dx agree with their quadratic and linear models from x;
+   always true for a quadratic program */
 static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -162,9 +162,8 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the solution of the penalized problem, as far as its bounds allow and where that reduces the
-   penalized objective; *moved is false where it does not, where the problem's models do not reach so far, or where
-   equality constraints stand against it */
+/* Moves x along the solution of the penalized problem, as far as its bounds allow and the penalized objective falls.
+   *moved: false if it does not fall, the models are invalid so far away, or equality constraints are violated more */
 PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,19 +1,19 @@
 /*
-   Inertia-free regularization (Chiang and Zavala 2016): the direction must show enough curvature and the Krylov
-   method must not meet a negative one, else delta M_u is added to the Hessian and grows.
+   Inertia-free regularization (Chiang and Zavala 2016). The direction must have enough curvature and the Krylov method
+   must not meet negative curvature; otherwise a growing delta M_u is added to the Hessian.
 */
 #include "stepimpl.h"
 
-/* First delta after none: the last one shrunk; else grown, faster while none has worked yet */
+/* Next delta. The first in a step: the last one, reduced. Later ones grow, faster until one has worked */
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
 {
   if (ip->shift.delta == 0.0)
-    return ip->shift.last > 0.0 ? PetscMax(ip->opt.delta_shrink * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
-                                : ip->opt.delta_first * unit;
-  return (ip->shift.last > 0.0 ? ip->opt.delta_grow : ip->opt.delta_grow_first) * ip->shift.delta;
+    return ip->shift.last > 0.0 ? PetscMax(IP_DELTA_SHRINK * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
+                                : IP_DELTA_FIRST * unit;
+  return (ip->shift.last > 0.0 ? IP_DELTA_GROW : IP_DELTA_GROW_FIRST) * ip->shift.delta;
 }
 
-/* The unit of delta: typical diagonal entry of H over typical mass */
+/* Unit of delta: typical diagonal entry of H / typical mass */
 static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -31,7 +31,7 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* A delta where there was none, or a larger one */
+/* Starts or increases delta */
 PetscErrorCode IPRegularizeMore(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -44,7 +44,7 @@ PetscErrorCode IPRegularizeMore(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Records that a step is taken with delta */
+/* Records that a step was taken with delta */
 void IPRegularized(TAO_IPFILTER *ip)
 {
   if (ip->shift.delta == 0.0) return;
@@ -54,9 +54,8 @@ void IPRegularized(TAO_IPFILTER *ip)
   ip->bar.curved = PETSC_TRUE;
 }
 
-/* Smallest shift above which A has only positive diagonal entries. Below it A is not positive definite: there is
-   nothing to solve, and no AMG can be built. Negative if the Hessian needs no shift for that. NaN in the matrix is a
-   failure */
+/* least: smallest shift for which all diagonal entries of A are positive; below it A is not positive definite and no
+   AMG can be built. Negative if no shift is needed. NaN in the matrix is a failure */
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -75,8 +74,8 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
   PetscFunctionReturn(0);
 }
 
-/* Solves with delta raised, from first times its unit on, until the caller's solve calls its solution usable, and tells
-   whether that was reached. A solver that fails is not helped by a larger delta. */
+/* Repeats assemble and solve with increasing delta, from `first` times its unit, until the solution is usable, and
+   reports whether it is. A failure of the solver is not cured by a larger delta. */
 PetscErrorCode IPRegularize(Tao tao, PetscReal          first, PetscErrorCode (*assemble)(Tao),
   PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
 {

@@ -6,10 +6,10 @@
 */
 #include "stepimpl.h"
 
-#define IP_RELAX_FIRST 1e-2 /* of the tolerance */
-#define IP_RELAX_LARGE 1e4  /* a multiplier this many times that which balances the gradient is large */
+#define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
+#define IP_RELAX_LARGE 1e4  /* a multiplier is large if it exceeds the one that balances the gradient by this factor */
 
-/* Moves slacks by r, and puts pairs back on the central path, because multipliers of vanishing slacks are useless */
+/* Adds r to the slacks and moves pairs to the central path, because multipliers of vanishing slacks are useless */
 static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -141,7 +141,7 @@ PetscErrorCode IPRelax(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The same where there is no next step, as soon as a slack has vanished, and once more by the tolerance itself */
+/* Relaxes, if no next step was found, as soon as a slack has vanished; a second time by the full tolerance */
 PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

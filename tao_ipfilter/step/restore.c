@@ -1,23 +1,22 @@
 /*
-   Feasibility restoration, where the line search finds no step: Levenberg-Marquardt steps for the violation
+   Feasibility restoration, if the line search finds no step: Levenberg-Marquardt steps for the violation
 
-     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), beyond an upper side c_I,i - range,
+     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), or c_I,i - range beyond an upper side.
 
-   each the minimum of psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log of the distances to
-   bounds. The Hessian as metric lets an elastic body follow its surface. Its matrix is the condensed one with D =
-   m/zeta in the violated rows, and the augmented one with delta = zeta/w^2, so that the solvers of the iteration
-   proper serve here too.
+   Each step minimizes psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log(distances to bounds).
+   With the Hessian as metric an elastic body follows its surface. The matrix is the condensed one with D = m/zeta in
+   the violated rows, and the augmented one with delta = zeta/w^2, so that the same solvers can be used.
 */
 #include "stepimpl.h"
 
 #define IP_RESTORE_MAX    200  /* steps */
-#define IP_RESTORE_METRIC 0.1  /* least delta in the metric, in its unit: for Hessians without curvature */
-#define IP_RESTORE_SMALL  1e-3 /* relative gradient of a violation that may be a minimum */
+#define IP_RESTORE_METRIC 0.1  /* smallest delta in the metric, in its unit, for Hessians without curvature */
+#define IP_RESTORE_SMALL  1e-3 /* psi may have a minimum where its relative gradient is below this */
 #define IP_RESTORE_DROWNED \
-  1e8 /* growth of the Hessian by multipliers above which the objective has no influence on steps */
-#define IP_RESTORE_LEAST 1e-6 /* of one that is, if it does not fall */
+  1e8 /* if multipliers enlarged the Hessian by more than this, the objective has no influence on steps */
+#define IP_RESTORE_LEAST 1e-6 /* psi has a minimum where its relative gradient is below this and it does not fall */
 
-/* psi at the point of an iterate */
+/* psi at an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -60,7 +59,7 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
   PetscFunctionReturn(0);
 }
 
-/* The system's matrix: D = m/zeta in the violated rows, 0 in the others */
+/* Assembles the matrix: D = m/zeta in violated rows, 0 in the others */
 static PetscErrorCode RestoreAssemble(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -89,7 +88,7 @@ static PetscErrorCode RestoreAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Its right-hand side: the forces -J^T D v of the violation and those of the bounds */
+/* Right-hand side: the forces -J^T D v of the violation, and those of the bounds */
 static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -109,7 +108,7 @@ static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* The step; usable where it descends on the violation or on the bounds' barrier */
+/* Solves for the step; usable: whether it reduces the violation or the bounds' barrier */
 static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -132,9 +131,9 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks until psi falls, inside the bounds; *psi is its value there, *alpha 0 where it does not. The next step's
-   model gets more of the metric the worse this one was, and less where a whole step gains as much as the model
-   promises at least, but for a fraction: half of the slope */
+/* Backtracks inside the bounds until psi falls. *psi: its new value; *alpha: 0 if it does not fall. zeta is
+   increased the more, the worse the model was; it is reduced if a full step gains at least about what the model
+   predicts (half of the slope) */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -144,7 +143,7 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
   PetscFunctionBegin;
   *alpha = 1.0;
   PetscCall(IPBoundsDirection(tao));
-  PetscCall(IPFractionToBoundary(tao, IP_LOWER, ip->opt.tau_min, alpha, NULL));
+  PetscCall(IPFractionToBoundary(tao, IP_LOWER, IP_TAU_MIN, alpha, NULL));
   for (PetscInt k = 0; k < halvings; k++, *alpha *= 0.5) {
     PetscReal trial;
 
@@ -164,7 +163,7 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
   PetscFunctionReturn(0);
 }
 
-/* x, its constraint values and derivatives from the trial point */
+/* Takes x, constraint values and derivatives of the trial point */
 static PetscErrorCode RestoreTakeTrial(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -176,8 +175,8 @@ static PetscErrorCode RestoreTakeTrial(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Slacks for the present x: the constraint's value where that is well inside, else the slack of the central path, but
-   no further from the constraint's value than a violation well below theta0 allows */
+/* Chooses slacks for the present x: the constraint's value if that is well inside, else the slack of the central
+   path, limited so that the violation stays well below theta0 */
 static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -207,8 +206,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
   PetscFunctionReturn(0);
 }
 
-/* Whether the filter accepts the present x with slacks that belong to it, at clearly less violation than at the start
- */
+/* accepted: whether the filter accepts the present x with matching slacks, at clearly less violation than theta0 */
 static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accepted)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -229,7 +227,7 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers with which the iteration continues */
+/* Sets the slacks and multipliers with which the iteration continues */
 static PetscErrorCode RestoreLeave(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -246,7 +244,7 @@ static PetscErrorCode RestoreLeave(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers that have grown without limit make a Hessian that is a multiple of the one at the start: how large */
+/* growth: size of the Hessian relative to that at the start; multipliers that grow without limit enlarge it */
 static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -264,7 +262,7 @@ static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
   PetscFunctionReturn(0);
 }
 
-/* The metric becomes the Hessian of the objective alone */
+/* Uses the Hessian of the objective alone as metric */
 static PetscErrorCode RestoreForgetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -277,7 +275,7 @@ static PetscErrorCode RestoreForgetMultipliers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* zeta at which the metric and the violation's model weigh alike, from the stiffness of the constraints */
+/* Initial zeta: balances the metric and the model of the violation, using the stiffness of the constraints */
 static PetscErrorCode RestoreFirstZeta(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -297,8 +295,8 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the entries of psi's gradient whose descent a bound stops so soon that psi changes by no more than the given
-   limit */
+/* Sets those entries of psi's gradient to zero where a bound stops the descent before psi changes by more than
+   max_change */
 static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal max_change)
 {
   const PetscScalar *t;
@@ -317,7 +315,7 @@ static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal ma
   PetscFunctionReturn(0);
 }
 
-/* |J^T r| / (|J| |r|), without what bounds stop, with the constraints' gradients J at the start of the restoration: 0
+/* relative: |J^T r| / (|J| |r|) without the parts stopped by bounds, with |J| from the start of the restoration; 0
    where psi is stationary */
 static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
 {
@@ -337,8 +335,7 @@ static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* |J| in the weights of psi, here or at the start of the solve: where it vanishes, its gradients are no measure of
-   themselves */
+/* size: |J| in the weights of psi, the larger of here and the start of the solve */
 static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -359,7 +356,7 @@ static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* The slope of psi along dx */
+/* slope: derivative of psi along dx */
 static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -375,8 +372,8 @@ static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* One step of the restoration: psi is updated; *alpha is the step's length, *gradient the relative gradient before
-   it. *descent is false where the bounds' barrier turns the step away from less violation. */
+/* One restoration step; updates psi. *alpha: its length; *gradient: the relative gradient before it. *descent: false
+   if the bounds' barrier turned the step away from less violation */
 static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient,
   PetscBool *descent)
 {
@@ -398,8 +395,8 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Steps until the filter accepts the point, or the violation falls no longer: its relative gradient, which may fall
-   for longer, then is *gradient at least */
+/* Steps until the filter accepts the point (ok), or the violation no longer falls (stuck). *least: the smallest
+   relative gradient, which may keep falling */
 static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck,
   PetscReal *least)
 {
@@ -437,9 +434,8 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 }
 
 /*
-  Reduces the violation until the filter accepts the point. *ok is false where that was not reached; *infeasible then
-  tells whether because the violation has a minimum that is not zero: it falls no longer, and its gradient is small
-  but for what bounds stop.
+   Reduces the violation until the filter accepts the point. *ok: whether it did. *infeasible: otherwise, whether the
+   violation has a non-zero minimum: it no longer falls and its projected gradient is small
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
@@ -454,7 +450,7 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
   PetscCall(RestoreFirstZeta(tao));
   PetscCall(RestoreViolation(tao, &ip->at, &psi));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore.D));
-  PetscCall(RestoreAccepts(tao, theta0, ok)); /* slacks far from the constraints' values may be all that is wrong */
+  PetscCall(RestoreAccepts(tao, theta0, ok)); /* possibly only the slacks are far from the constraints' values */
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore.D));
   *infeasible =

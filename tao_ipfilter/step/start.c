@@ -1,9 +1,9 @@
-/* Starting values of slacks and multipliers. */
+/* Initial values of slacks and multipliers. */
 #include "stepimpl.h"
 
-#define IP_LEAST_START 1e-10 /* gap of the pairs at the start, as a fraction of the terms of the objective */
+#define IP_LEAST_START 1e-10 /* initial gap of the pairs, relative to the terms of the objective */
 
-/* The given constants: t stays for bounds, s = s0, z = z0, lambda = 0, mu = mu0 */
+/* Cold start with given constants: s = s0, z = z0, lambda = 0, mu = mu0; t of bounds is unchanged */
 static PetscErrorCode StartCold(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -20,7 +20,7 @@ static PetscErrorCode StartCold(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Weighted mean of rho q^2: the product length x pressure of the constraints' present values, of those within reach */
+/* mean: weighted mean of rho q^2 (length x pressure) for constraint values within reach */
 static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -55,7 +55,7 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* The same of the constraints' values within reach */
+/* Weighted mean of the constraints' values within reach */
 static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
 {
   Vec near;
@@ -109,12 +109,13 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
   PetscFunctionReturn(0);
 }
 
-/* Work that forces can do on the way to the bounds they push to, where the objective is as good as linear so far and
-   only the bounds will end it: mean per pair of bounds */
+/* worth: mean product per pair of bounds: the work of forces on the way to the bounds they push to. Used where the
+   objective is almost linear, so that only the bounds will stop the iteration */
 static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal    linear = 100.0; /* ways that a step of Newton's method is long there */
+  const PetscReal    linear = 100.0; /* Newton steps longer than this many times the distance to bounds count as a
+                                        linear objective */
   PetscReal          sum[2] = {0.0, 0.0};
   const PetscScalar *g, *h, *t;
   PetscInt           n;
@@ -199,8 +200,8 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* How far the caller's s and z are from matching x: the larger of the relative imbalance of forces and of |c - s|
-   against |c|, at most 1 */
+/* mismatch: how badly the caller's s and z fit x: the larger of the relative force imbalance and |c - s| / |c|, at
+   most 1 */
 static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -219,8 +220,8 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscFunctionReturn(0);
 }
 
-/* Whether the caller's slacks and multipliers solve the problem, or nearly so. Then they are kept, and mu is their
-   mean product */
+/* solves: whether the caller's slacks and multipliers (almost) solve the problem. They are then kept, and mu is
+   their mean product */
 static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
@@ -242,8 +243,8 @@ static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
   PetscFunctionReturn(0);
 }
 
-/* The caller's s and z, moved away from the boundary: s - z/rho is kept, the pair is centred, farther from the boundary
-   the less they belong to x */
+/* Warm start from the caller's s and z. Pairs are moved to the central path, keeping s - z/rho; the worse they fit
+   x, the farther from the boundary */
 static PetscErrorCode StartWarm(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -267,14 +268,14 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff.rho));
   PetscCall(VecAYPX(q, -1.0, slack->t));
   PetscCall(MeanProduct(tao, q, &mean));
-  ip->mu = PetscMax(average, mismatch * ip->opt.mu_warm * (mean > 0.0 ? mean : 1.0));
+  ip->mu = PetscMax(average, mismatch * IP_WARM_MU * (mean > 0.0 ? mean : 1.0));
   PetscCall(IPSlackCentral(tao, q, ip->mu, slack->t, slack->z));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
   PetscFunctionReturn(0);
 }
 
-/* The caller's multipliers of the bounds, where there are no rows; mu as for these */
+/* Warm start from the caller's multipliers of the bounds, if there are no rows; mu is chosen as for rows */
 static PetscErrorCode StartWarmBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -285,11 +286,11 @@ static PetscErrorCode StartWarmBounds(Tao tao)
   PetscCall(WarmMismatch(tao, &mismatch));
   PetscCall(IPBarrierAverage(tao, &average));
   PetscCall(IPWarmMeanProduct(tao, &mean));
-  ip->mu = PetscMax(average, PetscMax(mismatch * ip->opt.mu_warm, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
+  ip->mu = PetscMax(average, PetscMax(mismatch * IP_WARM_MU, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
   PetscFunctionReturn(0);
 }
 
-/* mu, which follows from the rows where there are some, and the bounds' multipliers, without any of the caller's */
+/* Sets mu (from the rows, if any) and multipliers of the bounds, if the caller gave none */
 static PetscErrorCode StartBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -299,11 +300,11 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscFunctionBegin;
   if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
     PetscCall(IPFreeStep(tao, &moved, &mean));
-  if (moved) ip->mu = ip->opt.mu_start * mean;
+  if (moved) ip->mu = IP_PREDICT_MU * mean;
   else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
-    ip->mu = ip->opt.mu_start * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
+    ip->mu = IP_PREDICT_MU * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);

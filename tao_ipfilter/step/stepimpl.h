@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/step: a step: filter, barrier, direction, line search, restoration.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/step, one step: filter, barrier, direction, line search, restoration. Files are in the order in which
+   they depend on each other; they use the folders below.
 */
 #ifndef IPFILTER_STEPIMPL_H
 #define IPFILTER_STEPIMPL_H

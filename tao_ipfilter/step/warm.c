@@ -1,7 +1,8 @@
-/* The caller's multipliers of bounds and equality constraints as a start: a solved problem begins where it ended. */
+/* Warm start from the caller's multipliers of bounds and equality constraints, so that a solved problem ends at
+   once. */
 #include "stepimpl.h"
 
-/* Multipliers of the bounds into the pairs, per unit of the weights */
+/* Copies the multipliers of the bounds into the pairs, divided by the weights */
 PetscErrorCode IPWarmSetBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -18,7 +19,7 @@ PetscErrorCode IPWarmSetBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the multipliers of all equality constraints are given, be they rows with equal bounds */
+/* Whether multipliers of all equality constraints are given, including rows with equal bounds */
 PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
 {
   const PetscBool own = (PetscBool)(ip->me > ip->sides.nall);
@@ -39,7 +40,7 @@ PetscErrorCode IPWarmSetEquality(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Mean distance to the bounds present, of all variables that have one, times the mean of their multipliers */
+/* mean: mean distance to the bounds x mean multiplier, over all bounds */
 PetscErrorCode IPWarmMeanProduct(Tao tao, PetscReal *mean)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -69,8 +70,8 @@ PetscErrorCode IPWarmMeanProduct(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Pairs whose product is next to nothing, of mu, put on the central path: z decides where it is the larger one
-   against the stiffness of the Hessian, x moves then. rho: |diagonal of H|. */
+/* Moves pairs with a product far below mu to the central path: if z is large relative to the stiffness of the
+   Hessian (rho: |diagonal of H|), z is kept and x moves; otherwise z changes */
 static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBool *moved)
 {
   const PetscReal    least = 1e-2;
@@ -104,7 +105,7 @@ static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* All pairs of the bounds, and everything at x, where that has moved */
+/* Does this for all bounds; evaluates everything again if x has moved */
 PetscErrorCode IPWarmCenterBounds(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

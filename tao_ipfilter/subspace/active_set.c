@@ -1,13 +1,13 @@
 /*
-   The contact problem on the subspace, as a linear complementarity problem of the constraints' size. With w eliminated,
+   The contact problem on the subspace as a linear complementarity problem in the constraints. With w eliminated:
 
-     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,   gap = C lambda - JZ y - h >=
-     0 in the others,
+     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,
+     gap = C lambda - JZ y - h >= 0   in the others,
 
-   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. Block principal pivoting
-   (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
-   squares problems with nonnegative variables, 1994) is the primal-dual active set method that exchanges one row at a
-   time where exchanging all does not help, and so ends.
+   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. It is solved by block principal
+   pivoting (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
+   squares problems with nonnegative variables, 1994). This is the primal-dual active set method, which exchanges single
+   rows when exchanging all of them makes no progress, and so terminates.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -25,7 +25,7 @@ PetscErrorCode IPActiveSetDestroy(IPActiveSet *set)
   PetscFunctionReturn(0);
 }
 
-/* m rows, none of them active */
+/* Creates the active set of m rows, all inactive */
 PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *set)
 {
   PetscFunctionBegin;
@@ -82,7 +82,7 @@ static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, Pet
   PetscFunctionReturn(0);
 }
 
-/* V = L^-1 JZ_A, the columns that are new */
+/* V = L^-1 JZ_A for the new columns */
 static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSystem *s)
 {
   PetscBLASInt    n, k;
@@ -171,7 +171,7 @@ static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c
   PetscFunctionReturn(0);
 }
 
-/* Solves with the rows that are active */
+/* Solves for the present active set */
 static PetscErrorCode ActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscBool *solved)
 {
   PetscFunctionBegin;

@@ -1,7 +1,7 @@
 /*
-   The directions P of the filtered subspace. They are kept from solve to solve: zero on the constraints' unknowns W,
-   with their products Q = K P and Gram matrix P^T K P. New directions are K-orthonormal. A new W only changes the
-   entries on W, and corrects Q and the Gram matrix.
+   The directions P of the filtered subspace, which are kept between solves. They are zero on the constraints' unknowns
+   W. The products Q = K P and the Gram matrix P^T K P are stored with them. New directions are K-orthonormal. After a
+   change of W the entries on the new W are set to zero, and Q and the Gram matrix are corrected.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -11,6 +11,7 @@ PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)
   PetscFunctionBegin;
   b->n   = 0;
   b->max = max;
+  b->generation++;
   PetscCall(PetscCalloc4(max, &b->p, max, &b->q, max * max, &b->gram, max * max, &b->factor));
   PetscFunctionReturn(0);
 }
@@ -27,7 +28,7 @@ PetscErrorCode IPBasisDestroy(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* h = (P^T K P)^-1 h */
+/* Replaces h by (P^T K P)^-1 h */
 static PetscErrorCode BasisSolve(const IPBasis *b, PetscReal h[])
 {
   PetscBLASInt n, ld, one = 1, info;
@@ -40,8 +41,8 @@ static PetscErrorCode BasisSolve(const IPBasis *b, PetscReal h[])
   PetscFunctionReturn(0);
 }
 
-/* d = d - P h and, where it is given, Kd = Kd - Q h, with h = (P^T K P)^-1 Q^T d; *removed: h^T P^T K P h, the energy
-   taken out */
+/* Projects d to be K-orthogonal to P: d -= P h and, if given, Kd -= Q h, with h = (P^T K P)^-1 Q^T d. *removed: the
+   energy h^T P^T K P h */
 static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *removed)
 {
   PetscReal *h, *s;
@@ -63,7 +64,7 @@ static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *r
   PetscFunctionReturn(0);
 }
 
-/* Allocates direction n like d, and copies d into it */
+/* Allocates direction n and copies d into it */
 static PetscErrorCode BasisTake(IPBasis *b, Vec d)
 {
   const PetscInt n = b->n;
@@ -75,8 +76,8 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Appends d, which is zero on W, made K-orthonormal to the others, with a second projection if the first removed half
-   of its energy. *appended is false if only rounding is left of it, or K is not positive along it */
+/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first projection
+   removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive along it */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
   const PetscInt  n   = b->n;
@@ -157,13 +158,14 @@ static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Factors the Gram matrix, without the directions that depend on others */
+/* Factors the Gram matrix of other directions than before, without those that depend on others */
 static PetscErrorCode BasisFactor(IPBasis *b)
 {
   PetscBool   *keep;
   PetscBLASInt n, ld, info;
 
   PetscFunctionBegin;
+  b->generation++;
   if (!b->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(b->n, &keep));
   PetscCall(BasisFindIndependent(b, keep));
@@ -177,8 +179,8 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* T of n x n, columns by falling worth: the directions P T that make T^T E T diagonal and T^T P^T K P T = I, of the
-   first n directions; E, in columns of length max, is overwritten */
+/* Computes the n x n rotation T such that T^T E T is diagonal with falling entries and T^T P^T K P T = I for the
+   first n directions. E (columns of length max) is overwritten. */
 static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[], PetscReal T[])
 {
   PetscReal   *G, *values, *work, size;
@@ -201,8 +203,8 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
   PetscFunctionReturn(0);
 }
 
-/* The first k of the n vectors become their combinations with the columns of T, of length n; some rows at a time, so
-   that it takes no memory */
+/* Replaces the first k of n vectors by their combinations with the columns of T (length n). Works on blocks of rows
+   to save memory. */
 static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], Vec v[])
 {
   const PetscInt  chunk = 128;
@@ -228,8 +230,7 @@ static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], 
   PetscFunctionReturn(0);
 }
 
-/* The Gram matrix where the first n directions have become k orthonormal ones, their couplings to the others included
- */
+/* Updates the Gram matrix after the first n directions were replaced by k orthonormal ones */
 static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
   PetscReal *old;
@@ -250,8 +251,8 @@ static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const
   PetscFunctionReturn(0);
 }
 
-/* Keeps the last directions, and of the span of the others the `best` of the largest ratio p^T E p / p^T K p; E, of
-   columns of length max, is overwritten */
+/* Keeps the `last` newest directions. The others are replaced by the `best` combinations with the largest ratio p^T
+   E p / p^T K p. E (columns of length max) is overwritten. */
 PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscReal E[])
 {
   const PetscInt n = b->n - last;
@@ -272,7 +273,7 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Computes Q = K P and the Gram matrix again, for another K */
+/* Recomputes Q = K P and the Gram matrix for a new K */
 PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
@@ -285,7 +286,7 @@ PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* Entries of v at rows that v owns, which are set to zero where a part is to be cut out */
+/* Copies entries of v at the given local rows; cut: then sets them to zero in v */
 static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], PetscReal entries[], PetscBool cut)
 {
   PetscScalar *a;
@@ -302,8 +303,8 @@ static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], Pet
   PetscFunctionReturn(0);
 }
 
-/* p - E a and q - K E a for direction j, E a being its part at the rows; entries of the old q, and of K E a, at the
-   rows */
+/* Sets direction j to zero at the given rows: p -= E a, q -= K E a, where a are its entries there. Returns a, and
+   the entries of the old q and of K E a at these rows. */
 static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const PetscInt rows[], PetscReal a[],
   PetscReal q[], PetscReal Ka[], Vec work[2])
 {
@@ -318,7 +319,7 @@ static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const 
   PetscFunctionReturn(0);
 }
 
-/* The Gram matrix of p - E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, of entries at n rows of this rank each */
+/* Corrects the Gram matrix for p - E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, from the entries at n local rows */
 static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a[], const PetscReal q[],
   const PetscReal Ka[])
 {
@@ -341,7 +342,7 @@ static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a
   PetscFunctionReturn(0);
 }
 
-/* The rows of W where a direction is not zero; *all: how many over all ranks */
+/* Finds the local rows of W where a direction is not zero; *all: their number on all ranks */
 static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscInt **rows, PetscInt *all)
 {
   const PetscInt *w;
@@ -370,7 +371,7 @@ static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Makes the directions zero on W, if they are not */
+/* Sets the directions to zero on W and updates Q and the Gram matrix */
 PetscErrorCode IPBasisRestrict(IPBasis *b, Mat K, IS W)
 {
   PetscInt   n, all, *rows;

@@ -1,9 +1,12 @@
 /*
-   If W contains a body whole, or a mechanism, K_WW is singular. Each unknown with a vanishing pivot gets a companion:
-   an extra unknown that a spring ties to it and nothing else touches. With the springs the matrix is definite, and as
-   companions follow their unknowns, nothing is held. The displacements s of the companions are coordinates y like
-   those of directions: 1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + the terms
-   of the directions; Q_W = -E D, P^T K P = D.
+   Companions make K_WW definite. K_WW is singular if W contains a whole body that is not held, or a mechanism. Each
+   unknown with a vanishing pivot gets a companion: an extra unknown that is connected to it by a spring and to nothing
+   else. The springs make the matrix definite. Since companions are free to follow their unknowns, they hold nothing.
+   Their displacements s are coordinates y like those of directions:
+
+     1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + terms of the directions,
+
+   so Q_W = -E D and P^T K P = D.
 */
 #include "subspaceimpl.h"
 
@@ -15,8 +18,8 @@ PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular up to rounding, from a solve with its factors: compares the energy of a load on all unknowns
-   with that of loads on each unknown alone */
+/* Whether K is singular up to rounding. Uses a solve with its factors: compares the energy of a load on all unknowns
+   with the energies of loads on single unknowns. */
 PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
 {
   const PetscReal most  = 1e7;
@@ -38,7 +41,7 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
     b[i] = (r - 0.5) * PetscSqrtReal(PetscAbsScalar(b[i]));
     alone += PetscSqr(r - 0.5);
   }
-  PetscCall(IPComplianceSolve(compliance, b, x));
+  PetscCall(IPComplianceSolve(compliance, 1, b, x));
   for (PetscInt i = 0; i < compliance->n; i++) worth += PetscRealPart(b[i]) * x[i];
   PetscCall(VecRestoreArray(load, &b));
   PetscCall(PetscFree(x));
@@ -48,7 +51,7 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Pivots of K scaled to a unit diagonal; almost vanishing ones are raised by `raise`; in the order of K's rows */
+/* Pivots of K scaled to a unit diagonal, in the order of K's rows. Almost vanishing pivots are raised by `raise`. */
 static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pivots)
 {
   const PetscReal nothing = 1e-8;
@@ -83,11 +86,11 @@ static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pi
   PetscFunctionReturn(0);
 }
 
-/* Chooses companions from K's pivots, and adds their springs to K, as stiff as its diagonal; none if the diagonal is
-   not positive */
+/* Chooses companions from K's pivots and adds their springs to K; a spring is as stiff as the diagonal entry. No
+   companions if the diagonal is not positive */
 PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *c)
 {
-  const PetscReal    raise = 2.0; /* above any pivot of such a matrix, which is 1 at most */
+  const PetscReal    raise = 2.0; /* larger than any pivot of the scaled matrix, which is at most 1 */
   Vec                scale, pivots;
   const PetscScalar *p, *s;
   PetscReal          least;

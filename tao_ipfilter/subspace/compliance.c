@@ -1,22 +1,19 @@
-/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when rows are
-   requested. On the first rank only, which has all of W. */
+/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed on demand. All
+   data are on the first rank. */
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)
 {
   PetscFunctionBegin;
+  PetscCall(IPComplianceSetRows(c, NULL));
   PetscCall(MatDestroy(&c->F));
-  PetscCall(MatDestroy(&c->J));
-  PetscCall(VecDestroy(&c->b));
-  PetscCall(VecDestroy(&c->x));
-  PetscCall(PetscFree(c->column));
-  PetscCall(PetscFree(c->C));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
 
-/* Whether a factor of K has no negative pivot. Cholesky factorizations report no error at one: they keep L D L^T. */
+/* Whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D L^T,
+   without an error. */
 static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
 {
   PetscInt negative;
@@ -27,8 +24,8 @@ static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky of K_WW by MUMPS, or by PETSc, which counts pivots in its SBAIJ format alone; *definite is false where K_WW
-   is not positive definite */
+/* Cholesky factorization of K_WW by MUMPS, or by PETSc in SBAIJ format, which counts pivots. *definite: false if
+   K_WW is not positive definite */
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
@@ -58,82 +55,106 @@ static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Of sequential K_WW and J_W, of which J_W is kept; *definite is false where K_WW is not positive definite */
-PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, Mat J, PetscBool *definite)
+/* Of a sequential K_WW, without rows; *definite is false where it is not positive definite */
+PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPComplianceDestroy(c));
   PetscCall(ComplianceFactor(K, &c->F, definite));
+  PetscCall(MatGetSize(K, &c->n, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* The rows are those of a sequential J_W, which is kept; NULL: there are none */
+PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&c->J));
+  PetscCall(PetscFree(c->column));
+  PetscCall(PetscFree(c->C));
+  c->m = c->ncolumns = c->maxcolumns = 0;
+  if (!J) PetscFunctionReturn(0);
   PetscCall(PetscObjectReference((PetscObject)J));
   c->J = J;
-  PetscCall(MatGetSize(J, &c->m, &c->n));
-  PetscCall(MatCreateVecs(K, &c->x, &c->b));
+  PetscCall(MatGetSize(J, &c->m, NULL));
   PetscCall(PetscMalloc1(c->m, &c->column));
   for (PetscInt i = 0; i < c->m; i++) c->column[i] = -1;
   PetscFunctionReturn(0);
 }
 
-/* x = K_WW^-1 b */
-PetscErrorCode IPComplianceSolve(IPCompliance *c, const PetscReal b[], PetscReal x[])
+/* X = K_WW^-1 B, of k columns */
+PetscErrorCode IPComplianceSolve(IPCompliance *c, PetscInt k, const PetscReal b[], PetscReal x[])
 {
+  Mat B, X;
+
   PetscFunctionBegin;
-  PetscCall(VecPlaceArray(c->b, b));
-  PetscCall(VecPlaceArray(c->x, x));
-  PetscCall(MatSolve(c->F, c->b, c->x));
-  PetscCall(VecResetArray(c->x));
-  PetscCall(VecResetArray(c->b));
+  if (!k) PetscFunctionReturn(0);
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, k, (PetscScalar *)b, &B)); /* only read */
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, k, x, &X));
+  PetscCall(MatMatSolve(c->F, B, X));
+  PetscCall(MatDestroy(&B));
+  PetscCall(MatDestroy(&X));
   PetscFunctionReturn(0);
 }
 
-/* y = J_W x, or where J is transposed y = J_W^T x */
-PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscBool transposed, const PetscReal x[], PetscReal y[])
+/* Y = J_W X, of k columns */
+PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscInt k, const PetscReal x[], PetscReal y[])
 {
   Vec vx, vy;
 
   PetscFunctionBegin;
-  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, transposed ? c->m : c->n, x, &vx));
-  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, transposed ? c->n : c->m, y, &vy));
-  if (transposed) PetscCall(MatMultTranspose(c->J, vx, vy));
-  else PetscCall(MatMult(c->J, vx, vy));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, c->n, NULL, &vx));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, c->m, NULL, &vy));
+  for (PetscInt j = 0; j < k; j++) {
+    PetscCall(VecPlaceArray(vx, x + (size_t)j * (size_t)c->n));
+    PetscCall(VecPlaceArray(vy, y + (size_t)j * (size_t)c->m));
+    PetscCall(MatMult(c->J, vx, vy));
+    PetscCall(VecResetArray(vx));
+    PetscCall(VecResetArray(vy));
+  }
   PetscCall(VecDestroy(&vx));
   PetscCall(VecDestroy(&vy));
   PetscFunctionReturn(0);
 }
 
-/* The columns of the given rows, appended to those that there are */
-static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
+/* y = J_W^T x */
+PetscErrorCode IPComplianceSpread(IPCompliance *c, const PetscReal x[], PetscReal y[])
 {
-  Mat          B, X;
-  PetscScalar *b;
+  Vec vx, vy;
 
   PetscFunctionBegin;
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, n, NULL, &B));
-  PetscCall(MatDuplicate(B, MAT_DO_NOT_COPY_VALUES, &X));
-  PetscCall(MatDenseGetArrayWrite(B, &b));
-  PetscCall(PetscArrayzero(b, c->n * n));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, c->m, x, &vx));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, c->n, y, &vy));
+  PetscCall(MatMultTranspose(c->J, vx, vy));
+  PetscCall(VecDestroy(&vx));
+  PetscCall(VecDestroy(&vy));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the columns of the given rows and appends them */
+static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
+{
+  PetscReal *b, *x;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2((size_t)c->n * (size_t)n, &b, (size_t)c->n * (size_t)n, &x));
   for (PetscInt k = 0; k < n; k++) {
     const PetscScalar *v;
     const PetscInt    *columns;
     PetscInt           nc;
 
     PetscCall(MatGetRow(c->J, rows[k], &nc, &columns, &v));
-    for (PetscInt j = 0; j < nc; j++) b[columns[j] + k * c->n] = v[j];
+    for (PetscInt j = 0; j < nc; j++) b[columns[j] + k * c->n] = PetscRealPart(v[j]);
     PetscCall(MatRestoreRow(c->J, rows[k], &nc, &columns, &v));
   }
-  PetscCall(MatDenseRestoreArrayWrite(B, &b));
-  PetscCall(MatMatSolve(c->F, B, X));
-  PetscCall(MatDenseGetArray(X, &b));
-  for (PetscInt k = 0; k < n; k++) {
-    PetscCall(IPComplianceMultiply(c, PETSC_FALSE, b + k * c->n, c->C + (size_t)c->ncolumns * (size_t)c->m));
-    c->column[rows[k]] = c->ncolumns++;
-  }
-  PetscCall(MatDenseRestoreArray(X, &b));
-  PetscCall(MatDestroy(&B));
-  PetscCall(MatDestroy(&X));
+  PetscCall(IPComplianceSolve(c, n, b, x));
+  PetscCall(IPComplianceMultiply(c, n, x, c->C + (size_t)c->ncolumns * (size_t)c->m));
+  for (PetscInt k = 0; k < n; k++) c->column[rows[k]] = c->ncolumns++;
+  PetscCall(PetscFree2(b, x));
   PetscFunctionReturn(0);
 }
 
-/* Computes the columns of the given rows that are missing */
+/* Computes those columns of the given rows that are missing */
 PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   const PetscInt chunk = 64;

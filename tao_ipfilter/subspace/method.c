@@ -1,17 +1,20 @@
 /*
-   The filtered subspace method, for min f(x), c_I(x) >= 0 with a quadratic f, linear c_I, and constraints that touch
-   few unknowns W.
+   The filtered subspace method for min f(x), c_I(x) >= 0 with quadratic f, linear c_I, and constraints that involve few
+   unknowns W. The search space is V = span{e_i : i in W} + span(P). One iteration:
 
-   V = span{e_i : i in W} + span(P). In turn: the contact problem is solved exactly on V (reduced.c); the residual r =
-   J^T lambda - grad f that is left, zero on W, is made from the caller's own gradient; one application of the
-   preconditioner B of K alone gives the direction B r, made zero on W and K-orthonormal to P (basis.c). With a fixed
-   active set this is CG preconditioned by the `fbf` cycle of PCAMGF; where the set changes nothing is lost, and P
-   serves the next solve with the same K, whatever its constraints and loads.
+   1. Solve the contact problem exactly on V (reduced.c).
+
+   2. Compute the residual r = J^T lambda - grad f from the caller's gradient. It is zero on W.
+
+   3. Apply the preconditioner B of K once. Set B r to zero on W, make it K-orthonormal to P and append it (basis.c).
+
+   With a fixed active set this equals CG preconditioned by the `fbf` cycle of PCAMGF. A change of the active set loses
+   nothing. P is reused in later solves with the same K, for any constraints and loads.
 */
 #include "subspaceimpl.h"
 
-/* Whether the Krylov method's preconditioner is one for K alone: AMG without its filter, or a factorization, which
-   then serves all solves */
+/* Whether the Krylov method's preconditioner is one for K alone: AMG without filter, or a factorization that serves
+   all solves */
 static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
 {
   PC pc;
@@ -23,8 +26,8 @@ static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *facto
   PetscFunctionReturn(0);
 }
 
-/* Whether this may be the method's kind of problem; auto: whether it is for certain, and nothing asks for Newton
-   systems, as tolerances of a Krylov method do */
+/* Whether the method may be used for this problem. With `auto`: only if it certainly applies, and no option asks for
+   Newton systems, e.g. a tolerance of the Krylov method */
 static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
@@ -45,14 +48,51 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* Takes W: the constraints' unknowns with their neighbours. Without the neighbours if they are too many, or K may be
-   indefinite there. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all
-   */
-static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
+/* The unknowns of the constraints with their neighbours, and those of the solves before with the same K, so that W and
+   its factors stay where contact moves on. Without the neighbours if they are too many, or K may be indefinite there */
+static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
+{
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  const IS      filter = ip->cond.filter;
+  PetscBool     same   = PETSC_FALSE;
+  PetscInt      n      = 1;
+  IS            rest, all;
+
+  PetscFunctionBegin;
+  if (!IPFilteredOf(tao)->newton && !ip->terms.n) PetscCall(IPReducedIsOf(before, ip->hess.H, &same));
+  if (same) {
+    PetscCall(ISDifference(filter, before->W, &rest));
+    PetscCall(ISGetSize(rest, &n));
+    PetscCall(ISDestroy(&rest));
+  }
+  if (!n) {
+    PetscCall(PetscObjectReference((PetscObject)before->W));
+    *W = before->W;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(IPSubspaceGrow(tao, ip->hess.H, filter, W));
+  PetscCall(ISGetSize(*W, &n));
+  if (n > most || IPFilteredOf(tao)->newton || ip->terms.n) {
+    PetscCall(ISDestroy(W));
+    PetscCall(PetscObjectReference((PetscObject)filter));
+    *W = filter;
+  } else if (same) {
+    PetscCall(ISExpand(*W, before->W, &all));
+    PetscCall(ISSort(all));
+    PetscCall(ISGetSize(all, &n));
+    if (n <= most) PetscCall(ISDestroy(W));
+    if (n <= most) *W = all;
+    else PetscCall(ISDestroy(&all));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Takes W. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all */
+static PetscErrorCode FilteredTakeW(Tao tao, const IPReduced *before, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
-  PetscInt        n, touched, grown;
+  PetscInt        n, touched;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -60,19 +100,12 @@ static PetscErrorCode FilteredTakeW(Tao tao, PetscBool *thin)
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCall(ISGetSize(ip->cond.filter, &touched));
   *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
-  if (!*thin) PetscFunctionReturn(0);
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  PetscCall(IPSubspaceGrow(tao, ip->hess.H, ip->cond.filter, &IPFilteredOf(tao)->W));
-  PetscCall(ISGetSize(IPFilteredOf(tao)->W, &grown));
-  if (grown > fraction * n || IPFilteredOf(tao)->newton || ip->terms.n) {
-    PetscCall(PetscObjectReference((PetscObject)ip->cond.filter));
-    PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-    IPFilteredOf(tao)->W = ip->cond.filter;
-  }
+  if (*thin) PetscCall(FilteredChooseW(tao, before, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
-/* Values and derivatives at tao->solution */
+/* Evaluates objective, constraints and derivatives at tao->solution */
 static PetscErrorCode FilteredEvaluate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -86,7 +119,7 @@ static PetscErrorCode FilteredEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Rounding error of f at tao->solution, which may be the difference of much larger terms */
+/* Estimated rounding error of f at tao->solution, where f may be a difference of much larger terms */
 static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -103,8 +136,8 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* The same for c_I, whose terms may be much larger than their sum: if a solution was predicted, all closed rows are
-   almost zero before and after */
+/* Estimated rounding error of c_I, whose terms may be much larger than their sum. It matters if the start is already
+   the solution: then all closed rows are almost zero before and after a step. */
 static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
 {
   const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
@@ -117,7 +150,7 @@ static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Whether f rises by 1/2 v^T (grad f + grad f at the centre), as a quadratic one does, and c_I by J v */
+/* Whether f changes along v by 1/2 v^T (grad f + grad f at the centre), as a quadratic function does, and c_I by J v */
 static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -144,8 +177,8 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscFunctionReturn(0);
 }
 
-/* Moves to x = centre + v, with the forces of the constraints there. Moves back, and *moved is false, if the problem
-   is not quadratic */
+/* Moves to x = centre + v and sets the multipliers there. If the problem turns out not to be quadratic, moves back
+   and *moved is false. */
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -186,7 +219,7 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscB
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem is relative to the present point from now on */
+/* Centres the reduced problem at the present point */
 static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -197,7 +230,7 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* A direction from the residual, with room made for it where there is none */
+/* Adds a direction from the residual; compresses the basis first if it is full */
 static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
@@ -210,9 +243,8 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r
 }
 
 /*
-   -ip->rx without its part on W. *exact is false if the reduced problem left something that it should have made zero,
-   because of rounding or because the problem is not quadratic: that part, or the violation of the constraints, or
-   something that delays the rest for long
+   r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly: r is not small on W, or
+   the constraints are violated. The cause is rounding, or a problem that is not quadratic.
 */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
@@ -226,16 +258,16 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
-                       (!IPFilteredOf(tao)->reduced.met ||
+                       (!IPFilteredOf(tao)->reduced->met ||
                          PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual)));
   if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
 /*
-   Estimates from time to time how many applications are still to come: at the rate so far, for the remaining digits
-   of the KKT error. Until a digit is gained, twice as many as so far, since the rate means nothing while the active
-   set is still changing
+   Estimates now and then how many more applications of the preconditioner are needed: the remaining digits of the KKT
+   error at the rate so far. Until one digit is gained, twice the number so far is assumed, because the rate is
+   meaningless while the active set changes.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
@@ -255,9 +287,9 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
 }
 
 /*
-   Adds a direction. If the last reduced problem was not solved to the end, solves it again from its last point. *done
-   is false if neither is possible or helps. With norm terms, whose reduced problem is solved to a tolerance, the
-   residual may lie along existing directions
+   One iteration: adds a direction. If the last reduced problem was not solved exactly, it is solved again from its last
+   point. With norm terms, which are solved to a tolerance, the residual may lie along existing directions. *done: false
+   if no progress is possible
 */
 static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
@@ -270,7 +302,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   tao->ksp_its        = 0;
-  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are normal for this method */
+  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are normal here */
   PetscCall(IPFilteredAllows(tao, done));
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPSubspaceStateGet(tao, &kept));
@@ -290,8 +322,8 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* The first point: of a quadratic program the solution of the first reduced problem, else the start with the
-   multipliers there */
+/* The first point: for a quadratic program the solution of the first reduced problem; otherwise the start and its
+   multipliers */
 static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -309,7 +341,7 @@ static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *fo
   PetscFunctionReturn(0);
 }
 
-/* Destroys what is kept for later solves */
+/* Destroys the data that are kept for later solves */
 static PetscErrorCode FilteredForget(Tao tao)
 {
   IPSubspaceState *kept;
@@ -321,7 +353,7 @@ static PetscErrorCode FilteredForget(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Begins where the constraints touch few unknowns */
+/* Starts the method if the constraints involve few unknowns */
 static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -329,14 +361,14 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
-  PetscCall(FilteredTakeW(tao, begun));
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(FilteredTakeW(tao, &kept->reduced, begun));
   if (!*begun) {
     PetscCall(FilteredForget(tao));
     PetscFunctionReturn(0);
   }
-  PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
-  if (*begun) PetscCall(IPFilteredSetUp(tao, &kept->basis, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, kept, begun));
   if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
   ip->method.multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));
@@ -348,8 +380,8 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   PetscFunctionReturn(0);
 }
 
-/* Ends the method, at the end of a solve or if it does not help. Directions are kept; the data of the constraints are
-   not */
+/* Ends the method at the end of a solve or if it makes no progress. Directions are kept; data of the constraints are
+   destroyed. */
 static PetscErrorCode FilteredEnd(Tao tao)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -364,7 +396,7 @@ static PetscErrorCode FilteredEnd(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* By Newton's method, where the objective is not quadratic */
+/* One step: of Newton's method if the objective is not quadratic, else one iteration */
 static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;

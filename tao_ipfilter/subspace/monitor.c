@@ -1,8 +1,8 @@
-/* One line an iteration of the filtered subspace method. */
+/* Monitor of the filtered subspace method: one line per iteration. */
 #include "subspaceimpl.h"
 
-/* A line a reduced problem: iter, objective, infeasibilities, ||d||, applications of the preconditioner so far,
-   directions, active sets that the problem took, active constraints. Newton's method has the columns of the driver */
+/* Prints a line per reduced problem: iteration, objective, infeasibilities, ||d||, applications of the preconditioner
+   so far, directions, active sets tried, active constraints. Newton's method prints the columns of the driver. */
 PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
@@ -19,7 +19,7 @@ PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
     "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT
     " %6" PetscInt_FMT "  %8.2e\n",
     tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
-    ip->rec.napplications, f->reduced.system.k - f->reduced.companions.n, f->reduced.nsteps, f->reduced.nactive,
+    ip->rec.napplications, f->reduced->system.k - f->reduced->companions.n, f->reduced->nsteps, f->reduced->nactive,
     (double)ip->kkt.error));
   PetscFunctionReturn(0);
 }

@@ -1,18 +1,18 @@
 /*
    Newton's method on the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
-   as the energy of bodies at finite strain. At each iterate the model
+   such as the strain energy of bodies at finite strain. At each iterate the model
 
-     min 1/2 d^T H d + grad f^T d,  c_I + J d >= 0
+     min 1/2 d^T H d + grad f^T d,   c_I + J d >= 0
 
-   is solved on V as method.c solves a quadratic program, to a fraction of the residual. d is the model's
-   minimizer on V, with multipliers M lambda, so that grad f^T d = -d^T H d - lambda^T M c_I: a direction of descent
-   for f + nu sum m max(-c_I, 0) with nu beyond the multipliers, however few directions V has. c_I being linear, d
-   leads from feasible points to feasible ones, at any length up to 1. V outlives the step: with another H only the
-   products H P are made anew.
+   is solved on V as in method.c, until its residual is a given fraction of that of the iterate. d minimizes the model
+   on V with multipliers M lambda, so that grad f^T d = -d^T H d - lambda^T M c_I. Therefore d is a descent direction of
+   f + nu sum m max(-c_I, 0) for nu above the multipliers, however few directions V has. Since c_I is linear, steps of
+   any length up to 1 keep a feasible point feasible. V is kept from step to step; for a new H only the products H P are
+   recomputed.
 */
 #include "subspaceimpl.h"
 
-/* r = J^T force - grad f - H d without its part on W, which is zero but for rounding, and its norm */
+/* Residual of the model r = J^T force - grad f - H d, set to zero on W where it is rounding; norm: its norm */
 static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, PetscReal *norm)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -28,7 +28,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   PetscFunctionReturn(0);
 }
 
-/* The model is relative to the step d from now on */
+/* Centres the model at the step d */
 static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -58,7 +58,8 @@ static PetscErrorCode NewtonMinimizeModel(Tao tao, const IPBasis *basis, Vec d, 
   PetscFunctionReturn(0);
 }
 
-/* A further direction, with room made for it where there is none, if the Krylov method's limit allows one */
+/* Adds a direction, and makes room for it if the basis is full. added: false if the iteration limit of the Krylov
+   method is reached */
 static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
@@ -72,8 +73,8 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, 
   PetscFunctionReturn(0);
 }
 
-/* Solves the model until its residual is within the target, or no further direction can be added and the residual is
-   at least halved; *solved is false if it has no minimum */
+/* Solves the model until its residual is below target. It may stop earlier, if no direction can be added and the
+   residual is at least halved. *solved: false if the model has no minimum */
 static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal target, Vec d, Vec force,
   PetscBool *solved)
 {
@@ -98,7 +99,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* sum m max(-c, 0) */
+/* violation = sum m max(-c, 0) */
 static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -115,7 +116,7 @@ static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
   PetscFunctionReturn(0);
 }
 
-/* nu: more than the multipliers of the model */
+/* Penalty weight nu, larger than all multipliers of the model */
 static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
 {
   const PetscReal beyond = 2.0;
@@ -130,7 +131,7 @@ static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
   PetscFunctionReturn(0);
 }
 
-/* Rounding error of f */
+/* Estimated rounding error of f */
 static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
 {
   PetscReal mean;
@@ -143,7 +144,7 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* The violation that the model has at d: what its solution leaves, where norm terms are solved for to a tolerance */
+/* Violation of the model's constraints at d, which is not zero if norm terms are solved to a tolerance */
 static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -157,9 +158,9 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionReturn(0);
 }
 
-/* Halves the step until the penalized objective falls, norm terms with the weights of the model's multipliers
-   included, and without the violation that the model has in proportion to the step; *ok is false where it does not,
-   or the model is not convex along d */
+/* Line search: halves the step until the penalized objective falls. The objective includes the norm terms with the
+   weights of the model's multipliers. The violation that the model itself has at d is subtracted in proportion to
+   the step. *ok: false if the objective does not fall, or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -196,7 +197,7 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Takes the step that was found, and the same fraction of the multipliers' step */
+/* Takes the step found by the line search, and the same fraction of the multipliers' change */
 static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -216,17 +217,17 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Target for the model's residual: a fraction of the present one that decreases towards the end, as Newton's method
-   then converges faster; at least what convergence requires */
+/* Tolerance for the model's residual: a fraction of the present residual, smaller near the solution so that Newton's
+   method converges fast; not smaller than convergence requires */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
 {
   const PetscReal largest = 0.1, smallest = 1e-3;
   const PetscReal fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
 
-  return PetscMax(fraction * ip->kkt.dual_norm, ip->opt.forcing_last * ip->tol * IPErrorBoundForceUnit(ip));
+  return PetscMax(fraction * ip->kkt.dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
 }
 
-/* The Hessian at the present point, with delta M_u added */
+/* Evaluates the Hessian at the present point and adds delta M_u */
 static PetscErrorCode NewtonEvaluateHessian(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -245,8 +246,8 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The step d of the present point's model. The Hessian is shifted until the model is convex; *found is false if no
-   small shift helps. At the first point the model is already there */
+/* Computes the Newton step d. The Hessian is shifted until the model is convex; *found: false if no moderate shift
+   suffices. At the first point the model has been set up already. */
 static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *found)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -262,7 +263,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
     if (k || tao->niter) {
       PetscCall(NewtonEvaluateHessian(tao));
       PetscCall(IPSubspaceStateUpdate(tao, kept, found));
-      if (*found) PetscCall(IPFilteredSetUp(tao, &kept->basis, found));
+      if (*found) PetscCall(IPFilteredSetUp(tao, kept, found));
     }
     if (*found) PetscCall(NewtonSolveModel(tao, kept, target, d, force, found));
     if (*found) break;
@@ -271,7 +272,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
   PetscFunctionReturn(0);
 }
 
-/* One Newton step; *done is false if the model or the line search gives none, or steps no longer help */
+/* One Newton step. *done: false if the model or the line search fails, or steps make no more progress */
 PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;

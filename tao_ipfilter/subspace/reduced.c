@@ -1,49 +1,55 @@
 /*
-   The contact problem on the subspace span{e_i : i in W} + span(P): min 1/2 v^T K v + g^T v, J v + c >= 0, v = E w +
-   P y. Its data, of the constraints' size, are gathered on the first rank, which solves it; K_WW is factored once for
-   as long as W and K stay, with springs to companions where it is singular. Norm terms add their two rows each.
+   The contact problem on the subspace span{e_i : i in W} + span(P):
+
+     min 1/2 v^T K v + g^T v,   J v + c >= 0,   v = E w + P y.
+
+   Its data have the size of the constraints. They are gathered on the first rank, which solves it. K_WW is factored
+   once as long as W and K stay, with companions where it is singular. Each norm term adds two rows.
 */
 #include "subspaceimpl.h"
+#include <petscblaslapack.h>
 
-/* A matrix of rows of A, its columns those of W, on the first rank; half: A has its upper triangle only */
+/* Collects selected rows of A on the first rank, with the columns of W. half: A stores its upper triangle only */
 typedef struct {
   PetscInt        nrows, M;
-  const PetscInt *rows, *place; /* rows of A that this rank owns, and where they stand in the result of M rows */
+  const PetscInt *rows, *place; /* local rows of A, and their row numbers in the result, which has M rows */
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* explicit zeros are kept: one entry may be zero and its transpose not, and orderings
-                                need a symmetric pattern */
+  PetscBool       symmetric; /* keep explicit zeros: ordering codes need a symmetric pattern, and one of two
+                                transposed entries may be zero */
 } ReducedGather;
 
-/* Entries of one row, appended at *n; i = NULL: counted only. What the upper triangle lacks is added; blocks on the
-   diagonal lack nothing. */
-static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt i[], PetscInt j[],
-  PetscScalar v[], PetscCount *n)
+/* Entries of one row: added to S, or where that is NULL counted by rows of S. What the upper triangle lacks is added;
+   blocks on the diagonal lack nothing. */
+static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt column[],
+  PetscScalar entry[], PetscInt counts[], Mat S)
 {
-  const PetscInt    *columns;
+  const PetscInt    *columns, row = g->place[r];
   const PetscScalar *values;
-  PetscInt           nc, place;
+  PetscInt           nc, place, n = 0, nmirror = 0;
 
   PetscFunctionBegin;
   PetscCall(MatGetRow(A, g->rows[r], &nc, &columns, &values));
   for (PetscInt k = 0; k < nc; k++) {
     PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
     if (place < 0 || (values[k] == 0.0 && !g->symmetric) || (g->half && columns[k] < g->rows[r])) continue;
-    for (PetscInt mirror = 0; mirror <= (g->half && place != g->place[r]); mirror++) {
-      if (i) {
-        i[*n] = mirror ? place : g->place[r];
-        j[*n] = mirror ? g->place[r] : place;
-        v[*n] = values[k];
-      }
-      (*n)++;
-    }
+    if (S) {
+      column[n] = place;
+      entry[n]  = values[k];
+    } else if (g->half && place != row) counts[place]++;
+    n++;
   }
   PetscCall(MatRestoreRow(A, g->rows[r], &nc, &columns, &values));
+  if (S) {
+    nmirror = g->half && n && column[0] == row;
+    PetscCall(MatSetValues(S, 1, &row, n, column, entry, INSERT_VALUES));
+    if (g->half) PetscCall(MatSetValues(S, n - nmirror, column + nmirror, 1, &row, entry + nmirror, INSERT_VALUES));
+  } else counts[row] += n;
   PetscFunctionReturn(0);
 }
 
-/* The part of the first rank, which is all of a matrix whose rows it owns; NULL on the others */
+/* The first rank's part, which is the whole matrix as all its rows are there; NULL on the others */
 static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
 {
   Mat diagonal;
@@ -60,30 +66,31 @@ static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
 
 static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBool first, Mat *S)
 {
-  PetscInt    *i, *j;
-  PetscScalar *v;
-  PetscCount   n = 0;
+  PetscInt    *counts, *column;
+  PetscScalar *entry;
   Mat          all;
 
   PetscFunctionBegin;
+  PetscCall(PetscCalloc3(g->M, &counts, g->nw, &column, g->nw, &entry));
   if (g->half) PetscCall(MatGetRowUpperTriangular(A));
-  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, NULL, NULL, NULL, &n));
-  PetscCall(PetscMalloc3(n, &i, n, &j, n, &v));
-  n = 0;
-  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, i, j, v, &n));
-  if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
+  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, column, entry, counts, NULL));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
   PetscCall(MatCreate(PetscObjectComm((PetscObject)A), &all));
   PetscCall(MatSetSizes(all, first ? g->M : 0, first ? g->nw : 0, g->M, g->nw));
   PetscCall(MatSetType(all, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(all, n, i, j));
-  PetscCall(MatSetValuesCOO(all, v, ADD_VALUES));
-  PetscCall(PetscFree3(i, j, v));
+  PetscCall(MatXAIJSetPreallocation(all, 1, counts, NULL, NULL, NULL));
+  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, column, entry, counts, all));
+  if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
+  PetscCall(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree3(counts, column, entry));
   PetscCall(ReducedTakeFirst(all, first, S));
   PetscCall(MatDestroy(&all));
   PetscFunctionReturn(0);
 }
 
-/* K_WW of what this rank owns of W, `own`, and of all ranks, w */
+/* Gathers K_WW; own: local part of W; w: all of W */
 static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
 {
   ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
@@ -120,7 +127,7 @@ static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], 
   PetscFunctionReturn(0);
 }
 
-/* The rows of both, one below the other */
+/* Stacks the rows of two matrices */
 static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
 {
   const Mat parts[2] = {upper, lower};
@@ -150,7 +157,7 @@ static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
   PetscFunctionReturn(0);
 }
 
-/* J_W, and T_W below it where there are norm terms */
+/* Gathers J_W, with T_W below it if there are norm terms */
 static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
   PetscBool first, Mat *S)
 {
@@ -170,65 +177,40 @@ static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscIn
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReducedFreeSystem(IPReducedSystem *s)
+/* Destroys what belongs to the constraints; the space stays */
+PetscErrorCode IPReducedRelease(IPReduced *r)
 {
+  IPReducedSystem *s = &r->system;
+
   PetscFunctionBegin;
-  PetscCall(PetscFree4(s->JZ, s->T, s->t, s->G));
-  PetscCall(PetscFree4(s->h, s->lambda, s->gap, s->y));
-  PetscCall(PetscMemzero(s, sizeof(*s)));
+  PetscCall(VecScatterDestroy(&r->to_rows));
+  PetscCall(VecDestroy(&r->on_rows));
+  PetscCall(VecScatterDestroy(&r->to_terms));
+  PetscCall(VecDestroy(&r->on_terms));
+  if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
+  PetscCall(IPComplianceSetRows(&r->compliance, NULL));
+  PetscCall(IPActiveSetDestroy(&r->set));
+  PetscCall(PetscFree5(s->JZ, s->h, s->lambda, s->gap, s->y));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode IPReducedDestroy(IPReduced *r)
 {
   PetscFunctionBegin;
+  PetscCall(IPReducedRelease(r));
   PetscCall(VecScatterDestroy(&r->to_W));
-  PetscCall(VecScatterDestroy(&r->to_rows));
   PetscCall(VecDestroy(&r->on_W));
-  PetscCall(VecDestroy(&r->on_rows));
-  PetscCall(VecScatterDestroy(&r->to_terms));
-  PetscCall(VecDestroy(&r->on_terms));
-  if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
+  PetscCall(ISDestroy(&r->W));
+  PetscCall(MatDestroy(&r->KWW));
   PetscCall(IPComplianceDestroy(&r->compliance));
   PetscCall(IPCompanionsDestroy(&r->companions));
-  PetscCall(IPActiveSetDestroy(&r->set));
-  PetscCall(ReducedFreeSystem(&r->system));
-  PetscCall(PetscFree4(r->Q, r->g, r->x, r->z));
+  PetscCall(PetscFree3(r->system.T, r->system.t, r->system.G));
+  PetscCall(PetscFree4(r->Z, r->g, r->x, r->z));
   PetscCall(PetscMemzero(r, sizeof(*r)));
   PetscFunctionReturn(0);
 }
 
-/* Entries of W, constraints and norm terms of vectors of all ranks */
-static PetscErrorCode ReducedCreateScatters(IPReduced *r, Vec x, Vec c, const IPTerms *terms, IS w)
-{
-  IS places;
-
-  PetscFunctionBegin;
-  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)x), r->n, PETSC_DETERMINE, &r->on_W));
-  PetscCall(ISCreateStride(PETSC_COMM_SELF, r->n, 0, 1, &places));
-  PetscCall(VecScatterCreate(x, w, r->on_W, places, &r->to_W));
-  PetscCall(ISDestroy(&places));
-  PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
-  if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ReducedCreateSystem(IPReduced *r, const IPBasis *basis)
-{
-  IPReducedSystem *s = &r->system;
-
-  PetscFunctionBegin;
-  s->m    = r->m + 2 * r->nterms;
-  s->kmax = r->companions.n + basis->max;
-  PetscCall(
-    PetscMalloc4((size_t)s->m * (size_t)s->kmax, &s->JZ, s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
-  PetscCall(PetscCalloc4(s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
-  PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Q, r->n, &r->g, r->n, &r->x, r->n, &r->z));
-  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
-  PetscFunctionReturn(0);
-}
-
-/* What the first rank has found, on all of them; an error of it is one of all ranks */
+/* Broadcasts the first rank's result; an error there is raised on all ranks */
 static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {
   PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
@@ -243,110 +225,24 @@ static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, Pets
 }
 
 /* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
-static PetscErrorCode ReducedFactorFirst(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
-  if (*definite) PetscCall(IPCompanionsAreNeeded(KWW, &r->compliance, &singular));
-  if (!*definite || singular) PetscCall(IPCompanionsTake(KWW, &r->companions));
-  if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, KWW, JW, definite));
+  PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
+  if (*definite) PetscCall(IPCompanionsAreNeeded(r->KWW, &r->compliance, &singular));
+  if (!*definite || singular) PetscCall(IPCompanionsTake(r->KWW, &r->companions));
+  if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReducedFactor(IPReduced *r, Mat KWW, Mat JW, PetscBool *definite)
+static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
 {
   PetscFunctionBegin;
   *definite = PETSC_FALSE;
-  PetscCall(ReducedTell(r, r->first ? ReducedFactorFirst(r, KWW, JW, definite) : (PetscErrorCode)0, definite));
+  PetscCall(ReducedTell(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
   PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
-  PetscFunctionReturn(0);
-}
-
-static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[])
-{
-  PetscReal sum = 0.0;
-
-  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
-}
-
-/* Adds one more coordinate of y: its forces on W are its column of Q, and its energies with those before it */
-static PetscErrorCode ReducedAppendColumn(IPReduced *r, const PetscReal energies[])
-{
-  IPReducedSystem *s = &r->system;
-  const PetscInt   j = s->k;
-  const PetscReal *q = &r->Q[(size_t)j * (size_t)r->n];
-
-  PetscFunctionBegin;
-  PetscCall(IPComplianceSolve(&r->compliance, q, r->z));
-  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->z, &s->JZ[(size_t)j * (size_t)s->m]));
-  for (PetscInt i = 0; i <= j; i++)
-    s->T[i + j * s->kmax] = s->T[j + i * s->kmax] =
-      energies[i] - ReducedDot(r->n, &r->Q[(size_t)i * (size_t)r->n], r->z);
-  s->G[j] = energies[j];
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
-{
-  const IPCompanions *c = &r->companions;
-  IPReducedSystem    *s = &r->system;
-  PetscReal          *energies;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(c->n, &energies));
-  for (; s->k < c->n; s->k++) {
-    if (!r->first) continue;
-    PetscCall(PetscArrayzero(&r->Q[(size_t)s->k * (size_t)r->n], r->n));
-    r->Q[c->row[s->k] + (size_t)s->k * (size_t)r->n] = -c->spring[s->k];
-    energies[s->k]                                   = c->spring[s->k];
-    PetscCall(ReducedAppendColumn(r, energies));
-    energies[s->k] = 0.0;
-  }
-  PetscCall(PetscFree(energies));
-  PetscFunctionReturn(0);
-}
-
-/* Gathers what stays while K, J, the terms and W do; *definite is false where K_WW is not positive definite */
-PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
-  Vec c, const IPBasis *basis, PetscBool *definite)
-{
-  PetscMPIInt     rank;
-  IS              all, mine;
-  Mat             KWW, JW;
-  const PetscInt *w;
-  PetscInt        nw;
-  PetscErrorCode  error = (PetscErrorCode)0;
-
-  PetscFunctionBegin;
-  PetscCall(IPReducedDestroy(r));
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)x), &rank));
-  r->lawsops = ops;
-  r->first   = (PetscBool)!rank;
-  PetscCall(ISAllGather(W, &all));
-  PetscCall(ISGetSize(all, &nw));
-  PetscCall(ISGetIndices(all, &w));
-  if (r->first) {
-    r->n = nw;
-    PetscCall(VecGetSize(c, &r->m));
-    r->nterms = terms->n;
-  }
-  PetscCall(ReducedGatherStiffness(K, W, nw, w, r->first, &KWW));
-  PetscCall(ReducedGatherJacobian(J, terms, nw, w, r->first, &JW));
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
-  PetscCall(ISRestoreIndices(all, &w));
-  PetscCall(ISDestroy(&all));
-  PetscCall(ReducedCreateScatters(r, x, c, terms, mine));
-  PetscCall(ISDestroy(&mine));
-  PetscCall(ReducedFactor(r, KWW, JW, definite));
-  PetscCall(ReducedCreateSystem(r, basis));
-  if (*definite) PetscCall(ReducedAppendCompanions(r));
-  if (*definite && r->nterms) error = ops->create(r->m, r->nterms, r->system.kmax, KWW, JW, &r->laws, definite);
-  PetscCall(ReducedTell(r, error, definite));
-  PetscCall(MatDestroy(&KWW));
-  PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
 
@@ -378,7 +274,167 @@ static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscR
   PetscFunctionReturn(0);
 }
 
-/* Limits, coefficients and dead directions of the norm terms; scale: of the rows of c_I, NULL: 1 */
+static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* Adds n more coordinates of y: their forces on W are the columns of Q; their energies with those before them and with
+   each other, in columns of length kmax, stand where T takes them */
+static PetscErrorCode ReducedAppendColumns(IPReduced *r, PetscInt n, const PetscReal Q[])
+{
+  IPReducedSystem *s     = &r->system;
+  const PetscReal  minus = -1.0, one = 1.0;
+  const PetscInt   k = s->k;
+  PetscReal       *Z = &r->Z[(size_t)k * (size_t)r->n], *T = &s->T[k * s->kmax];
+  PetscBLASInt     all, nb, nw, ld;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < n; j++) s->G[k + j] = T[k + j + j * s->kmax];
+  PetscCall(IPComplianceSolve(&r->compliance, n, Q, Z));
+  PetscCall(IPComplianceMultiply(&r->compliance, n, Z, s->JZ + (size_t)k * (size_t)s->m));
+  PetscCall(PetscBLASIntCast(k + n, &all));
+  PetscCall(PetscBLASIntCast(n, &nb));
+  PetscCall(PetscBLASIntCast(r->n, &nw));
+  PetscCall(PetscBLASIntCast(s->kmax, &ld));
+  PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &all, &nb, &nw, &minus, r->Z, &nw, Q, &nw, &one, T, &ld));
+  for (PetscInt j = k; j < k + n; j++) {
+    for (PetscInt i = 0; i < j; i++) s->T[j + i * s->kmax] = s->T[i + j * s->kmax];
+  }
+  s->k += n;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
+{
+  const IPCompanions *c = &r->companions;
+  IPReducedSystem    *s = &r->system;
+  PetscReal          *Q;
+
+  PetscFunctionBegin;
+  if (!r->first) s->k = c->n;
+  if (!r->first || !c->n) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1((size_t)r->n * (size_t)c->n, &Q));
+  for (PetscInt j = 0; j < c->n; j++) {
+    Q[c->row[j] + (size_t)j * (size_t)r->n] = -c->spring[j];
+    PetscCall(PetscArrayzero(s->T + j * s->kmax, c->n));
+    s->T[j + j * s->kmax] = c->spring[j];
+  }
+  PetscCall(ReducedAppendColumns(r, c->n, Q));
+  PetscCall(PetscFree(Q));
+  PetscFunctionReturn(0);
+}
+
+/* The space: K_WW of a new K or W */
+static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool *definite)
+{
+  PetscMPIInt      rank;
+  IPReducedSystem *s = &r->system;
+  IS               all, mine, places;
+  const PetscInt  *w;
+  PetscInt         nw;
+
+  PetscFunctionBegin;
+  PetscCall(IPReducedDestroy(r));
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)x), &rank));
+  r->first = (PetscBool)!rank;
+  PetscCall(PetscObjectReference((PetscObject)W));
+  r->W = W;
+  PetscCall(ISAllGather(W, &all));
+  PetscCall(ISGetSize(all, &nw));
+  PetscCall(ISGetIndices(all, &w));
+  if (r->first) r->n = nw;
+  PetscCall(ReducedGatherStiffness(K, W, nw, w, r->first, &r->KWW));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
+  PetscCall(ISRestoreIndices(all, &w));
+  PetscCall(ISDestroy(&all));
+  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)x), r->n, PETSC_DETERMINE, &r->on_W));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, r->n, 0, 1, &places));
+  PetscCall(VecScatterCreate(x, mine, r->on_W, places, &r->to_W));
+  PetscCall(ISDestroy(&places));
+  PetscCall(ISDestroy(&mine));
+  PetscCall(ReducedFactor(r, definite));
+  s->kmax = r->companions.n + basis->max;
+  PetscCall(PetscMalloc3(s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
+  PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Z, r->n, &r->g, r->n, &r->x, r->n, &r->z));
+  r->K_id = ((PetscObject)K)->id;
+  PetscCall(PetscObjectStateGet((PetscObject)K, &r->K_state));
+  PetscFunctionReturn(0);
+}
+
+/* The constraints and norm terms on the space that there is, with the directions that it has */
+static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, const IPTerms *terms, Vec c,
+  PetscBool *definite)
+{
+  IPReducedSystem *s     = &r->system;
+  PetscErrorCode   error = (PetscErrorCode)0;
+  IS               all;
+  Mat              JW;
+  const PetscInt  *w;
+  PetscInt         nw;
+
+  PetscFunctionBegin;
+  PetscCall(IPReducedRelease(r));
+  r->lawsops = ops;
+  if (r->first) {
+    PetscCall(VecGetSize(c, &r->m));
+    r->nterms = terms->n;
+  }
+  PetscCall(ISAllGather(r->W, &all));
+  PetscCall(ISGetSize(all, &nw));
+  PetscCall(ISGetIndices(all, &w));
+  PetscCall(ReducedGatherJacobian(J, terms, nw, w, r->first, &JW));
+  PetscCall(ISRestoreIndices(all, &w));
+  PetscCall(ISDestroy(&all));
+  PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
+  if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
+  s->m = r->m + 2 * r->nterms;
+  PetscCall(
+    PetscMalloc5((size_t)s->m * (size_t)s->kmax, &s->JZ, s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
+  PetscCall(PetscArrayzero(s->lambda, s->m));
+  PetscCall(PetscArrayzero(s->y, s->kmax));
+  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
+  PetscCall(IPComplianceSetRows(&r->compliance, JW));
+  if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
+  if (!s->k) PetscCall(ReducedAppendCompanions(r));
+  if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, JW, &r->laws, definite);
+  PetscCall(ReducedTell(r, error, definite));
+  PetscCall(MatDestroy(&JW));
+  PetscFunctionReturn(0);
+}
+
+/* Whether the space is that of this K */
+PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
+{
+  PetscObjectState state;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)K, &state));
+  *same = (PetscBool)(r->W && r->K_id == ((PetscObject)K)->id && r->K_state == state);
+  PetscFunctionReturn(0);
+}
+
+/* Takes in the constraints. The factors of K_WW stay for as long as K and W do, and K_WW^-1 Q_W for as long as the
+   directions; *definite is false where K_WW is not positive definite */
+PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
+  Vec c, const IPBasis *basis, PetscBool *definite)
+{
+  PetscFunctionBegin;
+  PetscCall(IPReducedIsOf(r, K, definite));
+  if (*definite) PetscCall(ISEqual(r->W, W, definite));
+  if (!*definite) PetscCall(ReducedSetSpace(r, K, W, x, basis, definite));
+  else if (r->generation != basis->generation) r->system.k = r->companions.n;
+  r->generation = basis->generation;
+  if (*definite) PetscCall(ReducedSetRows(r, ops, J, terms, c, definite));
+  if (!*definite) PetscCall(IPReducedDestroy(r));
+  PetscFunctionReturn(0);
+}
+
+/* Sets limits, coefficients and immovable directions of the norm terms. scale: scale factors of the rows of c_I;
+   NULL: 1 */
 PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 {
   const Vec  given[2] = {terms->limit, terms->coefficient};
@@ -413,7 +469,7 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Starts with the rows active whose entry is positive; with norm terms from these forces */
+/* Initial active set: the rows whose guess is positive; force: initial forces of the norm terms */
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
   IPReducedSystem *s    = &r->system;
@@ -435,6 +491,13 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   PetscFunctionReturn(0);
 }
 
+/* t of coordinate j of y */
+static void ReducedLoad(IPReduced *r, PetscInt j, const PetscReal pg[])
+{
+  r->system.t[j] = ReducedDot(r->n, &r->Z[(size_t)j * (size_t)r->n], r->g);
+  if (j >= r->companions.n) r->system.t[j] -= pg[j - r->companions.n];
+}
+
 /* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
@@ -445,45 +508,48 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
   if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
   if (!r->first) PetscFunctionReturn(0);
-  PetscCall(IPComplianceSolve(&r->compliance, r->g, r->x));
-  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_FALSE, r->x, s->h));
+  PetscCall(IPComplianceSolve(&r->compliance, 1, r->g, r->x));
+  PetscCall(IPComplianceMultiply(&r->compliance, 1, r->x, s->h));
   s->length = 0.0;
   for (PetscInt i = 0; i < s->m; i++) {
     s->h[i] -= s->gap[i];
     s->length = PetscMax(s->length, PetscMax(PetscAbsReal(s->gap[i]), PetscAbsReal(s->h[i])));
   }
   PetscCall(PetscArrayzero(s->y, s->kmax));
-  for (PetscInt j = 0; j < s->k; j++)
-    s->t[j] =
-      ReducedDot(r->n, &r->Q[(size_t)j * (size_t)r->n], r->x) - (j < r->companions.n ? 0.0 : pg[j - r->companions.n]);
+  for (PetscInt j = 0; j < s->k; j++) ReducedLoad(r, j, pg);
   PetscFunctionReturn(0);
 }
 
-/* Takes in the directions of the basis that are missing, with P^T g of all of them */
+/* Adds the missing directions of the basis, and pg = P^T g of all of them */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
-  IPReducedSystem *s        = &r->system;
-  const PetscInt   before   = r->companions.n;
-  PetscReal       *energies = NULL;
+  IPReducedSystem *s      = &r->system;
+  const PetscInt   before = r->companions.n, chunk = 64, most = PetscMin(chunk, before + basis->n - s->k);
+  PetscReal       *Q;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(before + basis->n, &energies));
-  for (; s->k < before + basis->n; s->k++) {
-    const PetscInt j = s->k - before;
-    PetscReal     *q = &r->Q[(size_t)s->k * (size_t)r->n];
+  if (most <= 0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1((size_t)r->n * (size_t)most, &Q));
+  while (s->k < before + basis->n) {
+    const PetscInt k = s->k, n = PetscMin(chunk, before + basis->n - k);
 
-    PetscCall(ReducedFetch(r->to_W, basis->q[j], r->on_W, r->n, q));
-    if (!r->first) continue;
-    PetscCall(PetscArraycpy(energies + before, &basis->gram[j * basis->max], j + 1));
-    PetscCall(ReducedAppendColumn(r, energies));
-    s->t[s->k] = ReducedDot(r->n, q, r->x) - pg[j];
+    for (PetscInt j = 0; j < n; j++) {
+      PetscReal *T = &s->T[(k + j) * s->kmax];
+
+      PetscCall(ReducedFetch(r->to_W, basis->q[k + j - before], r->on_W, r->n, &Q[(size_t)j * (size_t)r->n]));
+      PetscCall(PetscArrayzero(T, before));
+      PetscCall(PetscArraycpy(T + before, &basis->gram[(k + j - before) * basis->max], k + n - before));
+    }
+    if (r->first) PetscCall(ReducedAppendColumns(r, n, Q));
+    else s->k += n;
+    for (PetscInt j = k; j < k + n && r->first; j++) ReducedLoad(r, j, pg);
   }
-  PetscCall(PetscFree(energies));
+  PetscCall(PetscFree(Q));
   PetscFunctionReturn(0);
 }
 
-/* Q_W^T K_WW^-1 Q_W of the basis on all ranks, its columns of the length there is room for: what W takes up of the
-   directions' energy */
+/* E = Q_W^T K_WW^-1 Q_W on all ranks, columns of the basis' maximal length: the part of the directions' energy that
+   W takes up */
 PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
   const IPReducedSystem *s      = &r->system;
@@ -501,12 +567,13 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Forgets the directions; the active set stays */
-PetscErrorCode IPReducedForget(IPReduced *r)
+/* Forgets the directions for those that the basis has now; the active set stays */
+PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
 {
   PetscFunctionBegin;
-  r->system.k = r->companions.n;
-  r->set.k    = 0;
+  r->generation = basis->generation;
+  r->system.k   = r->companions.n;
+  r->set.k      = 0;
   if (r->laws) PetscCall(r->lawsops->forget(r->laws));
   if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
@@ -515,15 +582,17 @@ PetscErrorCode IPReducedForget(IPReduced *r)
 /* w = K_WW^-1 (J_W^T lambda - g - Q_W y) */
 static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 {
-  const IPReducedSystem *s = &r->system;
+  const IPReducedSystem *s     = &r->system;
+  const PetscReal        minus = -1.0, one = 1.0;
+  PetscBLASInt           n, k, inc = 1;
 
   PetscFunctionBegin;
-  PetscCall(IPComplianceMultiply(&r->compliance, PETSC_TRUE, s->lambda, r->z));
+  PetscCall(IPComplianceSpread(&r->compliance, s->lambda, r->z));
   for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];
-  for (PetscInt j = 0; j < s->k; j++) {
-    for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->Q[i + (size_t)j * (size_t)r->n] * s->y[j];
-  }
-  PetscCall(IPComplianceSolve(&r->compliance, r->z, w));
+  PetscCall(IPComplianceSolve(&r->compliance, 1, r->z, w));
+  PetscCall(PetscBLASIntCast(r->n, &n));
+  PetscCall(PetscBLASIntCast(s->k, &k));
+  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &minus, r->Z, &n, s->y, &inc, &one, w, &inc));
   PetscFunctionReturn(0);
 }
 
@@ -539,8 +608,8 @@ static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* y on all ranks, w into the entries W of v, whose others stay, the forces lambda, and those of the norm terms, if
-   there are any. r->nactive, r->nsteps: of this solve; r->met: whether the laws are met as far as was asked. */
+/* Solves the problem. y: on all ranks; w goes to the entries W of v; force: lambda; terms: forces of the norm terms.
+   r->nactive and r->nsteps are set; r->met: whether the laws hold to the requested tolerance */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;

@@ -1,14 +1,15 @@
-/* What the filtered subspace method keeps from one solve to the next, of the same Tao or of another: preconditioner
-   and directions of K. */
+/* Data of the filtered subspace method that are kept between solves, of one Tao or of several: the preconditioner
+   and the directions of K. */
 #include "subspaceimpl.h"
 
-/* Destroys the state. The preconditioner's owner decides again on its next set-up */
+/* Destroys the kept data. PCAMGF chooses between AMG and factorization again at its next set-up. */
 PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
 {
   PetscFunctionBegin;
   if (kept->pc) PetscCall(PCSetReusePreconditioner(kept->pc, PETSC_FALSE));
   PetscCall(PCDestroy(&kept->pc));
   PetscCall(IPBasisDestroy(&kept->basis));
+  PetscCall(IPReducedDestroy(&kept->reduced));
   kept->K_id = 0;
   kept->held = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -24,7 +25,7 @@ static PetscErrorCode KeptDestroy(void *argument)
   PetscFunctionReturn(0);
 }
 
-/* Made where there is none yet */
+/* Gets the kept data; creates them if needed */
 PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
 {
   IPFiltered *f = IPFilteredOf(tao);
@@ -40,7 +41,7 @@ PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
   PetscFunctionReturn(0);
 }
 
-/* K with whole rows, where the preconditioner reads rows and K is half of a matrix */
+/* whole: K with full rows if the preconditioner reads rows and K stores its upper triangle only */
 static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
 {
   MatNullSpace modes;
@@ -59,13 +60,14 @@ static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
   PetscFunctionReturn(0);
 }
 
-/* Tells PCAMGF, whose operator is K, how many applications to expect: in this solve so many more, and in later solves
-   with the same K. Nothing is known before the first solve */
+/* Tells PCAMGF how many applications to expect with K: left in this solve, and in later solves with the same K an
+   estimate from this one. Does nothing before the first solve. */
 static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal later    = 0.7,
-                  factored = 10.0; /* applications of a later solve against a first one's, and solves with factors */
+                  factored = 10.0; /* later: applications of a later solve, relative to this one; factored: those of a
+                                      factorization in a solve */
   const PetscReal n        = ip->rec.napplications + left,
                   solves   = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
 
@@ -75,7 +77,7 @@ static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
   PetscFunctionReturn(0);
 }
 
-/* Said once a solve, not with every Newton step */
+/* Reports the chosen solver once per solve, not at every Newton step */
 static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -91,8 +93,8 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
   PetscFunctionReturn(0);
 }
 
-/* B: the preconditioner of the Krylov method without its filter. It is set up with A, whose values are those of K
-   then, so that A takes no extra memory */
+/* Sets up B, the preconditioner of the Krylov method without filter. A has the values of K at that time; it is
+   borrowed, so no memory is added. */
 static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, PetscBool *possible)
 {
   PC             pc = kept->pc, amg;
@@ -118,7 +120,7 @@ static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, 
   PetscFunctionReturn(0);
 }
 
-/* B of K alone */
+/* Sets up B for K alone */
 static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
 {
   const PetscReal usual = 35.0;
@@ -137,8 +139,7 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Changes from the AMG to a factorization if so many applications are expected in this solve that it pays. No
-   directions are lost */
+/* Changes from AMG to a factorization if `left` more applications make it cheaper. Directions are kept. */
 PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscReal left, PetscBool *possible)
 {
   PetscBool amgf, before, after;
@@ -156,7 +157,7 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* A += T^T D T of the norm terms that can have a force, D as stiff as the bodies are */
+/* A += T^T D T for the norm terms that can carry a force; D: stiffness of the bodies */
 static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
 {
   IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
@@ -194,8 +195,8 @@ static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* B of K + J^T D J + T^T D T, D as stiff as the bodies are: for bodies that nothing but constraints and norm terms
-   holds */
+/* Sets up B for K + J^T D J + T^T D T, where only constraints and norm terms hold the bodies; D: stiffness of the
+   bodies */
 PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
@@ -208,7 +209,7 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
   PetscCall(IPCondenseMatrix(tao, D));
-  ip->rec.nsystems  = systems; /* none of Newton's */
+  ip->rec.nsystems  = systems; /* restores the count: these are not Newton systems */
   ip->rec.nfiltered = filtered;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
   if (ip->terms.n) PetscCall(KeptHoldTerms(tao, ip->cond.A));
@@ -219,14 +220,14 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
 }
 
 /*
-   Number of directions to keep. Default: 15 % of the memory of AMG and stiffness, and at least a small fixed amount.
-   More would make the projections of a direction more expensive than the AMG. Newton's steps need one product with
-   the new K per direction, and their Gram matrix
+   Largest number of directions to keep. Default: 15 % of the memory of AMG and stiffness, and at least a small fixed
+   number. More directions would make a projection more expensive than the AMG. Newton's method keeps fewer, as each
+   needs a product with every new K.
 */
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
   const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
-                  direction = 2.0 * sizeof(PetscScalar); /* bytes, an unknown */
+                  direction = 2.0 * sizeof(PetscScalar); /* bytes per unknown */
   const PetscReal fewest = 80.0, limit = 160.0;
   const PetscInt  newton = 48;
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -241,8 +242,8 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
   PetscFunctionReturn(0);
 }
 
-/* Brings it up to date with K, the constraints' unknowns and the fixed variables; *possible is false where the
-   preconditioner cannot be */
+/* Updates the kept data for K, the constraints' unknowns and the fixed variables. *possible: false if the
+   preconditioner cannot be updated */
 PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -285,8 +286,8 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
   PetscFunctionReturn(0);
 }
 
-/* Makes the preconditioner that of the Krylov method, so that users who ask for it see the one applied; a
-   preconditioner of another kind stays */
+/* Makes the kept preconditioner that of the Krylov method, so that TaoGetKSP() shows the one in use; a
+   preconditioner of another type is not replaced */
 static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
   IPFiltered      *f = IPFilteredOf(tao);
@@ -319,7 +320,7 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* Attaches the implementations to the object, or detaches them */
+/* Composes the implementations with the Tao, or removes them */
 PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 {
   PetscObject o = (PetscObject)tao;
@@ -345,10 +346,9 @@ PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 
   Notes:
   With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
-  that Hessian,
-  whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on another one by
-  this call. Directions are multiplied anew where
-  the values of the Hessian have changed, and given up with another Hessian or another type of `PC`.
+  that Hessian, whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on
+  another one by this call. Directions are multiplied anew where the values of the Hessian have changed, and given up
+  with another Hessian or another type of `PC`.
 
   The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
 

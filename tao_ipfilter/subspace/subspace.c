@@ -1,14 +1,15 @@
 /*
-   The space of the filtered subspace method within one solve, which method.c and newton.c lead: V =
-   span{e_i : i in W} + span(P), the contact problem on V about a centre, and further directions, each an application
-   of the preconditioner B of K alone to what the problem on V leaves of the residual.
+   The search space within one solve, used by method.c and newton.c: V = span{e_i : i in W} + span(P), and the contact
+   problem on V about a centre. A new direction is the preconditioner B of K applied to the residual that the problem on
+   V leaves.
 */
 #include "subspaceimpl.h"
 
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
-  PetscCall(IPReducedDestroy(&f->reduced));
+  if (f->reduced) PetscCall(IPReducedRelease(f->reduced));
+  f->reduced = NULL;
   PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));
   PetscCall(VecDestroy(&f->gradient));
@@ -17,7 +18,7 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscFunctionReturn(0);
 }
 
-/* Slacks and multipliers that the caller has given, or without them those of a penalty as stiff as the objective is */
+/* Initial slacks and multipliers: those given by the caller, else those of a penalty as stiff as the objective */
 static PetscErrorCode FilteredStartPairs(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -37,7 +38,7 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The initial active rows: those whose multipliers exceed the slacks */
+/* Initial active set: rows with multiplier larger than slack */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -50,14 +51,14 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(&IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
+  PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem counts from a point x, which only norm terms ask for, called centre, with this gradient and
-   these constraints, with all directions there are */
+/* Centres the reduced problem at `centre` with this gradient and these constraints, for all directions. x: the point
+   itself, needed by norm terms only */
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -72,14 +73,14 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscCall(VecCopy(c, f->c));
   if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedCenter(&f->reduced, f->gradient, f->c, value, f->pg));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(IPReducedCenter(f->reduced, f->gradient, f->c, value, f->pg));
+  PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(VecDestroy(&value));
   PetscFunctionReturn(0);
 }
 
-/* The reduced problem's solution, v from the centre, and the forces of the constraints there */
+/* Solves the reduced problem: v relative to the centre, force: of the constraints */
 PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -88,16 +89,16 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSolve(&f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
+  PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
   ip->rec.nreduced++;
-  ip->rec.npivots += f->reduced.nsteps;
+  ip->rec.npivots += f->reduced->nsteps;
   if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
   PetscFunctionReturn(0);
 }
 
-/* Multipliers force / M, and the slacks that the constraints have */
+/* Sets multipliers force / M, and slacks equal to the constraints */
 PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -118,7 +119,7 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* d = B r for a residual that is zero on W; *definite is false where B is not */
+/* d = B r for a residual r that is zero on W. *definite: false if r^T B r is not positive */
 static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -139,9 +140,9 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
 }
 
 /*
-   Reduces the number of directions. All but the last are compressed to the part of their span that W couples to most,
-   as it is most useful for other constraints and gaps. The reduced problem must be centred again at its solution, so
-   that the solution stays exact
+   Reduces the number of directions. All but the newest are compressed to the combinations that W couples to most,
+   because these help with other constraints and gaps. The reduced problem must then be centred at its solution to stay
+   exact.
 */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
@@ -151,15 +152,15 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(&f->reduced, basis, E));
+  PetscCall(IPReducedCoupling(f->reduced, basis, E));
   PetscCall(IPBasisCompress(basis, best, last, E));
   PetscCall(PetscFree(E));
-  PetscCall(IPReducedForget(&f->reduced));
+  PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular, but for rounding, along what its preconditioner makes of a residual; in a quadratic program,
-   where it is negative, too: with the constraints in it it may not be */
+/* Whether K is singular up to rounding along a preconditioned residual d. In a quadratic program also if K is
+   negative along d, since K plus constraints may be positive. */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -179,7 +180,8 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscFunctionReturn(0);
 }
 
-/* d = B r. If K alone is singular, B includes the constraints; that is checked once a solve, and if B fails */
+/* d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per solve,
+   and whenever B fails. */
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -195,7 +197,7 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error still falls: by half in so many steps */
+/* Whether the KKT error was halved within the last `patience` steps */
 PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
 {
   f->nfutile++;
@@ -206,7 +208,7 @@ PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience
   return (PetscBool)(f->nfutile <= patience);
 }
 
-/* Whether the Krylov method's limit allows another direction */
+/* Whether the iteration limit of the Krylov method allows another direction */
 PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 {
   PetscInt limit;
@@ -217,7 +219,7 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
   PetscFunctionReturn(0);
 }
 
-/* A direction from the residual r, zero on W; there is room for it */
+/* Adds a direction from the residual r, zero on W; there must be room */
 PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -238,7 +240,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   if (!*extended) PetscFunctionReturn(0);
   PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedAppend(&f->reduced, basis, f->pg));
+  PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -258,17 +260,18 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
 
 /* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
    what belongs to this solve only. *possible is false if K_WW is not positive definite */
-PetscErrorCode IPFilteredSetUp(Tao tao, const IPBasis *basis, PetscBool *possible)
+PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
 
   PetscFunctionBegin;
-  if (!f->centre) PetscCall(FilteredCreate(tao, basis));
+  if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
+  f->reduced = &kept->reduced;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(&f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
-    ip->at.c, basis, possible));
-  if (*possible) PetscCall(IPReducedSetTerms(&f->reduced, &ip->terms, ip->rows.inequality));
+  PetscCall(IPReducedSetUp(f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
+    ip->at.c, &kept->basis, possible));
+  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, &ip->terms, ip->rows.inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);

@@ -1,15 +1,14 @@
 /*
-   The condensed matrix A = H + ... + J^T D J in memory.
-
-   A has H's type, except that it is AIJ for a dense H, and BAIJ where one process has an SBAIJ H, unless the
-   preconditioner factors SBAIJ: H then takes half the memory, while products with A and hypre work on whole rows. A's
-   pattern is the union of H's and J^T J's and is preallocated; while H is unchanged only the rows that J^T D J
-   touches are written again, so a constant H is copied once.
+   Assembly of the condensed matrix A = H + ... + J^T D J. A has H's type, with two exceptions. It is AIJ for a dense H.
+   It is BAIJ on one process for an SBAIJ H, unless the preconditioner factors SBAIJ; H then takes half the memory,
+   while products with A and hypre work on full rows. A's pattern is the union of those of H and J^T J and is
+   preallocated. While H is unchanged only rows with entries of J^T D J are written again, so a constant H is copied
+   once.
 */
 #include "systemimpl.h"
 
-/* Sorted union of the block columns of block row ib in H and in J^T D J and the diagonal; upper: from the diagonal on
- */
+/* Sorted union of the block columns of block row ib in H and in J^T D J, and the diagonal; upper: from the diagonal
+   on */
 static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n,
   PetscInt cols[])
 {
@@ -37,7 +36,7 @@ static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs
   PetscFunctionReturn(0);
 }
 
-/* Longest row of H plus that of J^T D J times the block size bounds a block row's pattern */
+/* Upper bound of a block row's pattern: longest row of H plus that of J^T D J, times the block size */
 static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
 {
   PetscInt rstart, rend, h = 0, c = 0;
@@ -59,7 +58,7 @@ static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *l
   PetscFunctionReturn(0);
 }
 
-/* Lengths of the block rows of the union pattern: of this rank's columns, and of the others' */
+/* Lengths of the block rows of the union pattern: in this rank's columns (dnz), and in others (onz) */
 static PetscErrorCode CondensedCountBlocks(Mat H, Mat C, PetscInt bs, PetscBool upper, PetscInt dnz[], PetscInt onz[])
 {
   PetscInt rstart, rend, longest = 0, *cols;
@@ -102,7 +101,7 @@ static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij,
   PetscFunctionReturn(0);
 }
 
-/* A new A, preallocated for the union pattern */
+/* Creates A, preallocated for the union pattern */
 static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
 {
   PetscInt     bs = 1, hbs, m, n, M, N, *dnz, *onz;
@@ -137,7 +136,7 @@ static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes in A the pattern of C; A's other entries stay */
+/* Sets the entries of A in the pattern of C to zero */
 static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt rows[])
 {
   PetscScalar *zeros = NULL;
@@ -161,7 +160,7 @@ static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const P
   PetscFunctionReturn(0);
 }
 
-/* Whether H has its upper triangle only, and A is to have whole rows */
+/* unfolds: whether H stores its upper triangle only and A needs full rows */
 static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
 {
   PC        pc;
@@ -190,7 +189,8 @@ static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
   PetscFunctionReturn(0);
 }
 
-/* One row of an upper triangle and its mirror image; entries with c < row come with row c, if that is written too */
+/* Adds one row of an upper triangle and its mirror image. Entries with c < row are added with row c if that is
+   written too */
 static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
 {
   const PetscInt    *c;
@@ -205,7 +205,7 @@ static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
   PetscFunctionReturn(0);
 }
 
-/* Copies all of a BAIJ matrix block row by block row: its scalar rows stacked are what MatSetValuesBlocked() takes */
+/* Copies a BAIJ matrix by block rows; stacked scalar rows have the format of MatSetValuesBlocked() */
 static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
 {
   PetscScalar *values = NULL;
@@ -257,7 +257,7 @@ static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
   PetscFunctionReturn(0);
 }
 
-/* Writes the rows of H into A that J^T D J touches */
+/* Writes the rows of H that have entries of J^T D J into A */
 static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
 {
   PetscBool sbaij;
@@ -273,7 +273,7 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* A = H, all of it for a new pattern or new values of H; else the entries that J^T D J has changed */
+/* Writes H into A: all of it for a new pattern or new values; otherwise only the entries that J^T D J changed */
 PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
@@ -300,7 +300,7 @@ PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool val
   PetscFunctionReturn(0);
 }
 
-/* A += J^T D J, into an A that other entries were just inserted into */
+/* A += J^T D J, after entries were inserted into A */
 PetscErrorCode IPCondensedAddProduct(IPCondensed *cond)
 {
   PetscFunctionBegin;

@@ -1,10 +1,10 @@
 /*
-   The condensed system. Eliminating slacks and multipliers from Newton's system leaves
+   The condensed system. Elimination of slacks and multipliers from the Newton system gives A d = b with
 
-     A d = b,   A = H + Sigma + J^T D J + delta M_u,   D = M_s z/s,
+     A = H + Sigma + J^T D J + delta M_u,   D = M_s z/s,
      b = -grad f + J^T (M_s target/s - D (c - s)) + bound terms.
 
-   How H and J^T D J get into A: assemble.c.
+   assemble.c assembles A.
 */
 #include "systemimpl.h"
 
@@ -23,7 +23,7 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscFunctionReturn(0);
 }
 
-/* Rows of this rank that J^T D J touches */
+/* Finds the local rows with entries of J^T D J */
 static PetscErrorCode TouchedRows(IPCondensed *cond)
 {
   PetscInt rstart, rend;
@@ -48,7 +48,7 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
   PetscFunctionReturn(0);
 }
 
-/* J^T D J and the rows of this rank it touches; *changed tells that its pattern is new */
+/* Computes J^T D J and its local rows; *changed: its pattern is new */
 static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
 {
   const IPRows *rows = &cond->rows;
@@ -70,7 +70,7 @@ static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Forgets the product where no rows are condensed any longer */
+/* Drops the product if no rows are condensed any longer */
 static PetscErrorCode DropProduct(IPCondensed *cond)
 {
   PetscFunctionBegin;
@@ -83,7 +83,7 @@ static PetscErrorCode DropProduct(IPCondensed *cond)
   PetscFunctionReturn(0);
 }
 
-/* Sigma of the bounds plus delta M_u; *shifted: it is not zero */
+/* shift = Sigma of the bounds + delta M_u; *shifted: whether it is not zero */
 static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -111,7 +111,7 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
   PetscFunctionReturn(0);
 }
 
-/* Diagonal of A: that of H plus the shift. A second shift of zero restores H's diagonal. */
+/* Writes A's diagonal: that of H plus the shift. The first zero shift after a non-zero one restores H's diagonal. */
 static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -131,14 +131,14 @@ static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
   PetscFunctionReturn(0);
 }
 
-/* Whether nothing is ever added to H */
+/* Whether nothing is ever added to H, so that A = H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n &&
                      ip->shift.delta == 0.0);
 }
 
-/* A = H itself */
+/* A = H, without a copy */
 static PetscErrorCode TakeHessian(Tao tao)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
@@ -152,7 +152,7 @@ static PetscErrorCode TakeHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* A = H + Sigma + J^T D J + delta M_u, writing no more than has changed since the last one */
+/* A = H + Sigma + J^T D J + delta M_u; writes only what has changed */
 static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
@@ -186,7 +186,7 @@ static PetscErrorCode WriteSum(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* A of a Hessian that gives products alone */
+/* Updates A for a Hessian that only has products */
 static PetscErrorCode WriteOperator(Tao tao)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
@@ -199,7 +199,7 @@ static PetscErrorCode WriteOperator(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Assembles A for the given D of the inequality constraints */
+/* Assembles A for the weights D of the inequality constraints */
 PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -216,7 +216,7 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* b for the primal residual rc (c - s, or that of a second-order correction) and the pairs' targets */
+/* Right-hand side b for the primal residual rc (c - s, or that of a second-order correction) and the pairs' targets */
 PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -240,7 +240,7 @@ PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* Slack, multiplier and bound directions from dx: ds = J dx + rc, lambda + dlambda = target/s - (z/s) ds */
+/* Directions of slacks, multipliers and bounds from dx: ds = J dx + rc, lambda + dlambda = target/s - (z/s) ds */
 PetscErrorCode IPBackSubstitute(Tao tao, Vec rc)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

@@ -1,5 +1,5 @@
-/* The condensed matrix where the Hessian gives products alone: H + Sigma + J^T D J + delta M_u as a MATSHELL, with
-   its diagonal. */
+/* The condensed matrix for a Hessian that only has products: H + Sigma + J^T D J + delta M_u as a MATSHELL, with its
+   diagonal. */
 #include "systemimpl.h"
 
 /* y = J^T D J x + y */
@@ -18,7 +18,7 @@ static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Fixed variables are cut out, with a diagonal of the Hessian's size */
+/* y = A x; fixed variables are removed and get a diagonal entry of the Hessian's size */
 static PetscErrorCode OperatorMult(Mat A, Vec x, Vec y)
 {
   TAO_IPFILTER *ip;
@@ -85,7 +85,8 @@ static PetscErrorCode OperatorGetDiagonal(Mat A, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Makes cond.A once; it sees what the iteration changes. Its new state tells the preconditioner. */
+/* Creates cond.A at the first call. It refers to the iteration's data, so later calls only increase its state to
+   notify the preconditioner. */
 PetscErrorCode IPOperatorUpdate(Tao tao)
 {
   IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;

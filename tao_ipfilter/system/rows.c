@@ -1,8 +1,8 @@
 /*
-   The rows that are condensed into A: J^T D J with J = J_I, J_E or both, one below the other on each rank; or J_I and
-   the rows of norm terms, which are filtered, too, and may be all that holds a body. For condensed equality
-   constraints D is 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists them; in a restoration
-   step it is 1/delta, to which the augmented system would be eliminated.
+   Rows that are condensed into A as J^T D J: J is J_I, J_E, or J_I with J_E or with the rows of norm terms below it on
+   each rank. Norm terms are filtered too, and may be all that holds a body. For condensed equality constraints D is 1 /
+   (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists them. In a restoration step D is 1/delta,
+   which is equivalent to the augmented system.
 */
 #include "systemimpl.h"
 
@@ -27,8 +27,7 @@ static PetscBool RowsSamePattern(const IPStamp *a, const IPStamp *b)
   return (PetscBool)(a->pattern_id == b->pattern_id && a->pattern_state == b->pattern_state);
 }
 
-/* Copies the rows of J into those of the stacked matrix, from one of this rank's on; counts them instead where there
-   are counts */
+/* Copies the rows of J to the stacked matrix from local row `first` on; if dnz is given, only counts entries */
 static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[], PetscInt onz[])
 {
   PetscInt rstart, rend, cstart, cend;
@@ -71,7 +70,7 @@ static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
   PetscFunctionReturn(0);
 }
 
-/* The Jacobian of c_I and a matrix below it in one, refilled while the patterns stay */
+/* Stacks the Jacobian of c_I and `lower`; refills the matrix while the patterns stay */
 static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
@@ -101,7 +100,7 @@ static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
   PetscFunctionReturn(0);
 }
 
-/* One Jacobian, or none, as it is */
+/* Takes a single Jacobian, or none, without a copy */
 static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
 {
   PetscFunctionBegin;
@@ -113,7 +112,7 @@ static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
   PetscFunctionReturn(0);
 }
 
-/* What is below the rows of c_I: equality constraints that are condensed, norm terms, or NULL: nothing */
+/* The matrix below the rows of c_I: condensed equality constraints, norm terms, or NULL */
 static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 {
   if (ip->me && ip->prox.condensed) {
@@ -124,7 +123,7 @@ static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
   return ip->terms.n ? ip->terms.T : NULL;
 }
 
-/* Weights of the rows below. A row that hardly moves anything counts as no more than 100 times as stiff as the mean. */
+/* Weights of the lower rows. A row with very small entries is limited to 100 times the mean stiffness. */
 static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -150,7 +149,7 @@ static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
   PetscFunctionReturn(0);
 }
 
-/* The local part of v into that of all weights, from one entry on */
+/* Copies the local part of v to the vector of all weights, from local entry `first` on */
 static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
 {
   const PetscScalar *from;
@@ -167,7 +166,7 @@ static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
   PetscFunctionReturn(0);
 }
 
-/* A copy of v, whose layout is another's only if the problem is another */
+/* Keeps a copy of v; recreated if its layout changed */
 static PetscErrorCode RowsKeep(Vec v, Vec *copy)
 {
   PetscFunctionBegin;
@@ -176,7 +175,7 @@ static PetscErrorCode RowsKeep(Vec v, Vec *copy)
   PetscFunctionReturn(0);
 }
 
-/* Weights of both kinds in one vector */
+/* Joins the weights of upper and lower rows in one vector */
 static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -194,7 +193,7 @@ static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
   PetscFunctionReturn(0);
 }
 
-/* The rows at the present point, without weights */
+/* Takes the rows at the present point, without weights */
 PetscErrorCode IPRowsTake(Tao tao)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
@@ -209,7 +208,7 @@ PetscErrorCode IPRowsTake(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Rows and weights for the weights D of the inequality constraints, NULL where there are none */
+/* Updates rows and weights; D: weights of the inequality constraints, NULL if there are none */
 PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;

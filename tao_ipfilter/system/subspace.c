@@ -1,11 +1,10 @@
-/* Chooses what PCAMGF filters: the unknowns that the constraints involve; and whether the constraints are stiff enough
-   to need it. */
+/* Chooses the unknowns that PCAMGF filters (those that the constraints involve), and whether the constraints are
+   stiff enough to need the filter. */
 #include "systemimpl.h"
 
-/* The unknowns whose columns of J are not negligible: rows of this rank, |J_ij| > threshold max|J| for some i */
-PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
+/* Local unknowns with a column of J that is not negligible: |J_ij| > threshold max|J| for some i */
+PetscErrorCode IPSubspaceOf(Mat J, IS *is)
 {
-  TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   Vec                mark;
   const PetscScalar *a;
   PetscReal          local = 0.0, largest;
@@ -26,7 +25,7 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
       PetscCall(MatGetRow(J, i, &nc, &cols, &v));
       for (PetscInt k = 0; k < nc; k++) {
         if (!pass) local = PetscMax(local, PetscAbsScalar(v[k]));
-        else if (PetscAbsScalar(v[k]) > ip->opt.filter_threshold * largest)
+        else if (PetscAbsScalar(v[k]) > IP_FILTER_THRESHOLD * largest)
           PetscCall(VecSetValue(mark, cols[k], 1.0, INSERT_VALUES));
       }
       PetscCall(MatRestoreRow(J, i, &nc, &cols, &v));
@@ -48,7 +47,8 @@ PetscErrorCode IPSubspaceOf(Tao tao, Mat J, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* The filter of the present Jacobian. The IS object stays as long as its entries do, so that PCAMGF recognizes it */
+/* Updates the filter for the present Jacobian. The IS object stays the same as long as its entries do, so that
+   PCAMGF recognizes it */
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -60,7 +60,7 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionBegin;
   if (cond->filter && cond->filter_id == rows->stamp.value_id && cond->filter_state == rows->stamp.value_state)
     PetscFunctionReturn(0);
-  PetscCall(IPSubspaceOf(tao, rows->J, &filter));
+  PetscCall(IPSubspaceOf(rows->J, &filter));
   cond->filter_id    = rows->stamp.value_id;
   cond->filter_state = rows->stamp.value_state;
   if (cond->filter) PetscCall(ISEqual(filter, cond->filter, &same));
@@ -71,8 +71,8 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Marks the unknowns of a set in v by irregular numbers (squares), so that couplings to them do not cancel. Numbers
-   that are linear in the index would vanish under a difference operator */
+/* Marks the unknowns of a set in v by irregular numbers (squares), so that couplings to them do not cancel; numbers
+   linear in the index would vanish under a difference operator */
 static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
   const PetscReal golden = 0.6180339887498949;
@@ -91,7 +91,7 @@ static PetscErrorCode SubspaceMark(IS set, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* The unknowns of a set with those that A couples to them */
+/* The unknowns of a set, and those coupled to them by A */
 PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
 {
   const PetscReal    weak = 1e-8;
@@ -104,7 +104,7 @@ PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &coupled));
   PetscCall(SubspaceMark(set, marked));
   PetscCall(MatMult(A, marked, coupled));
-  PetscCall(VecISSet(coupled, set, PETSC_MAX_REAL)); /* whatever becomes of their own couplings */
+  PetscCall(VecISSet(coupled, set, PETSC_MAX_REAL)); /* the set's own unknowns are always included */
   PetscCall(MatGetDiagonal(A, marked));
   PetscCall(VecGetOwnershipRange(marked, &rstart, NULL));
   PetscCall(VecGetLocalSize(marked, &n));
@@ -122,8 +122,8 @@ PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* Largest (J^T D J)_ii / H_ii: how much stiffer than the Hessian the constraints make an unknown. A row that only the
-   constraints hold counts as infinite. */
+/* ratio: largest (J^T D J)_ii / H_ii, the factor by which the constraints stiffen an unknown; infinite for a row
+   that only the constraints hold */
 static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -155,8 +155,7 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionReturn(0);
 }
 
-/* Switches the filter of a PCAMGF on where J^T D J has become stiff against H, off where it has not; counts the
-   systems */
+/* Switches the filter of a PCAMGF on if J^T D J is stiff relative to H, else off; counts the systems */
 PetscErrorCode IPSubspaceSwitch(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

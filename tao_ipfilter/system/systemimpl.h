@@ -1,6 +1,6 @@
 /*
-   The map of tao_ipfilter/system: the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter.
-   Every file builds on those before it, and on the folders below.
+   tao_ipfilter/system, the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter. Files are in the order
+   in which they depend on each other; they use the folders below.
 */
 #ifndef IPFILTER_SYSTEMIMPL_H
 #define IPFILTER_SYSTEMIMPL_H
@@ -20,7 +20,7 @@ PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, Pets
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPSubspaceOf(Tao, Mat, IS *);
+PETSC_INTERN PetscErrorCode IPSubspaceOf(Mat, IS *);
 PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, Mat, IS, IS *);

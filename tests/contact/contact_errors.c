@@ -75,12 +75,8 @@ int main(int argc, char **argv)
   PetscCall(Attempt(dm, 1, &unknown, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 2, same, NULL, NULL, PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &good, NULL, NULL, PETSC_FALSE));
-  PetscCall(Attempt(dm, 1, &good, "-contact_search_distance", "-1", PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &good, "-contact_search_depth", "-1", PETSC_TRUE));
   PetscCall(Attempt(dm, 1, &good, "-contact_quadrature", "9", PETSC_TRUE));
-  PetscCall(Attempt(dm, 1, &good, "-contact_normal_cosine", "0.5", PETSC_TRUE));
-  PetscCall(Attempt(dm, 1, &good, "-contact_overlap_drop", "2", PETSC_TRUE));
-  PetscCall(Attempt(dm, 1, &good, "-contact_row_drop", "-2", PETSC_TRUE));
   PetscCall(DMDestroy(&dm));
   PetscCall(PetscFinalize());
   return 0;

@@ -464,7 +464,7 @@ int main(int argc, char **argv)
       output_file: output/contact_gap_node.out
 
    test:
-      suffix: long
+      suffix: idle
       nsize: 5
       args: -cells 41 -idle_ranks
 

@@ -1,4 +1,5 @@
-"""Holds the list of options that are ours, in src/options/known.c, against the sources that ask for them: what stands on one side only is printed."""
+"""Holds the list of options that are ours, in src/options/known.c, against the sources that ask for them: what stands on one side only is printed. Each must be set
+by a test, an options file, a measurement or a page."""
 import glob
 import os
 import re
@@ -14,14 +15,17 @@ def code(*patterns):
 
 sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c", "apps/*.c")
 asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"', sources)) | {"tao_ipfilter_" + name for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
-calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList|Viewer)\([^"();]*"-(\w+)"', sources)
+calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList)\([^"();]*"-(\w+)"', sources)
 known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]
 listed = re.findall(r'"(\w+)"', known)
-print("options found:", "many" if len(asked) > 80 else len(asked))
+print("options: at most 70" if len(listed) <= 70 else "options: %d" % len(listed))
 print("the list is sorted, without repetition:", "yes" if listed == sorted(set(listed)) else "NO")
 print("asked for, but not in the list:", ", ".join(sorted(asked - OF_PETSC - set(listed))) or "none")
 print("in the list, but not asked for:", ", ".join(sorted(set(listed) - asked)) or "none")
-lists = {"Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words", "FList": "Words", "Viewer": "Viewers"}
+lists = {"Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words", "FList": "Words"}
 kinds = {kind: re.findall(r'"(\w+)"', re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1]) for kind in set(lists.values())}
 print("of another kind than asked for:", ", ".join(sorted({name for call, name in calls if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
 print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name for _, name in calls})) or "none")
+users = "".join(open(path, errors="replace").read() for folder in ("tests", "share") for path in glob.glob(os.path.join(TOP, folder, "**", "*.*"), recursive=True)
+                if path.endswith((".c", ".sh", ".py", ".opts", ".yaml", ".md")) and not path.endswith("changelog.md")) + open(os.path.join(TOP, "README.md")).read()
+print("set by no test and no page:", ", ".join(name for name in listed if not re.search(r"(-|\b)%s\b" % name if name.startswith(("tao_", "pc_amgf_", "contact_")) else r"-%s\b" % name, users)) or "none")

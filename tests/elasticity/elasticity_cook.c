@@ -127,17 +127,18 @@ int main(int argc, char **argv)
 {
   MaterialType     type    = MATERIAL_LINEAR;
   ElementType      element = ELEMENT_FULL;
-  PetscInt         order   = 1;
+  PetscInt         order = 1, nmeshes = 2;
   const Published *known;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(ProblemOptions(&type, &element));
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-order", &order, NULL));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-meshes", &nmeshes, NULL));
   known = &published[type];
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, Poisson's ratio %g, %s\n", MaterialTypes[type], (double)known->poisson,
     ElementTypes[element]));
-  for (PetscInt k = 0; k < 2; ++k) {
+  for (PetscInt k = 0; k < nmeshes; ++k) {
     PetscReal value;
 
     PetscCall(Solve(type, element, meshes[k], &value));
@@ -176,9 +177,15 @@ int main(int argc, char **argv)
          args: -material neohookean -element bbar
       test:
          suffix: order2
+         args: -order 2 -element bbar -meshes 1 -material {{linear neohookean}separate output}
+      test:
+         suffix: order2_long
          args: -order 2 -element bbar -material {{linear neohookean}separate output}
       test:
          suffix: tetrahedra
+         args: -tetrahedra -order 2 -element bbar -meshes 1 -material {{linear neohookean}separate output}
+      test:
+         suffix: tetrahedra_long
          args: -tetrahedra -order 2 -element bbar -material {{linear neohookean}separate output}
 
 TEST*/

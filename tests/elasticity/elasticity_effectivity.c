@@ -7,11 +7,7 @@ static char help[] =
 #define LEVELS 3
 
 static const char *const Problems[] = {"cube", "sphere", "beam", "Problem", "PROBLEM_", NULL};
-typedef enum {
-  PROBLEM_CUBE,
-  PROBLEM_SPHERE,
-  PROBLEM_BEAM
-} Problem;
+typedef enum { PROBLEM_CUBE, PROBLEM_SPHERE, PROBLEM_BEAM } Problem;
 
 typedef struct {
   Problem     problem;

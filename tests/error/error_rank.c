@@ -157,9 +157,7 @@ static PetscErrorCode TestMemory(void)
 /* As many cubes as it takes for a file to be distributed to three ranks */
 static PetscErrorCode WriteBricks(const char file[])
 {
-  enum {
-    N = 5
-  };
+  enum { N = 5 };
   char  *text, *at;
   size_t room = 64 * (N + 1) * (N + 1) * (N + 1) + 64 * N * N * N + 256;
 

@@ -1,4 +1,5 @@
 """Scenes for follower.sh, and their answers: python follower.py write|judge."""
+import functools
 import sys
 
 from summaries import load, say
@@ -61,7 +62,7 @@ SCENES = {
 
 def root(function, a, b):
     """By bisection"""
-    for _ in range(200):
+    for _ in range(60):
         middle = (a + b) / 2
         a, b = (middle, b) if function(a) * function(middle) > 0 else (a, middle)
     return (a + b) / 2
@@ -74,7 +75,8 @@ def stresses(radial, hoop):
     return stress(radial), stress(hoop)
 
 
-def blown(pressure, n=200):
+@functools.cache
+def blown(pressure, n=60):
     """Displacement inside of the sphere: the radial problem by shooting, fourth order Runge-Kutta"""
 
     def rates(R, r, P):
@@ -101,6 +103,7 @@ def blown(pressure, n=200):
     return now - 1
 
 
+@functools.cache
 def column(pressure):
     """Stretches along and across of a block under a pressure at its ends alone"""
     across = lambda along: root(lambda hoop: stresses(along, hoop)[1], 0.5, 2)

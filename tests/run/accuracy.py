@@ -1,6 +1,7 @@
 """Holds runs with -accuracy against exact solutions: the cylinder's force at its approach is Hertz's."""
 import math
 
+import cantilever
 from hertz_solution import Cylinder
 from summaries import load, say
 
@@ -76,8 +77,8 @@ error = abs(abs(run["steps"][-1]["pairs"][0]["force"][0]) / pin_force - 1)
 say("pin: the target is reached, and the true force is within twice the error stated", run["accuracy"]["reached"] and error <= 2 * run["accuracy"]["levels"][-1]["error"], (error, run["accuracy"]))
 say("pin: a target out of reach is refused", refused["exit_code"] == 4 and not refused["accuracy"]["reached"], refused["accuracy"])
 
-beam, fine = load("cantilever"), load("cantilever_fine")
-truth = fine["steps"][-1]["energy"] + (fine["steps"][-1]["energy"] - beam["steps"][-1]["energy"]) / 3
+beam = load("cantilever")
+truth = cantilever.ENERGY + (cantilever.ENERGY - beam["steps"][-1]["energy"]) / 3
 error = abs(beam["steps"][-1]["energy"] / truth - 1)
 say("cantilever: the energy is off by twice the target at most", beam["accuracy"]["reached"] and error <= 2e-2 and len(beam["accuracy"]["levels"]) >= 2, error)
 
@@ -86,8 +87,8 @@ levels = raised["accuracy"]["levels"]
 error = force_error(raised)
 say("cylinder, order 2 in place of refinement: the target is reached with a sixth of the unknowns, the true force to half of it", raised["accuracy"]["reached"] and len(levels) == 2 and 6 * raised["dofs"] < 130050 and error < 5e-4 and error <= 2 * levels[-1]["error"], (error, levels))
 
-tip, tip_raised, tip_fine = ([[p["displacement"][2] for p in load(name)["steps"][-1]["probes"]] for name in ("tip", "tip_raised", "tip_fine")])
+tip, tip_raised = ([[p["displacement"][2] for p in load(name)["steps"][-1]["probes"]] for name in ("tip", "tip_raised")])
 for name, of, target in (("tip", tip, 2e-2), ("order 2", tip_raised, 3e-3)):
     run = load({"tip": "tip", "order 2": "tip_raised"}[name])["accuracy"]
-    error = max(abs(a / b - 1) for a, b in zip(of, tip_fine))
+    error = max(abs(a / b - 1) for a, b in zip(of, cantilever.TIP))
     say("cantilever, displacements of two points, %s: within twice the target" % name, run["reached"] and error <= 2 * target, (error, run["levels"]))

@@ -62,5 +62,5 @@ YAML
 cp squash.yaml gentle.yaml
 run squash
 run gentle -load_steps 10
-"$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 | grep -c 'contact: load step 1 failed: the prescribed displacements turn an element inside out at the start'
+"$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 | grep -c 'contact: load step 1 failed: the prescribed displacements invert an element at the start of the load step'
 "$PYTHON" "$AMGF_DIR/tests/step/step_models.py"

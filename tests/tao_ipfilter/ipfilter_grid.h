@@ -15,14 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-  GRID_OBSTACLE,
-  GRID_TORSION,
-  GRID_BEARING,
-  GRID_SIGNORINI,
-  GRID_SURFACE,
-  GRID_NPROBLEMS
-};
+enum { GRID_OBSTACLE, GRID_TORSION, GRID_BEARING, GRID_SIGNORINI, GRID_SURFACE, GRID_NPROBLEMS };
 
 #define GRID_NONE 1e300 /* no bound */
 

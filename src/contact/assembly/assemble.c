@@ -3,7 +3,7 @@
 
 /* Entries smaller than this part of the row's largest are rounding errors of exact zeros */
 #define ENTRY_DROP 1e-14
-/* The same for a row of a smooth pair, which is a sum of more terms */
+/* the same for a row of a smooth pair, whose entries are sums of more terms */
 #define SLOPE_DROP 1e-12
 
 PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
@@ -37,7 +37,7 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* Contributions of the vertices and normals of a smooth pair's facet to four rows */
+/* Adds the derivatives of one facet's four rows by the facet's vertices and by the normals there (smooth pairs) */
 PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
   const PetscInt bend[4], const ContactSlopes *slopes)
 {
@@ -66,13 +66,14 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscFunctionReturn(0);
 }
 
-/* The couplings of all rows with vertices, one or three matrices of the same pattern */
+/* Couplings of all rows with vertices, summed over facets and ranks: one matrix, or three of the same pattern (one
+   per component) */
 typedef struct {
   PetscInt dim;
   Mat      mat[3];
 } Coupling;
 
-/* One row of the couplings; factor: multiplies each value */
+/* One row of the couplings; each value is multiplied by factor */
 typedef struct {
   PetscInt           n;
   const PetscInt    *node;
@@ -80,7 +81,7 @@ typedef struct {
   PetscReal          factor[3];
 } CouplingRow;
 
-/* Adds up over facets and ranks */
+/* Sums the assembly's entries over facets and ranks */
 static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
   Vec      u;
@@ -93,7 +94,7 @@ static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupl
   coupling->dim = as->dim;
   if (as->dim > 1) PetscCall(PetscMalloc2(as->n, &row, as->n, &node));
   for (PetscInt c = 0; c < as->dim; ++c) {
-    if (as->dim > 1) { /* the preallocation sorts them */
+    if (as->dim > 1) { /* the preallocation of the first matrix sorts them */
       PetscCall(PetscArraycpy(row, as->row, as->n));
       PetscCall(PetscArraycpy(node, as->node, as->n));
     }
@@ -115,7 +116,8 @@ static PetscErrorCode CouplingDestroy(Coupling *coupling)
   PetscFunctionReturn(0);
 }
 
-/* Component c of the row's vectors is value[c], or value[0] for all, times factor[c] */
+/* Gets a row of the couplings. Component c of its vectors is value[c] (or value[0] if all share the normal) times
+   factor[c]. */
 static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
   CouplingRow *r)
 {
@@ -135,7 +137,7 @@ static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row,
   PetscFunctionReturn(0);
 }
 
-/* kept[k]: local rows whose 1-norm, divided by the mass, is not below row_drop of the largest of all ranks */
+/* kept[k]: local rows whose 1-norm, divided by the mass, is not below CONTACT_ROW_DROP of the largest of all ranks */
 static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
@@ -161,13 +163,13 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, contact->comm));
   *nkept = 0;
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
-    if (norm[i] > 0.0 && norm[i] >= contact->row_drop * largest) kept[(*nkept)++] = i;
+    if (norm[i] > 0.0 && norm[i] >= CONTACT_ROW_DROP * largest) kept[(*nkept)++] = i;
   }
   PetscCall(PetscFree(norm));
   PetscFunctionReturn(0);
 }
 
-/* One row of J, without entries that are zero up to rounding */
+/* Computes one row of J, without entries that are zero up to rounding */
 static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
   PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
@@ -194,7 +196,7 @@ static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, 
   PetscFunctionReturn(0);
 }
 
-/* Longest row of a matrix, on this rank */
+/* Length of the longest row of a matrix on this rank */
 static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
 {
   PetscInt rstart, rend;
@@ -221,8 +223,8 @@ static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEnt
   PetscFunctionReturn(0);
 }
 
-/* Turns the derivative of int phi_A gap into that of the mean gap times the present covered area: a smaller covered
-   area must not count as a smaller gap. Where the mean gap is zero, as under pressure, both are the same. */
+/* Turns the derivative of int phi_A gap into that of (mean gap) x (covered area held fixed). Otherwise a shrinking
+   covered area would count as a shrinking gap. Where the mean gap is zero, as under pressure, both are equal. */
 static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
 {
   PetscInt           n;
@@ -249,8 +251,8 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Derivatives of the gaps of smooth pairs, not divided by the masses: with patches of fixed shape, and with patches
-   that bend. Rows of other pairs are empty */
+/* Derivatives of the gaps of smooth pairs, not yet divided by the masses. rigid: patches keep their shape; bending:
+   patches bend with the normals. Rows of other pairs are empty. */
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
   PetscInt n;
@@ -269,7 +271,7 @@ static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *ri
   PetscFunctionReturn(0);
 }
 
-/* One row of J of a smooth pair; entries that are zero but for rounding are left out */
+/* Gets one row of J of a smooth pair, divided by the mass, without entries that are zero up to rounding */
 static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[],
   PetscScalar entry[])
 {
@@ -292,7 +294,7 @@ static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, Pet
   PetscFunctionReturn(0);
 }
 
-/* The space for rows of the couplings, and of the slopes if there are any */
+/* Length of the longest row, for work arrays */
 static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, PetscInt *space)
 {
   PetscInt longest = 0;
@@ -304,8 +306,8 @@ static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, Pet
   PetscFunctionReturn(0);
 }
 
-/* J of the kept rows: first counts the entries of each row, then inserts them. slopes: used for smooth pairs unless
-   NULL */
+/* Assembles J for the kept rows: first counts the entries of each row, then inserts them. slopes: rows of smooth
+   pairs; NULL: none */
 static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
   const PetscInt kept[], Mat *J)
 {
@@ -356,7 +358,7 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   PetscFunctionReturn(0);
 }
 
-/* Gap, mass and vertices of the kept rows */
+/* Fills gap, mass and vertices of the kept rows */
 static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[],
   ContactLinearization lin)
 {
@@ -392,7 +394,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* J, and the further derivatives if pairs are smooth */
+/* Sets J, and lin->derivative if there are smooth pairs */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {
@@ -408,8 +410,8 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   PetscFunctionReturn(0);
 }
 
-/* Transforms from forces on the surfaces' vertices to forces on nodes of order 2; areas are shared as those of the
-   facets. The derivative of a gap that follows the nodes uses the transform, too. */
+/* Converts forces on vertices of the facets to forces on nodes of order 2, in J and the other matrices. The areas of
+   the rows are those of the facets. */
 static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
 {
   Vec          facets;

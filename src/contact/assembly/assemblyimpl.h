@@ -1,5 +1,5 @@
 /*
-   The rows of the gap: which there are, and how a linearization is put together.
+   Contact rows: which exist, and how the linearized gap is assembled.
 */
 #ifndef ASSEMBLYIMPL_H
 #define ASSEMBLYIMPL_H
@@ -8,52 +8,54 @@
 
 /* The object */
 typedef struct {
-  char          *name; /* of the pair, for messages */
+  char          *name; /* name of the pair, for messages */
   ContactSurface mortar, nonmortar;
-  ContactRing    mortar_ring, nonmortar_ring; /* where the surfaces are patched */
+  ContactRing    mortar_ring, nonmortar_ring; /* facets around the surfaces, for smooth pairs */
   GapType        gap;
-  PetscBool      rubs;      /* whether the pair's slip is asked for */
-  PetscBool      sticks;    /* whether none is allowed */
-  PetscInt   nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; known
-                              once there are rows of slip */
-  PetscBool  smooth;        /* whether the gap is measured between smooth surfaces */
+  PetscBool      rubs;          /* whether the pair has friction */
+  PetscBool      sticks;        /* whether friction allows no slip (`stick: true`) */
+  PetscInt       nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; set
+                               after the slip rows were created */
+  PetscBool      smooth;        /* whether the gap is measured between smooth surfaces */
   PetscReal  bulge;    /* largest distance of the smooth surfaces from the undeformed facets, sum of both faces [length]
                         */
-  PetscBool  dual;     /* mortar gaps by dual functions, whether the pair asks for them or not */
-  PetscReal  given;    /* the pair's own search distance; 0: from the size of the faces [length] */
+  PetscBool  dual;     /* use dual functions for mortar gaps even if the pair does not ask for them */
+  PetscReal  given;    /* search distance of the scene; 0: computed from the size of the faces [length] */
   PetscInt  *row;      /* [4 nonmortar facets] global row of each of the facets' vertices */
   PetscReal *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */
-  PetscReal  distance; /* facets farther apart than this do not pair [length] */
-  PetscReal  depth;    /* facets that penetrate deeper than this do not pair: they are on the other side of a body
-                          [length] */
-  PetscInt   nfacing;  /* of the last contact update, on this rank: overlapping facets, or vertices opposite a facet */
+  PetscReal  distance; /* search distance: facets that are farther apart do not pair [length] */
+  PetscReal  depth;    /* search depth: facets that penetrate deeper do not pair, as they are on the far side of a
+                          body [length] */
+  PetscInt   nfacing;  /* in the last contact update, on this rank: overlapping facet pairs, or vertices opposite a
+                          facet */
 } ContactPairData;
 
-/* Whether patches follow the bending of order-2 faces between their nodes; else their vertices move with the mean of
-   it */
+/* Whether patches follow the bending of order-2 faces between their nodes. Otherwise vertices move with the mean
+   displacement (trace.c). */
 static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 {
   return (PetscBool)(pair->smooth && pair->gap != GAP_NODE);
 }
 
-/* All rows there may be, before any is dropped: for each pair in turn, the nonmortar vertices this rank owns */
+/* All possible rows, before any is dropped: for each pair in turn, the nonmortar vertices that this rank owns */
 typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p */
-  PetscInt  *vertex;         /* [nlocal] local DMPlex points */
-  PetscInt  *held;   /* [nlocal] bits of the axes without slip, plus 8 times (1 + the number of an inclined plane across
-                      which there is none); NULL: not computed yet */
-  PetscReal *normal; /* [3 nlocal] averaged unit normals */
-  PetscReal *x;      /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;   /* int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight; /* the same, with that of hanging vertices passed on to their neighbours */
-  Mat        hanging; /* target rows of the sums of each row; NULL: no vertex hangs, each row keeps its own */
+  PetscInt  *vertex;         /* [nlocal] local DMPlex points of the nonmortar vertices */
+  PetscInt  *held;    /* [nlocal] directions without slip: a bit for each axis, plus 8 (1 + number of the symmetry
+                        plane) for an inclined plane; NULL: not computed yet */
+  PetscReal *normal;  /* [3 nlocal] averaged unit normals */
+  PetscReal *x;       /* [3 nlocal] coordinates of the deformed vertices [length] */
+  Vec        mass;    /* int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight;  /* the same, with the masses of hanging vertices given to the vertices that they depend on */
+  Mat        hanging; /* distributes the sums of hanging rows; NULL: no vertex hangs */
 } ContactRows;
 
-/* Derivatives of the normals of all smooth surfaces by the displacement; a rank has those of its own facets' corners */
+/* Derivatives of the normals of all smooth surfaces by the displacement. A rank stores the normals at the corners of
+   its own facets. */
 typedef struct {
   PetscInt            nlocal; /* normals */
-  ContactNormalSlopes blocks; /* the same nodes in the same order at every displacement */
-  Mat                 slopes; /* three rows a normal, columns are the DM's global rows; NULL where no pair is smooth */
+  ContactNormalSlopes blocks; /* nodes and their order do not depend on the displacement */
+  Mat                 slopes; /* three rows per normal, columns are global rows of the DM; NULL: no pair is smooth */
 } ContactSmoothNormals;
 
 /* Direction along which a mortar gap is measured */
@@ -62,32 +64,32 @@ typedef enum {
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
 } ContactNormals;
 
+#define CONTACT_FEATURE_ANGLE 35.0   /* edges between undeformed facets that make more degrees stay sharp */
+#define CONTACT_NORMAL_COSINE -0.174 /* facets pair when n1.n2 is at most this */
+#define CONTACT_OVERLAP_DROP  1e-8   /* overlaps below this part of the smaller facet's area are left out */
+#define CONTACT_ROW_DROP      1e-5   /* rows whose 1-norm is below this part of the largest row's are left out */
+
 struct _n_Contact {
   DM                       dm;
   MPI_Comm                 comm;
   PetscInt                 npairs;
   ContactPairData         *pairs;
-  PetscBool                rubs; /* whether any of them does */
+  PetscBool                rubs; /* whether any pair has friction */
   ContactRows              rows;
   ContactNormals           normals;
-  PetscReal                feature_angle; /* edges sharper than this stay sharp [degrees] */
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
-  PetscBool                smoothed;      /* whether it is known which pairs are curved */
+  PetscBool                smoothed;      /* whether ContactSmoothDeform() has found the curved pairs */
   ContactSmoothNormals     bends;
-  Mat         trace; /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
-  ContactRule rule;  /* of the triangles that overlaps are cut into */
-  PetscReal   reach; /* least search distance of pairs without one of their own [length] */
-  PetscReal
-    reach_depth;    /* least search depth of every pair, whatever the angle of the normals; 0: the usual one [length] */
-  PetscReal depth;  /* 0: from the thickness of the bodies */
-  PetscReal cosine; /* facets pair when n1.n2 is at most this */
-  PetscReal overlap_drop; /* relative to the smaller facet's area */
-  PetscReal row_drop;     /* relative to the largest row's 1-norm */
-  PetscInt  nrows;        /* of the last linearization, on all ranks */
+  Mat         trace;     /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
+  ContactRule rule;      /* of the triangles that overlaps are cut into */
+  PetscReal   reach;     /* least search distance of pairs without one of their own [length] */
+  PetscReal reach_depth; /* least search depth of all pairs, for any angle of the normals; 0: the usual one [length] */
+  PetscReal depth;       /* 0: from the thickness of the bodies */
+  PetscInt  nrows;       /* of the last linearization, on all ranks */
 };
 
-/* rows.c: the rows there may be */
+/* rows.c: all possible rows */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 
@@ -96,19 +98,19 @@ PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactHangingRowsVector(Contact, Vec sums);
 PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 
-/* surface_normals.c: numbers the normals of the pairs that are patched, and has their derivatives at the rings'
+/* surface_normals.c: global numbers of the normals of smooth surfaces, and their derivatives at the current
    displacement */
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsUpdate(Contact);
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsDestroy(Contact);
 
-/* smooth.c: which pairs are curved, and their smooth surfaces */
+/* smooth.c: finds the curved pairs and computes their smooth surfaces */
 PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
 PETSC_INTERN PetscErrorCode ContactSmoothReset(Contact);
 
-/* entries.c: entries of a matrix, as they come; added up where they repeat */
+/* entries.c: matrix entries in any order; repeated ones are added */
 typedef struct {
-  PetscInt     n, size; /* in use, and space for them */
+  PetscInt     n, size; /* entries used; entries allocated */
   PetscInt    *row, *column;
   PetscScalar *value;
 } ContactEntries;
@@ -117,25 +119,24 @@ PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, Pe
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 
-/* held.c: computes rows->held once: the directions in which rows of pairs with friction have no slip */
+/* held.c: computes rows->held once: the directions in which rows with friction have no slip */
 PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 
-/* slip.c: the rows of slip that go with those of the gap */
+/* slip.c: the slip rows that belong to the rows of the gap */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
-/* assemble.c: one contact update under construction. entries: (row, node, value), added up where they repeat */
+/* assemble.c: data of a contact update under construction. entries: (row, node, value); repeated ones are added */
 typedef struct {
-  Vec       gap;        /* int phi_A gap [length^3] */
-  Vec       cover;      /* int phi_A over what smooth mortar pairs cover [length^2] */
-  PetscInt  n, size;    /* entries in use, and space for them */
-  PetscInt *row, *node; /* global row, global number of the vertex */
-  PetscInt  dim;        /* 1: one value an entry, since all share the row's normal; 3: a vector */
-  PetscScalar
-    *value[3]; /* int phi_A (N2 - N1) [length^2]; times the normal it is the derivative of the gap by the vertex's
+  Vec          gap;        /* int phi_A gap [length^3] */
+  Vec          cover;      /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
+  PetscInt     n, size;    /* entries used; entries allocated */
+  PetscInt    *row, *node; /* global row, global number of the vertex */
+  PetscInt     dim;        /* 1: one value per entry, multiplied by the row's normal; 3: a vector per entry */
+  PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]; times the normal: derivative of the gap by the vertex's
                   displacement */
 
   ContactEntries rigid, by_cover, by_node,
-    by_bend; /* of smooth pairs, as in ContactSlopes: three columns a vertex or a normal */
+    by_bend; /* derivatives of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
 } ContactAssembly;
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[],

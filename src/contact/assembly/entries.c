@@ -1,7 +1,7 @@
-/* Assembles a matrix from entries in any order, for rows of any rank */
+/* Assembles a matrix from entries in any order, for rows on any rank */
 #include "assemblyimpl.h"
 
-/* value: of three columns for each of n blocks */
+/* Adds a row's entries for n blocks of three columns each */
 PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],
   const PetscReal value[])
 {
@@ -21,7 +21,7 @@ PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Collective. Uses this rank's numbers of rows and columns; destroys the entries' indices */
+/* Collective. Assembles a matrix from the entries of all ranks; m, n: local sizes. Destroys the entries' indices */
 PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm comm, PetscInt m, PetscInt n, ContactEntries *entries, Mat *mat)
 {
   PetscFunctionBegin;

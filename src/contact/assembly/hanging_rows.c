@@ -6,7 +6,7 @@
 #include <mesh.h>
 #include "assemblyimpl.h"
 
-/* The pair's row of every node, plus 1; 0: it has none */
+/* number: 1 + the pair's row at each node; 0: no row */
 static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec number)
 {
   const ContactRows *rows = &contact->rows;
@@ -28,7 +28,7 @@ static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec num
   PetscFunctionReturn(0);
 }
 
-/* Columns of the nodes that hang, in turn; NULL: counts them only */
+/* Lists the columns of the hanging nodes' means in order; NULL: only counts them */
 static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt columns[])
 {
   PetscInt start, end;
@@ -48,7 +48,7 @@ static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt colu
   PetscFunctionReturn(0);
 }
 
-/* number at the nodes that hanging ones are the mean of, in the order of the list */
+/* gathered: values of `number` at the nodes that hanging nodes depend on, in the order of the list */
 static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
 {
   PetscInt   n, *columns;
@@ -69,7 +69,7 @@ static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
   PetscFunctionReturn(0);
 }
 
-/* Target rows of the pair's rows: themselves; for hanging vertices the others' rows */
+/* Fills the matrix that distributes rows: 1 for ordinary rows; weights of the means for rows of hanging vertices */
 static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat share)
 {
   PetscInt           start, end, k = 0;
@@ -98,8 +98,8 @@ static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat s
   PetscFunctionReturn(0);
 }
 
-/* Collective. rows->hanging: NULL if no vertex of the mesh hangs; rows->weight: the masses, with those of hanging
-   vertices passed on */
+/* Collective. Creates rows->hanging (NULL if no vertex of the mesh hangs) and rows->weight, the masses after
+   distribution */
 PetscErrorCode ContactHangingRowsCreate(Contact contact)
 {
   ContactRows *rows = &contact->rows;
@@ -129,7 +129,7 @@ PetscErrorCode ContactHangingRowsCreate(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Moves the sums of rows, one value a row, to their target rows */
+/* Distributes a vector with one value per row like the rows of hanging vertices */
 PetscErrorCode ContactHangingRowsVector(Contact contact, Vec sums)
 {
   Vec own;

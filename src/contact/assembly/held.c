@@ -12,17 +12,18 @@
 #include <string.h>
 #include "assemblyimpl.h"
 
-static const PetscReal held_rounding = 1e-6; /* of places on one plane, relative to the size of the face */
+static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
+                                                face */
 
-/* Where vertices of a mortar face are held along an axis */
+/* Places where vertices of a mortar face are held along an axis */
 typedef struct {
-  PetscReal motion, place; /* along the axis [length] */
+  PetscReal motion, place; /* prescribed motion (number of the displacement), and coordinate along the axis [length] */
 } HeldPlace;
 
 typedef struct {
-  PetscBool  whole; /* the face as a whole, by this motion */
+  PetscBool  whole; /* all vertices of the face are held, by this motion */
   PetscInt   motion;
-  PetscInt   n; /* places of all ranks, each once */
+  PetscInt   n; /* places of all ranks, without repetition */
   HeldPlace *places;
   PetscReal  rounding; /* [length] */
 } HeldFace;
@@ -47,7 +48,7 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
   *n = kept;
 }
 
-/* Gathers the places of all ranks */
+/* Gathers the places of all ranks on every rank */
 static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 {
   PetscMPIInt size, n, *counts, *first;
@@ -73,8 +74,8 @@ static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
   PetscFunctionReturn(0);
 }
 
-/* The displacement that moves a rigid body along an axis; CONTACT_AT_REST; or CONTACT_FREE if it turns or forces drive
-   it. false: the body is not rigid */
+/* Gets what prescribes a rigid body's motion along an axis: the number of a displacement, CONTACT_AT_REST, or
+   CONTACT_FREE if the body can rotate or is driven by forces. Returns false if the body is not rigid. */
 static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
   const size_t length = strcspn(face, ".");
@@ -97,7 +98,7 @@ static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt ax
 
 static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, HeldFace *face)
 {
-  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* negative of the least, largest */
+  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds: negative of the smallest, and the largest */
 
   PetscFunctionBegin;
   *face       = (HeldFace){.rounding = held_rounding * PetscSqrtReal(s->area)};
@@ -122,8 +123,8 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
 }
 
 /*
-   held: the face is held along the axis at this coordinate, that of a vertex of the other face; alike: by the same
-   motion as that vertex
+   For a vertex of the other face with this motion and coordinate: whether the mortar face is held along the axis at
+   that coordinate (held), and by the same motion (alike)
 */
 static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
 {
@@ -137,8 +138,8 @@ static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place,
 }
 
 /*
-   held: the rows of the pair that have no slip along an axis. frictionless: those of them where the faces slide
-   nevertheless. There are none where the whole nonmortar face is held.
+   held: marks the pair's rows that have no slip along an axis. frictionless: those of them where the faces slide
+   nevertheless. None are marked if the whole nonmortar face is held.
 */
 static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
   Vec held, Vec frictionless)
@@ -164,7 +165,7 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
   PetscFunctionReturn(0);
 }
 
-/* The distance from the origin of the plane across a symmetry plane's normal that vertex i of a surface is on */
+/* Signed distance from the origin, along the symmetry plane's normal, of vertex i of a surface */
 static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisplacement *plane)
 {
   PetscReal n[3] = {plane->normal[0], plane->normal[1], plane->normal[2]};
@@ -183,8 +184,8 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
 }
 
 /*
-   Whether the mortar face does not move across symmetry plane k: it ends on the same plane, or is held as a whole
-   without such a motion. planes: of its vertices, as ContactSurfaceFindPlanes() has them; faces: along each axis
+   Whether the mortar face cannot move across symmetry plane k: it ends on the same plane, or all of it is held without
+   such a motion. planes: from ContactSurfaceFindPlanes() for its vertices; faces: what holds it along each axis
 */
 static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
@@ -215,8 +216,8 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
 }
 
 /*
-   plane: the inclined symmetry plane, from 1, on which a row's vertex is, if the mortar face does not move across
-   it; none where all vertices are on planes
+   plane: marks each row whose vertex is on an inclined symmetry plane with 1 + the plane's number, if the mortar face
+   does not move across it. None are marked if all vertices are on planes.
 */
 static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const HeldFace mortar[3], Vec plane)
 {
@@ -249,8 +250,8 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, con
 }
 
 /*
-   contact->rows.held: bits of the axes along which each row has no slip, and planes; how many rows of each pair are
-   frictionless
+   Computes contact->rows.held, the directions along which rows have no slip, and the number of frictionless rows of
+   each pair
 */
 PetscErrorCode ContactFindHeld(Contact contact)
 {

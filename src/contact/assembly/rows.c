@@ -1,8 +1,9 @@
-/* All possible rows, one for each nonmortar vertex and pair, and their weights. Both stay as long as the mesh does */
+/* All possible rows, one per nonmortar vertex and pair, and their weights. They do not change as long as the mesh
+   does not. */
 #include <petscsf.h>
 #include "assemblyimpl.h"
 
-/* marked[v] = 1 for the vertices of this rank's facets, and for those it owns on facets of other ranks; 0 elsewhere */
+/* marked[v] = 1 for the vertices of this rank's facets, and for owned vertices of other ranks' facets; 0 elsewhere */
 static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints,
   PetscInt marked[])
 {
@@ -36,7 +37,7 @@ static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Global rows of the facets' vertices from the local numbers of the owned ones */
+/* Sets the global rows of the facets' vertices from the local numbers of the owned rows */
 static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p,
   ContactPairData *pair, PetscInt npoints, PetscInt number[])
 {
@@ -52,7 +53,7 @@ static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart,
   PetscFunctionReturn(0);
 }
 
-/* The lumped boundary mass of the undeformed nonmortar faces */
+/* Lumped mass int phi_A of the undeformed nonmortar faces */
 static PetscErrorCode RowsCreateMass(Contact contact)
 {
   ContactRows *rows = &contact->rows;

@@ -6,7 +6,7 @@
 */
 #include "assemblyimpl.h"
 
-/* The unit vector projected onto the plane normal to the normal, scaled to length 1; false if almost nothing is left */
+/* t: the unit vector v projected to the plane normal to n, scaled to length 1; false if almost nothing is left */
 static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])
 {
   const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
@@ -23,8 +23,8 @@ static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal
   return SlipTangentOf(n, v, t);
 }
 
-/* Two unit vectors across a unit normal and each other, of which the one across a plane through the vertex, of that
-   unit normal, is zero; false where the plane is none that the face ends on */
+/* t: two unit tangents at a vertex on a symmetry plane. The one across the plane is set to zero. Returns false if
+   the contact face is parallel to the plane. */
 static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
 {
   if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
@@ -33,8 +33,8 @@ static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane
   return PETSC_TRUE;
 }
 
-/* Two unit vectors across a unit normal and each other; held: bits of the axes along which there is no slip, whose
-   tangents are zero */
+/* t: two unit tangents normal to n and to each other. held: bits of the axes without slip; tangents along these are
+   set to zero */
 static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
 {
   PetscInt  axis = 0;
@@ -52,7 +52,7 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
   }
 }
 
-/* Sets a tangent to zero if the vertex is held mostly along it */
+/* Sets a tangent to zero if its largest component is along a held axis */
 static void SlipDropHeld(PetscInt held, PetscReal t[3])
 {
   const PetscReal half  = 0.5;
@@ -63,7 +63,7 @@ static void SlipDropHeld(PetscInt held, PetscReal t[3])
   for (PetscInt c = 0; c < 3; ++c) t[c] = along > half ? 0.0 : t[c];
 }
 
-/* Of a row: none across what its vertex is held by */
+/* Tangents of a row, without directions in which its vertex is held */
 static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
 {
   const PetscReal *n    = &contact->rows.normal[3 * row];
@@ -81,7 +81,7 @@ static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
   SlipTangents(n, held % 8, t);
 }
 
-/* What a row of the couplings covers: the integral of phi_A over the other side, [length^2] */
+/* Covered area of a row: int phi_A over the mortar side, from its coupling entries [length^2] */
 static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
 {
   PetscReal sum = 0.0;
@@ -90,7 +90,7 @@ static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
   return sum;
 }
 
-/* Entries of the two rows of slip, made from one of the couplings; NULL: counted only */
+/* Computes the two slip rows from a row of the couplings; slip NULL: only counts entries */
 static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to,
   Mat slip, PetscReal *cover)
 {
@@ -112,7 +112,7 @@ static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, c
   PetscFunctionReturn(0);
 }
 
-/* An empty matrix, two rows for each one of J, room for entries where the pair rubs */
+/* Creates an empty matrix with two rows for each row of J, and room for entries in rows with friction */
 static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
 {
   PetscInt rstart, cstart, cend, *diagonal, *offdiagonal;
@@ -139,7 +139,7 @@ static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const Pet
   PetscFunctionReturn(0);
 }
 
-/* lin->slip, lin->tangent and lin->covered of the kept rows; couplings: of rows with vertices, as integrals */
+/* Sets lin->slip, lin->tangent and lin->covered of the kept rows. couplings: integrals of rows with vertices */
 PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
 {
   const PetscScalar *mass;
@@ -160,7 +160,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
     if (!pair->rubs) continue;
     PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
       lin->slip, &lin->covered[k]));
-    /* Dual functions have negative values. SlipCover() adds their sizes and finds too large an area */
+    /* Dual functions have negative values, so that SlipCover(), a sum of magnitudes, would be too large */
     if (pair->gap == GAP_DUAL || pair->dual) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));

@@ -1,12 +1,13 @@
-/* Finds out which pairs have a face that is curved or bends between its nodes, and computes the normals of their
-   smooth surfaces at every displacement. Pairs of plane faces of order 1 cost nothing */
+/* Finds the pairs with a curved face, or with an order-2 face that bends between its nodes, and computes the normals
+   of their smooth surfaces at each displacement. Pairs of plane order-1 faces cost nothing. */
 #include "assemblyimpl.h"
 
-/* A surface is curved if it differs from its facets by more than this part of an edge; less is rounding in its file */
+/* A surface is curved if it differs from its facets by more than this fraction of an edge; less is rounding of the
+   mesh file */
 #define CURVED 1e-6
 
-/* The normals at the surface's corners; and how far the patches stand off their facets at most, as a length and as a
-   part of the edges */
+/* Computes the normals at the surface's corners. bulge: largest distance of the patches from their facets [length];
+   curvature: the same as a fraction of the edges */
 static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
 {
   PetscReal *normal;
@@ -31,10 +32,10 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Collective. Rings about both faces; removed again if both are plane and of order 1 */
+/* Collective. Creates the rings around both faces, and destroys them again if both are plane and of order 1 */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
-  const PetscReal cosine     = PetscCosReal(contact->feature_angle * PETSC_PI / 180.0);
+  const PetscReal cosine     = PetscCosReal(CONTACT_FEATURE_ANGLE * PETSC_PI / 180.0);
   ContactSurface *surface[2] = {&pair->mortar, &pair->nonmortar};
   ContactRing    *ring[2]    = {&pair->mortar_ring, &pair->nonmortar_ring};
   PetscReal       largest[4] = {0};
@@ -70,8 +71,8 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
-/* Collective. The smooth surfaces at a global displacement vector, of the surfaces already deformed; the first time,
-   finds out which pairs have any */
+/* Collective. Computes the smooth surfaces at a displacement; the surfaces have been deformed already. The first
+   call finds which pairs are smooth. */
 PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
 {
   PetscReal bulge, curvature;
@@ -96,7 +97,7 @@ PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Forgets which pairs are curved, and their smooth surfaces */
+/* Discards the smooth surfaces and which pairs are smooth */
 PetscErrorCode ContactSmoothReset(Contact contact)
 {
   PetscFunctionBegin;

@@ -11,7 +11,7 @@ static void SmoothNormalsGetSides(ContactPairData *pair, ContactSurface *surface
   ring[1]    = &pair->nonmortar_ring;
 }
 
-/* Collective. A rank's normals have numbers that follow one another, pair by pair and side by side */
+/* Collective. Numbers the normals of a rank consecutively, pair by pair and side by side */
 static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
 {
   PetscInt n = 0, next;
@@ -38,8 +38,8 @@ static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Fills in the blocks of all normals, or only counts them; end[i]: where those of normal i of this rank
-   end */
+/* Collective. Computes the derivative blocks of all normals, or only counts them; end[i]: end of the blocks of this
+   rank's normal i */
 static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
 {
   ContactNormalSlopes *blocks = &contact->bends.blocks;
@@ -64,7 +64,7 @@ static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
   PetscFunctionReturn(0);
 }
 
-/* Collective. The pattern of the matrix, from blocks that know their nodes */
+/* Collective. Preallocates the matrix from blocks whose nodes are known */
 static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, const PetscInt end[])
 {
   ContactSmoothNormals *bends = &contact->bends;
@@ -91,7 +91,8 @@ static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Once it is known which pairs are smooth; nothing where none is */
+/* Collective. Creates the matrix of derivatives; call when it is known which pairs are smooth. Does nothing if none
+   is */
 PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
 {
   ContactSmoothNormals *bends = &contact->bends;
@@ -110,7 +111,7 @@ PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Collective. At the displacement of the rings */
+/* Collective. Updates the derivatives to the displacement of the rings */
 PetscErrorCode ContactSmoothNormalsUpdate(Contact contact)
 {
   PetscFunctionBegin;

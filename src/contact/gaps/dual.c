@@ -1,15 +1,13 @@
 /*
-   Functions psi_A = sum_B dual_AB phi_B that are dual to the phi_B of a facet:
-
-     int psi_A phi_B = 0 but for A = B, where it is int phi_A.
-
-   The force of a row then acts at its nonmortar vertex, and on the mortar side about it: a resultant can stand at the
-   edge of a face (B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)). Of a parallelogram the sums are those of products of
-   2 phi_1 - phi_2 along its edges; of a triangle, whose last vertex stands twice, 3 phi_1 - phi_2 - phi_3.
+   Dual functions psi_A = sum_B dual_AB phi_B of a facet: int psi_A phi_B = 0 for A != B and int phi_A for A = B (B. I.
+   Wohlmuth, SIAM J. Numer. Anal. 38 (2000)). With them the force of a row acts at its own nonmortar vertex only, and on
+   the mortar side near it. Therefore a resultant can act at the edge of a face. On a parallelogram the functions are
+   products of 2 phi_1 - phi_2 along the edges; on a triangle, whose last vertex is stored twice, 3 phi_1 - phi_2 -
+   phi_3.
 */
 #include "gapsimpl.h"
 
-/* mass[a][b] = int phi_a phi_b, by three times three points */
+/* mass[a][b] = int phi_a phi_b by 3 x 3 Gauss points */
 static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
 {
   const PetscReal point[3]  = {-0.7745966692414834, 0.0, 0.7745966692414834};
@@ -28,7 +26,7 @@ static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
   }
 }
 
-/* a becomes its inverse; symmetric and positive definite, so that no pivots are looked for */
+/* Inverts a in place. It is symmetric positive definite, so no pivoting is needed. */
 static void DualInvert(PetscReal a[4][4])
 {
   for (PetscInt k = 0; k < 4; ++k) {
@@ -61,7 +59,7 @@ void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
   for (PetscInt a = 0; a < 16; ++a) dual[a / 4][a % 4] *= lumped[a / 4];
 }
 
-/* values: n of each of the four functions */
+/* Applies dual to n values of each of the four functions */
 void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[])
 {
   for (PetscInt i = 0; i < n; ++i) {

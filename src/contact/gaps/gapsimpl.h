@@ -1,5 +1,5 @@
 /*
-   The formulations of the gap.
+   Formulations of the gap.
 */
 #ifndef GAPSIMPL_H
 #define GAPSIMPL_H
@@ -12,7 +12,7 @@
    A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation.c.
 */
 typedef struct {
-  /* Enlarges the box to hold everything that may face this rank's part of pair p */
+  /* Enlarges the box to contain everything that may face this rank's part of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
   /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
@@ -21,14 +21,14 @@ PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode;
 
 typedef struct {
   PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
-  PetscReal D[4][4]; /* int phi_A N1_B [length^2]; its rows sum to int phi_A */
+  PetscReal D[4][4]; /* int phi_A N1_B [length^2]; row sums are int phi_A */
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
-/* dual: functions in place of phi_A, as sums of the four; NULL: phi_A */
+/* dual: coefficients of the functions that replace phi_A; NULL: phi_A itself */
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *);
 
-/* dual.c: of a facet, by its undeformed vertices */
+/* dual.c: dual functions of a facet, from its undeformed vertices */
 PETSC_INTERN void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4]);
 PETSC_INTERN void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[]);
 PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *);

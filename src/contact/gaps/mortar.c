@@ -1,7 +1,7 @@
 /* Mortar integrals of a pair of facets, and of all pairs of this rank's nonmortar facets */
 #include "gapsimpl.h"
 
-/* All sums over the points of the overlap; coordinates of both facets interpolated there */
+/* Sums over the quadrature points of an overlap; the coordinates of both facets are interpolated there */
 void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *m)
 {
@@ -28,19 +28,19 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
   }
 }
 
-/* A facet of the nonmortar face, and the sums over what it overlaps */
+/* A nonmortar facet, and the integrals over its overlaps */
 typedef struct {
   const PetscReal *x, *normal;
   const PetscInt  *row, *node;
   PetscInt         noverlaps;
   PetscReal        gap[4], D[4][4];
-  ContactPatch     patch; /* of smooth pairs */
+  ContactPatch     patch; /* smooth pairs only */
   PetscReal        cover[4];
   ContactSlopes    slopes;
-  PetscReal (*dual)[4]; /* NULL: the pair has none, or the facet is hardly covered */
+  PetscReal (*dual)[4]; /* dual functions; NULL: the pair has none, or too little of the facet is covered */
 } MortarFacet;
 
-/* Adds a mortar facet of a smooth pair */
+/* Adds the overlap with a mortar facet of a smooth pair */
 static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
@@ -62,7 +62,7 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
   PetscFunctionReturn(0);
 }
 
-/* Adds what a mortar facet overlaps */
+/* Adds the overlap with a mortar facet */
 static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
 {
@@ -80,7 +80,7 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   PetscFunctionReturn(0);
 }
 
-/* Which part of a facet the candidates cover */
+/* Fraction of a facet's area that the candidates cover */
 static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
   const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
 {
@@ -96,8 +96,9 @@ static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const Co
   return PetscMin(1.0, covered / ContactPolygonArea(4, (const PetscReal(*)[2])corners));
 }
 
-/* Dual functions are so of a whole facet: of one that is covered in part they go over into the facet's own, so that
-   none changes at once as faces slide */
+/* Dual functions are defined for a fully covered facet. For a partly covered one they are blended with the facet's
+   own functions, so that they change continuously while faces slide. Returns false if less than three quarters are
+   covered. */
 static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered, PetscReal dual[4][4])
 {
   const PetscReal least = 0.75;
@@ -110,7 +111,7 @@ static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered,
   return PETSC_TRUE;
 }
 
-/* One nonmortar facet against the candidates near it; normal: at its vertices */
+/* Integrates one nonmortar facet over the candidates near it; normal: at its vertices */
 static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule,
   const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear,
   const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
@@ -152,7 +153,7 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
   PetscFunctionReturn(0);
 }
 
-/* Box about what this rank's nonmortar facets sweep along their normals */
+/* Box around the prisms that this rank's nonmortar facets sweep along their normals */
 static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal box[6])
 {
   const ContactPairData *pair = &contact->pairs[p];
@@ -174,7 +175,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
-  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : contact->cosine, contact->overlap_drop,
+  const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : CONTACT_NORMAL_COSINE, CONTACT_OVERLAP_DROP,
     pair->distance + pair->bulge, pair->depth + pair->bulge};
   ContactNear                near;
 

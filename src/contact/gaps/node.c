@@ -1,7 +1,7 @@
-/* Node to segment: each nonmortar vertex against the closest point of the mortar face */
+/* Node to segment: nonmortar vertices against the closest points of the mortar face */
 #include "gapsimpl.h"
 
-/* A vertex that is outside the mortar face by more than this part of the facet's size has no opposite point */
+/* a vertex that is beside the mortar face by more than this fraction of a facet's size has no closest point */
 #define BORDER_MARGIN 0.05
 
 /* Whether the closest point is on the border of the mortar face */
@@ -17,8 +17,8 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
   return PETSC_FALSE;
 }
 
-/* Whether the vertex x is beside the mortar face: its closest point y is on the border, and x is not in the direction
-   of the facet's normal there */
+/* Whether the vertex x lies beside the mortar face: the closest point y is on its border, and x - y is not along the
+   facet's normal */
 static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
 {
   const PetscReal *facet = &mortar->x[12 * nearest->facet];
@@ -27,13 +27,13 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
   if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
   ContactFacetTangents(facet, nearest->xi, t1, t2);
   ContactCross(t1, t2, n);
-  if (ContactFacetIsTriangle(facet)) { /* at its last vertex the first tangent is zero */
+  if (ContactFacetIsTriangle(facet)) { /* a triangle's first tangent is zero at its last vertex */
     ContactFacetAreaVector(facet, n);
     for (PetscInt c = 0; c < 3; ++c) n[c] *= 0.25;
   }
   for (PetscInt c = 0; c < 3; ++c) {
     r[c] = x[c] - nearest->y[c];
-    area += n[c] * n[c]; /* squared, of a quarter of the facet */
+    area += n[c] * n[c]; /* square of a quarter of the facet's area */
     height += n[c] * r[c];
   }
   if (!(area > 0.0)) return PETSC_FALSE;
@@ -41,7 +41,7 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
   return (PetscBool)(beside > PetscSqr(BORDER_MARGIN) * 4.0 * PetscSqrtReal(area));
 }
 
-/* Box about the balls around this rank's vertices that reach to the mortar face */
+/* Box around the spheres of the search radius about this rank's vertices */
 static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box[6])
 {
   const ContactRows *rows  = &contact->rows;
@@ -60,10 +60,11 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
 /* The gap of a smooth pair and its derivatives */
 typedef struct {
   PetscReal gap, vertex[3], facet[12], normal[12];
-  PetscReal rigid[12]; /* by the facet's vertices, the patch turning with the facet */
+  PetscReal rigid[12]; /* derivatives by the facet's vertices if the patch turns rigidly with the facet */
 } NodeGap;
 
-/* Motion of the closest point on its facet when the vertex moves; on an edge or at a corner it stays there */
+/* Adds the effect of the closest point's motion on its facet when the vertex moves; the point does not move on an
+   edge or at a corner */
 static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3],
   const PetscReal by_xi[2], NodeGap *gap)
 {
@@ -98,8 +99,8 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   }
 }
 
-/* Height of the vertex x with normal n over the tangent plane of the smooth surface at its closest point, along the
-   normal of that plane */
+/* Gap of a smooth pair: distance of the vertex x from the tangent plane of the smooth surface at its closest point,
+   along that plane's normal; with its derivatives */
 static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
   const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
@@ -134,7 +135,7 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
   NodeMoveClosest(facet, nearest, x, by_xi, gap);
 }
 
-/* Multiplies by the mass, because the assembly divides by it */
+/* Adds the derivatives, multiplied by the mass, as the assembly divides by it */
 static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar,
   PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
 {
@@ -153,7 +154,7 @@ static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mas
   PetscFunctionReturn(0);
 }
 
-/* Along the normal n from the vertex x to the closest point of a facet */
+/* Gap along the normal n from the vertex x to the closest point of a facet */
 static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
 {
   const PetscReal r[3] = {nearest->y[0] - x[0], nearest->y[1] - x[1], nearest->y[2] - x[2]};
@@ -161,7 +162,7 @@ static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3
   return ContactDot(r, n);
 }
 
-/* The gap, and the coupling N2_B(xi) - 1 of the facets; both times the mass that the assembly divides by */
+/* Adds gap and coupling N2_B(xi) - 1 of a vertex, multiplied by the mass, as the assembly divides by it */
 static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass,
   const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
 {
@@ -205,7 +206,7 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
     ContactNearest   nearest;
     NodeGap          gap;
 
-    ContactFindNearest(&tree, mortar, contact->cosine, reach, x, n, &nearest);
+    ContactFindNearest(&tree, mortar, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
     if (pair->mortar.patched)
       NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);

@@ -9,7 +9,7 @@ void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
   }
 }
 
-/* Box about what a facet sweeps along its normal; its own box where it has no normal */
+/* Box around the prism that a facet sweeps along its normal; the facet's own box if it has no normal */
 void ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6])
 {
   PetscReal n[3];

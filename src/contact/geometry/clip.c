@@ -1,7 +1,7 @@
 /* Polygons in the plane: area, and clipping against a convex polygon */
 #include "geometryimpl.h"
 
-/* Relative to the first vertex, so that small polygons far from the origin lose no digits */
+/* Computed relative to the first vertex, so that small polygons far from the origin lose no accuracy */
 PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 {
   PetscReal area = 0.0;
@@ -26,13 +26,10 @@ static void ClipPutVertex(const PetscReal y[2], PetscInt before, PetscInt after,
 }
 
 /*
-  Sutherland and Hodgman: what is left of the subject after cutting it along every edge of the convex polygon clip.
-
-  Vertices on an edge count as inside and a cut is made only between vertices strictly on either side, so no division is
-  by zero; coinciding edges or vertices give repeated vertices, which enclose no area.
-
-  edge: of each vertex the edges before and after it, along whose lines it lies: i from vertex i of the subject to the
-  next, nsubject + i from vertex i of clip.
+   Clips the subject polygon by every edge of the convex polygon clip (Sutherland and Hodgman). Vertices on an edge
+   count as inside. A cut is made only between vertices strictly on either side, so there is no division by zero.
+   Coinciding edges or vertices give repeated vertices, which enclose no area. edge: for each result vertex the two
+   edges that meet there: i from vertex i of the subject to the next, nsubject + i from vertex i of clip.
 */
 PetscInt ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2],
   PetscReal out[][2], PetscInt edge[][2])

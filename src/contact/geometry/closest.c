@@ -4,7 +4,7 @@
 #define CLOSEST_MAX_STEPS    50
 #define CLOSEST_MAX_HALVINGS 8
 
-/* The facet's points relative to the given one: r = c0 + c1 xi + c2 eta + c3 xi eta */
+/* Vector from the given point to the facet's points: r = c0 + c1 xi + c2 eta + c3 xi eta */
 typedef struct {
   PetscReal c[4][3];
 } ClosestOffset;
@@ -16,8 +16,8 @@ static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], 
   return ContactDot(r, r);
 }
 
-/* Newton's method starts from the nearest of nine points of the facet, because a warped facet has several local minima
-   at a distance */
+/* Start for Newton's method: the nearest of nine points of the facet, because a warped facet may have several local
+   minima */
 static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal best = PETSC_MAX_REAL;
@@ -36,7 +36,7 @@ static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
   return best;
 }
 
-/* Tangents at xi; the facet is straight along either of them */
+/* Tangents at xi; each is constant along its own parameter */
 static void ClosestTangents(const ClosestOffset *o, const PetscReal xi[2], PetscReal t[2][3])
 {
   for (PetscInt d = 0; d < 3; ++d) {
@@ -45,7 +45,7 @@ static void ClosestTangents(const ClosestOffset *o, const PetscReal xi[2], Petsc
   }
 }
 
-/* Closest point along the straight line through xi on which one parameter varies */
+/* Closest point on the line through xi along which one parameter varies */
 static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, PetscReal xi[2])
 {
   PetscReal t[2][3], r[3], length;
@@ -57,7 +57,7 @@ static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, Pe
   return ClosestEvaluate(o, xi, r);
 }
 
-/* Newton's step where the Hessian is positive definite, else Gauss and Newton's; false where there is none */
+/* step: Newton step where the Hessian is positive definite, else Gauss-Newton step; false if there is none */
 static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2], PetscReal step[2])
 {
   PetscReal r[3], t[2][3], g[2], H[3], det, twist;
@@ -78,7 +78,7 @@ static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2]
   return PETSC_TRUE;
 }
 
-/* Takes the step, cut off at the edges, or a shorter one; false if no step reduces the distance */
+/* Takes the step, clipped to the facet's edges, or shortened until the distance falls; false if it does not */
 static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2], PetscReal xi[2], PetscReal *f)
 {
   PetscReal scale = 1.0;
@@ -100,7 +100,8 @@ static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2],
   return PETSC_FALSE;
 }
 
-/* The distance never grows. If Newton's method stops at an edge, steps along one parameter continue */
+/* Minimizes the distance from the start xi. If Newton's method stops at an edge, steps along single parameters
+   continue. */
 static PetscReal ClosestDescend(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal f = ClosestStart(o, xi);
@@ -134,7 +135,7 @@ PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], Petsc
   }
   best = ClosestDescend(&o, xi);
   for (PetscInt e = 0; e < 4;
-       ++e) { /* the edges are straight: exact, and without them the descent could end in a corner */
+       ++e) { /* edges are straight, so this is exact; without it the descent might end in a corner */
     const PetscReal end    = e % 2 ? 1.0 : -1.0;
     PetscReal       eta[2] = {e < 2 ? 0.0 : end, e < 2 ? end : 0.0};
     const PetscReal f      = ClosestAlongLine(&o, e / 2, eta);

@@ -35,8 +35,8 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
-/* by_x: derivatives by the vertices of moment times the rotation of the facet, which follows its normal and its first
-   diagonal; the facet has an area */
+/* by_x: derivatives by the vertices of moment . rotation, where the rotation of the facet is that of its normal and
+   first diagonal. The facet must have an area. */
 void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
 {
   PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;
@@ -109,13 +109,13 @@ static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], 
 }
 
 /*
-  Parameters of the point y of a plane quadrilateral by Newton's method, one step on a parallelogram, or of a
-  triangle. The points asked for lie in the quadrilateral up to rounding: the result is kept in [-1, 1]^2, also where
-  a degenerate map cannot be inverted.
+   Parameters of the point y of a triangle, whose second parameter is 1 at its last vertex
 */
 void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {
-  PetscReal c[4][2]; /* y = c0 + c1 xi + c2 eta + c3 xi eta */
+  PetscReal c[4][2]; /* Parameters of the point y of a plane quadrilateral (Newton's method; one step suffices for a
+                        parallelogram) or of a triangle. The point lies inside up to rounding, so the result is
+                        clipped to [-1, 1]^2, also where the map is degenerate. */
 
   if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
     FacetInverseTriangle(q, y, xi);

@@ -1,7 +1,7 @@
-/* The plane a nonmortar facet is projected to: through its centre, along its mean normal */
+/* y = c0 + c1 xi + c2 eta + c3 xi eta */
 #include "geometryimpl.h"
 
-/* Mean outward unit normal; false where the facet has no area */
+/* Mean outward unit normal; false if the facet has no area */
 PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
 {
   PetscReal area;
@@ -13,7 +13,7 @@ PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
   return PETSC_TRUE;
 }
 
-/* Axes 0 and 1 span the plane, axis 2 is the normal; false where the facet has no area */
+/* Axes 0 and 1 span the plane, axis 2 is the normal; false if the facet has no area */
 PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
 {
   PetscReal *t = f->axis[0], *s = f->axis[1], *n = f->axis[2], length;
@@ -21,7 +21,8 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
   if (!ContactFacetNormal(x, n)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) {
     f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
-    t[c]         = x[6 + c] - x[c]; /* a diagonal: in the plane, for the normal is the diagonals' cross product */
+    t[c]         = x[6 + c] - x[c]; /* a diagonal lies in the plane, as the normal is the cross product of the
+                                       diagonals */
   }
   length = PetscSqrtReal(ContactDot(t, t));
   for (PetscInt c = 0; c < 3; ++c) t[c] /= length;

@@ -1,5 +1,5 @@
 /*
-   Facets, polygons and boxes: numbers in, numbers out, without a mesh.
+   Geometry of facets, polygons and boxes, independent of the mesh.
 */
 #ifndef GEOMETRYIMPL_H
 #define GEOMETRYIMPL_H
@@ -26,8 +26,8 @@ PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], 
 PETSC_INTERN PetscReal ContactScaleToUnit(PetscReal n[3]);
 
 /*
-   facet.c: bilinear facets. A triangle has its last vertex twice: the bilinear functions of the two add up to the
-   linear one there, and those of the others are linear
+   facet.c: bilinear facets. A triangle stores its last vertex twice. The two functions of that vertex add up to its
+   linear function; the other two are linear.
 */
 PETSC_INTERN PetscBool ContactFacetIsTriangle(const PetscReal x[12]);
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
@@ -38,7 +38,7 @@ PETSC_INTERN void ContactFacetTangents(const PetscReal x[12], const PetscReal xi
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
 PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
 
-/* frame.c: the plane a nonmortar facet is projected to */
+/* frame.c: the plane onto which a nonmortar facet is projected */
 typedef struct {
   PetscReal origin[3], axis[3][3];
 } ContactFrame;
@@ -53,14 +53,14 @@ PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
 PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip,
    const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2]);
 
-/* overlap.c: where a nonmortar and a mortar facet face each other. With these points, weights and the nodal normals
-   frozen, the weighted gap is linear in the coordinates. */
+/* overlap.c: the part where a nonmortar and a mortar facet face each other. With quadrature points, weights and
+   nodal normals held fixed, the weighted gap is linear in the coordinates. */
 #define CONTACT_MAX_CORNERS (2 * CONTACT_MAX_POLYGON)
 #define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
   PetscReal y[2];
-  PetscInt  line[2][2]; /* the two lines that intersect there, each through two vertices: 0 to 3 of the nonmortar
-                           facet, 4 to 7 of the mortar one */
+  PetscInt  line[2][2]; /* the two lines that intersect there, each given by two vertices: 0 to 3 of the nonmortar
+                           facet, 4 to 7 of the mortar facet */
 } ContactCorner;
 typedef struct {
   PetscInt  corner[3];
@@ -69,10 +69,10 @@ typedef struct {
 typedef struct {
   PetscInt        ncorners, ntriangles;
   ContactCorner   corner[CONTACT_MAX_CORNERS];
-  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each with as many points as the rule, in this order */
+  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each has as many points as the rule, in this order */
 
   PetscInt  n;
-  PetscReal area;                       /* of the overlap in the nonmortar facet's plane [length^2] */
+  PetscReal area;                       /* area of the overlap in the plane of the nonmortar facet [length^2] */
   PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
   PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
   PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
@@ -87,7 +87,7 @@ PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscRea
 PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2],
   PetscReal y[3]);
 
-/* box.c: boxes along the coordinate axes, about facets and what they sweep */
+/* box.c: axis-aligned boxes around facets and the prisms that they sweep */
 PETSC_INTERN void      ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
 PETSC_INTERN void      ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
 PETSC_INTERN PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);

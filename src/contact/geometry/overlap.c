@@ -1,7 +1,7 @@
 /* Where two facets face each other: projection, clipping, quadrature points on both */
 #include "geometryimpl.h"
 
-/* Points of one line are off it by no more than this part of its length */
+/* tolerance for points on a line, relative to its length */
 #define ONE_LINE 1e-4
 
 static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt vertex[], PetscReal part[4][2])
@@ -12,9 +12,8 @@ static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt v
 }
 
 /*
-  Convex parts of a quadrilateral, counterclockwise: itself, be it a triangle, or two triangles where a corner is
-  reflex. Where its edges cross (two reflex corners, if only by rounding) one of the triangles is clockwise: it is
-  reversed, and counts negatively.
+   Splits a quadrilateral into convex parts, counterclockwise: itself (also a triangle), or two triangles if a corner is
+   reflex. If its edges cross, one of the triangles is clockwise: it is reversed and gets sign -1.
 */
 static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2],
   PetscInt vertex[2][4], PetscReal sign[2])
@@ -53,8 +52,8 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
-/* An edge that both facets share counts as the nonmortar one's. Then the geometry on either side of it is known, and
-   an edge between two mortar facets ends no overlap. nmortar: edges of the mortar facet */
+/* Attributes an edge that both facets share to the nonmortar facet. The geometry on either side of such an edge is then
+   known, and an edge between two mortar facets does not end an overlap. nmortar: number of edges of the mortar facet */
 static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
   const PetscReal part[4][2], PetscInt edge[][2])
 {
@@ -70,7 +69,7 @@ static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt
   }
 }
 
-/* Keeps the polygon's corners; vertex: their numbers among the nsize vertices of the clipped part of the nonmortar
+/* Stores the polygon's corners. vertex: their numbers among the nsize vertices of the clipped part of the nonmortar
    facet */
 static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2],
   PetscInt size, const PetscInt vertex[], ContactOverlap *o)
@@ -88,7 +87,8 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
   }
 }
 
-/* Adds the points of the fan of triangles about the polygon's first vertex, with this sign; first: of its corners */
+/* Adds the quadrature points of the triangles between the polygon's first vertex and its other edges, with this
+   sign. first: number of its first corner */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
   PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
 {
@@ -100,7 +100,7 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
-    o->area += area; /* also a triangle of zero area with coinciding corners: its area changes with them */
+    o->area += area; /* triangles of zero area are included, because their area may change */
     o->triangle[o->ntriangles++] = (ContactTriangle){{first, first + t, first + t + 1}, sign};
     for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};
@@ -116,7 +116,7 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
   }
 }
 
-/* Height of the mortar facet over the nonmortar one, averaged over the overlap */
+/* Mean height of the mortar facet above the nonmortar facet over the overlap */
 static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], const PetscReal h2[4])
 {
   PetscReal gap = 0.0;
@@ -132,8 +132,9 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
 }
 
 /*
-  Projects both facets to the plane of the nonmortar facet x1 (through its centre, along its mean normal), clips, and
-  places the quadrature points. False where the facets do not face each other within the limits or hardly overlap.
+   Finds the overlap: projects both facets to the plane through the centre of the nonmortar facet x1 normal to its mean
+   normal, clips, and places quadrature points. Returns false if the facets do not face each other within the limits or
+   hardly overlap.
 */
 PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
   const ContactRule *rule, ContactOverlap *o)
@@ -150,7 +151,7 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     return PETSC_FALSE;
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
-  for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body: clockwise */
+  for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body, so it is reversed */
     reversed[a][0] = p2[nmortar - 1 - a][0];
     reversed[a][1] = p2[nmortar - 1 - a][1];
   }

@@ -2,8 +2,7 @@
 #include "geometryimpl.h"
 #include <petscdt.h>
 
-/* PETSc's rule of fewest points that is exact for polynomials of this degree: barycentric coordinates, weights that
-   sum to 1 */
+/* PETSc's rule with the fewest points that is exact to this degree: barycentric coordinates, weights that sum to 1 */
 PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *rule)
 {
   PetscQuadrature  quadrature;

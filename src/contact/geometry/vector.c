@@ -13,7 +13,7 @@ void ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Returns the length before; zero stays zero */
+/* Scales n to length 1 and returns its former length; a zero vector stays zero */
 PetscReal ContactScaleToUnit(PetscReal n[3])
 {
   const PetscReal length = PetscSqrtReal(ContactDot(n, n));

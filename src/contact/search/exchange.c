@@ -1,9 +1,9 @@
-/* Sends mortar facets to the ranks whose part of the nonmortar face they may face. Nothing else of a mesh is exchanged
-   */
+/* Sends mortar facets to the ranks whose part of the nonmortar face they may face. No other part of the mesh is
+   exchanged. */
 #include <petscsf.h>
 #include "searchimpl.h"
 
-/* Facets on their way, those for one rank together */
+/* Facets to be sent, sorted by receiving rank */
 typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
@@ -11,7 +11,7 @@ typedef struct {
   PetscReal  *x, *patch;
 } Outgoing;
 
-/* Counts the facets for each rank, or packs them once out->x is there */
+/* Counts the facets for each rank; packs them if out->x is allocated */
 static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[],
   Outgoing *out)
 {
@@ -46,7 +46,7 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
   PetscFunctionReturn(0);
 }
 
-/* The star forest from the facets that go out (roots) to those that come in (leaves), by rank they come from */
+/* Creates the star forest from outgoing facets (roots) to incoming facets (leaves), which are sorted by sending rank */
 static PetscErrorCode ExchangeCreateForest(MPI_Comm comm, const Outgoing *out, PetscInt *nincoming, PetscSF *sf)
 {
   PetscMPIInt  nfrom, *from;
@@ -91,7 +91,7 @@ static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datat
   PetscFunctionReturn(0);
 }
 
-/* Collective. The facets of all ranks whose boxes meet the box of this rank */
+/* Collective. Receives the facets of all ranks whose boxes meet this rank's box */
 PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
   const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 1 : 0;

@@ -1,4 +1,4 @@
-/* The facet nearest to a vertex: branch and bound in the tree of boxes */
+/* Finds the facet nearest to a vertex by branch and bound in the tree of boxes */
 #include "searchimpl.h"
 
 /* Squared distance of a point from a box */
@@ -10,7 +10,7 @@ static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3]
   return sum;
 }
 
-/* Keeps the facet if it faces the vertex and is nearer than the nearest so far */
+/* Replaces the nearest facet by f if f faces the vertex and is nearer */
 static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3],
   const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
 {
@@ -26,7 +26,7 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
   for (PetscInt c = 0; c < 3; ++c) nearest->y[c] = y[c];
 }
 
-/* Of the facets within reach whose normal makes at most this cosine with the vertex's, the nearest to x */
+/* Finds the nearest facet within reach of x whose normal has at most this cosine with the vertex's normal */
 void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach,
   const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
 {

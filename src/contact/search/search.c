@@ -1,11 +1,11 @@
-/* Which mortar facets may face a nonmortar facet: those along its normal */
+/* Finds the mortar facets that may face a nonmortar facet: those along its normal */
 #include "searchimpl.h"
 
-/* The prism that a nonmortar facet sweeps along its normal, from the search depth below it to the search distance
-   above it. A ball of that radius would contain more and more facets as the mesh is refined. */
+/* The prism that a nonmortar facet sweeps along its normal, from the search depth below to the search distance
+   above. A sphere of that radius would contain more facets the finer the mesh is. */
 typedef struct {
   ContactFrame frame;
-  PetscReal    low[3], high[3]; /* in the frame */
+  PetscReal    low[3], high[3]; /* bounds in the frame's coordinates */
   PetscReal    box[6];
 } Prism;
 
@@ -25,7 +25,7 @@ static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscRea
   return PETSC_TRUE;
 }
 
-/* False where one of the coordinate axes or the prism's axes separates the two */
+/* False if one of the coordinate axes or of the prism's axes separates prism and box */
 static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
 {
   if (!ContactBoxesMeet(p->box, box)) return PETSC_FALSE;
@@ -42,7 +42,7 @@ static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
   return PETSC_TRUE;
 }
 
-/* Number of facets whose boxes meet the prism; those are put into found unless it is NULL */
+/* Counts the facets whose boxes meet the prism, and lists them in found unless it is NULL */
 static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt found[])
 {
   PetscInt stack[CONTACT_TREE_DEPTH], depth = 0, n = 0;
@@ -67,7 +67,7 @@ static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt fo
   return n;
 }
 
-/* For each of this rank's nonmortar facets, the candidates that may lie along its normal within the search distances */
+/* For each of this rank's nonmortar facets, lists the candidates along its normal within the search distances */
 PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscReal depth,
   const ContactCandidates *mortar, ContactNear *near)
 {

@@ -1,4 +1,4 @@
-/* A static tree of bounding boxes of facets: built and asked in O(N log N) */
+/* A static tree of the facets' bounding boxes; building and searching cost O(N log N) */
 #include "searchimpl.h"
 
 #define TREE_LEAF_SIZE 4
@@ -9,8 +9,7 @@ static inline PetscReal TreeCentre(const ContactTree *t, PetscInt facet, PetscIn
   return t->box[6 * facet + axis] + t->box[6 * facet + 3 + axis];
 }
 
-/* Hoare's selection: orders order[lo..hi] so that nothing before position k has a larger centre than anything after
-   it */
+/* Hoare's selection: reorders order[lo..hi] so that no facet before position k has a larger centre than one after it */
 static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
 {
   while (lo < hi) {

@@ -1,5 +1,5 @@
-/* Derivatives of the normals of corner_normals.c by the nodes, in the reverse order of its steps. Matrices by rows:
-   derivatives of the normal's components */
+/* Derivatives of the normals of corner_normals.c by the nodes' coordinates, by the chain rule in the reverse order
+   of the computation. A matrix holds the derivatives of a normal's component in each row. */
 #include "smoothimpl.h"
 
 /* C = A + factor a b^T; A may be C, or NULL for none */
@@ -13,7 +13,7 @@ static void Times(const PetscReal A[9], const PetscReal a[3], PetscReal b[3])
   for (PetscInt i = 0; i < 3; ++i) b[i] = ContactDot(&A[3 * i], a);
 }
 
-/* From the derivative by v x a (factor 1) or a x v (factor -1) to the derivative by v */
+/* From the derivative A by v x a (factor 1) or a x v (factor -1) computes the derivative B by v */
 static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal factor, PetscReal B[9])
 {
   for (PetscInt i = 0; i < 3; ++i) {
@@ -24,7 +24,7 @@ static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal f
   }
 }
 
-/* From the derivative by the unit vector n to that by the vector before scaling, of this length */
+/* From the derivative A by the unit vector n computes the derivative by the unscaled vector of this length */
 static void ThroughUnit(const PetscReal A[9], const PetscReal n[3], PetscReal length, PetscReal B[9])
 {
   PetscReal along[3];
@@ -43,7 +43,8 @@ static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *s
   ++slopes->n;
 }
 
-/* factor A: by the node at a corner; an image moves against its node, and with the planes that it is seen in */
+/* Adds factor A, a derivative by the node at a corner. A mirror image moves with its node, reversed across the
+   mirror plane, and with the nodes on the plane. */
 static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -61,7 +62,7 @@ static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, 
   }
 }
 
-/* A: by the edge from a corner to the next, or to the one before */
+/* Adds A, a derivative by the edge from a corner to the next one (after), or to the previous one */
 static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -69,7 +70,7 @@ static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, c
   AddNode(ring, corner, -1.0, A, slopes);
 }
 
-/* A: by the unit normal that ContactRingFanNormal() has */
+/* Adds A, a derivative by the unit normal of ContactRingFanNormal() */
 static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -102,8 +103,8 @@ static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[
   AddFan(ring, first, last, A, slopes);
 }
 
-/* A: derivative by the corrected normal before it is scaled. Correction: mean + d_0 b_0 + d_1 b_1, with D the dual
-   vectors of the edges d */
+/* Adds A, a derivative by the corrected normal before it is scaled. The correction of MendCorner() is mean + d_0 b_0
+   + d_1 b_1; D: dual vectors of the edges d */
 static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -142,7 +143,7 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
   }
 }
 
-/* What MendBorder() sums along the edges that lead inward, c_k = across.d_k, r_k = -(n + m_k).d_k: the bend b = sum
+/* Sums of MendBorder() over the edges that lead inward: c_k = across.d_k, r_k = -(n + m_k).d_k, correction b = sum
    r_k c_k / sum c_k^2 */
 typedef struct {
   PetscReal along[3], across[3], length, bend, squares;
@@ -168,7 +169,7 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
   border->bend = border->squares > 0.0 ? sum / border->squares : 0.0;
 }
 
-/* A: derivative by the corrected normal before it is scaled: the mean plus the bend times the direction across the
+/* Adds A, a derivative by the corrected normal before it is scaled: the mean plus b times the direction across the
    border */
 static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
   const PetscReal A[9], ContactNormalSlopes *slopes)
@@ -208,7 +209,8 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
   AddEdge(ring, last, PETSC_FALSE, B, slopes);
 }
 
-/* The blocks of the normal at a corner; as many, and at the same nodes, whatever the displacement */
+/* Computes the derivative blocks of the normal at a corner. Their number and nodes do not depend on the
+   displacement. */
 void ContactRingNormalSlopes(const ContactRing *ring, PetscInt corner, ContactNormalSlopes *slopes)
 {
   const PetscReal identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

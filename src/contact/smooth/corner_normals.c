@@ -1,11 +1,11 @@
-/* Normals of the smooth surface at the facets' corners: means over the facets about a node, corrected where the
-   surface ends */
+/* Normals of the smooth surface at the facets' corners: means over the facets around a node, corrected at the border
+   of the surface */
 #include "smoothimpl.h"
 
 /*
-  Sum over the corners from first to last of (e x f) / (e.e f.f), e and f the edges that meet there: exact on spheres
-  and on cylinders, whatever the lengths (N. Max, Weights for computing vertex normals from facet normals, J. Graphics
-  Tools 4 (1999)), scaled to length 1; returns the length before
+   n: sum over the corners from first to last of (e x f) / (e.e f.f), where e and f are the edges that meet there,
+   scaled to length 1. It is exact on spheres and cylinders for any edge lengths (N. Max, Weights for computing vertex
+   normals from facet normals, J. Graphics Tools 4 (1999)). Returns the length before scaling.
 */
 PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
@@ -22,7 +22,7 @@ PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt
   return ContactScaleToUnit(n);
 }
 
-/* Mean over all facets about a corner's node that no sharp edge separates */
+/* Mean over all facets around a corner's node that are not separated by a sharp edge */
 void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt first, last;
@@ -31,7 +31,8 @@ void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n
   (void)ContactRingFanNormal(ring, first, last, n);
 }
 
-/* A corner with one facet only: along both its edges the surface is an arc, whose end normals mirror each other */
+/* Corrects the normal at a corner with a single facet: along both its edges the surface is continued as an arc,
+   whose end normals are mirror images */
 static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscReal d[2][3], m[3], G[3], rhs[2], det;
@@ -49,8 +50,8 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
     n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
 }
 
-/* A vertex on the border: along the border the mean is right; across it the surface is an arc along the edges that
-   lead inward, by least squares */
+/* Corrects the normal of a vertex on the border. Along the border the mean is right. Across it, the surface is
+   continued as an arc along the edges that lead inward, by least squares. */
 static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal after[3], before[3], d[3], m[3], along[3], across[3], sum = 0.0, squares = 0.0;
@@ -70,14 +71,15 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   for (PetscInt c = 0; c < 3; ++c) n[c] += sum / squares * across[c];
 }
 
-/* From the unit mean of an open fan of facets to a normal with which the surface ends as an arc; not scaled yet */
+/* Corrects the unit mean n of an open fan of facets so that the surface ends as an arc; the result is not scaled */
 void ContactRingMend(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   if (first == last) MendCorner(ring, first, n);
   else MendBorder(ring, first, last, n);
 }
 
-/* Unit normal at a corner, mean over the facets about its node that no sharp edge separates; zero if they cancel */
+/* Unit normal at a corner: mean over the facets around its node that are not separated by a sharp edge; zero if they
+   cancel */
 void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt        first, last;

@@ -1,17 +1,17 @@
-/* Where a face ends on a plane on which its body is held, the smooth surface continues as in a mirror. The facets of a
-   ring near such a plane are mirrored in it, so that normals on the border are means like all others. */
+/* Where a face ends on a plane on which its body is held, the smooth surface is continued by its mirror image. The
+   facets of a ring near such a plane are mirrored, so that normals on the border are ordinary means. */
 #include "smoothimpl.h"
 
-/* The normal extrapolated to the undeformed border may lean out of the plane by this part of what the facet's normal
-   does */
+/* tolerance for the angle to the plane: the normal extrapolated to the undeformed border may lean out of the plane
+   by this fraction of the facet's normal */
 #define MIRROR_OBLIQUE 0.2
-/* and but for rounding in files of meshes */
+/* and by this much for rounding in mesh files */
 #define MIRROR_ROUNDING 1e-6
 
-/* A plane across one of the axes that edges of the border lie in and are held on */
+/* A plane normal to an axis that contains edges of the border, which are held along the axis */
 typedef struct {
   PetscReal axis, place;
-  PetscReal oblique; /* 0 or 1: the surface is not at right angles to it, on one rank or more */
+  PetscReal oblique; /* 0 or 1: the surface is not perpendicular to the plane, on any rank */
 } MirrorPlane;
 #define MIRROR_REALS ((PetscMPIInt)(sizeof(MirrorPlane) / sizeof(PetscReal)))
 
@@ -20,7 +20,7 @@ static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt ax
   return (PetscBool)((ring->held[node] >> axis & 1) != 0);
 }
 
-/* Whether the surface at a corner is not at right angles to the plane */
+/* Whether the surface at a corner is not perpendicular to the plane */
 static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, PetscInt axis)
 {
   PetscReal x[12], facet[3], n[3];
@@ -31,7 +31,7 @@ static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, Petsc
   return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
 }
 
-/* Adds a plane, or updates the one that is there */
+/* Adds a plane, or updates an existing one */
 static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, MirrorPlane planes[])
 {
   for (PetscInt k = 0; k < *n; ++k) {
@@ -42,7 +42,7 @@ static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, 
   planes[(*n)++] = plane;
 }
 
-/* The planes of this rank's own facets; space for three of each edge */
+/* Finds the planes of this rank's own facets; needs space for three per edge */
 static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n,
   MirrorPlane planes[])
 {
@@ -64,7 +64,7 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
   PetscFunctionReturn(0);
 }
 
-/* Collective. All planes of the surface, on every rank the same; free planes */
+/* Collective. Finds all planes of the surface, identical on every rank; the caller frees planes */
 static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance,
   PetscInt *n, MirrorPlane **planes)
 {
@@ -83,15 +83,15 @@ static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, P
   PetscCall(PetscMalloc1(start[size] / MIRROR_REALS, &all));
   PetscCallMPI(MPI_Allgatherv(own, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
   *n      = 0;
-  *planes = all; /* what is put there has been read */
+  *planes = all; /* this buffer is free again */
   for (PetscInt k = 0; k < start[size] / MIRROR_REALS; ++k) MirrorAddPlane(all[k], tolerance, n, all);
   PetscCall(PetscFree2(count, start));
   PetscCall(PetscFree(own));
   PetscFunctionReturn(0);
 }
 
-/* on[v]: node v is on the plane and held there; near[v]: or two facets from such a node at most. any: one of them is
-   on it */
+/* on[v]: node v is on the plane and held there; near[v]: node v is at most two facets away from such a node. any:
+   whether any node is on the plane */
 static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance,
   PetscBool on[], PetscBool near[], PetscInt *any)
 {
@@ -118,7 +118,7 @@ static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane
   PetscFunctionReturn(0);
 }
 
-/* The image of node v in the plane that the real node `at` is on */
+/* Adds the mirror image of node v in the plane that contains the real node `at` */
 static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis, PetscInt at)
 {
   const PetscInt g     = ring->nnodes - ring->nreal;
@@ -137,7 +137,7 @@ static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis
   PetscFunctionReturn(0);
 }
 
-/* The images of the facets near a plane; flips[f]: bits of the axes along which facet f is an image */
+/* Adds the mirror images of the facets near a plane. flips[f]: bits of the axes along which facet f is mirrored */
 static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance, PetscInt **flips)
 {
   const PetscInt axis = (PetscInt)plane->axis, nfacets = ring->nfacets, nnodes = ring->nnodes;
@@ -158,7 +158,7 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
     PetscCall(PetscRealloc((ring->nfacets + 1) * sizeof(PetscInt), flips));
     node                    = &ring->node[4 * f];
     (*flips)[ring->nfacets] = (*flips)[f] | 1 << axis;
-    for (PetscInt a = 0; a < 4; ++a) { /* the other way round, to be seen from outside again */
+    for (PetscInt a = 0; a < 4; ++a) { /* reversed, so that it is counterclockwise from outside */
       static const PetscInt of_triangle[4] = {0, 2, 1, 1};
       const PetscInt        v              = node[node[2] == node[3] ? of_triangle[a] : (4 - a) % 4];
 
@@ -174,8 +174,8 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the images of a ring's facets in all planes that the surface ends on at right angles; nothing
-   knows of their edges yet. length: of a facet */
+/* Collective. Adds the mirror images of a ring's facets in all planes on which the surface ends perpendicularly.
+   Neighbours across their edges are set later. length: size of a facet */
 PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
 {
   const PetscReal tolerance = MIRROR_ROUNDING * length;

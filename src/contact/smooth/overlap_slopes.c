@@ -1,41 +1,40 @@
 /*
-   The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), with H the heights over the plane of the
-   nonmortar facet, and the covered area int phi_A. Both with their derivatives by everything: places and weights of
-   the quadrature points, the plane, and the patches. In the plane's own axes a rigid motion changes nothing. So the
-   forces from these derivatives, and their moments, balance to rounding.
+   The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), where H is the height above the plane of the
+   nonmortar facet, and the covered area int phi_A. Both are computed with their derivatives by everything that moves:
+   positions and weights of the quadrature points, the plane, and the patches. A rigid motion changes nothing in the
+   plane's own axes. Hence the forces from these derivatives and their moments balance up to rounding.
 */
 #include "smoothimpl.h"
 
-/* Sine of the angle below which two lines count as parallel: errors of rounding or quadrature would move their
-   intersection far */
+/* sine of the angle below which two lines count as parallel: their intersection would be too inaccurate */
 #define PARALLEL 5e-3
 
 typedef struct {
   ContactFrame        frame;
   const ContactPatch *patch[2];                 /* nonmortar, mortar */
-  PetscReal           p[2][4][2], height[2][4]; /* of the vertices, in the plane and over it */
+  PetscReal           p[2][4][2], height[2][4]; /* coordinates of the vertices in the plane, and heights above it */
 } PlanePair;
 
-/* Derivatives in the plane's axes: by the facets' vertices and by the corners of the overlap */
+/* Derivatives in the plane's axes: by the facets' vertices, and by the corners of the overlap */
 typedef struct {
   PetscReal p[2][4][2], corner[CONTACT_MAX_CORNERS][2];
 } PlaneMotion;
 
-/* Derivatives of one row's gap and cover */
+/* Derivatives of one row's gap and covered area */
 typedef struct {
   PlaneMotion  gap, cover;
   PetscReal    height[2][4];
   ContactPatch patch[2];
 } PlaneSlopes;
 
-/* What a point of a facet is in the plane's axes: slopes by the place in the plane, at fixed shape of the surface */
+/* A quadrature point in the plane's axes; slopes are derivatives by its position in the plane for a fixed surface */
 typedef struct {
   PetscReal    phi[4], slope[4][2]; /* shape functions */
-  PetscReal    height, tilt[2];     /* of the smooth surface */
+  PetscReal    height, tilt[2];     /* height and slopes of the smooth surface */
   ContactPatch by;
 } PlanePoint;
 
-/* From derivatives by the parameters to derivatives in the plane */
+/* Turns derivatives by the parameters into derivatives by position in the plane */
 static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], PetscReal gradient[2])
 {
   const PetscReal det = J[0][0] * J[1][1] - J[0][1] * J[1][0];
@@ -73,8 +72,8 @@ static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum
   }
 }
 
-/* Adds a point of this weight to row a's gap and returns its part; place: derivative of the gap by the point's place
-   in the plane */
+/* Adds a point with this weight to row a's gap and returns its part. place: derivative of the gap by the point's
+   position in the plane */
 static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
@@ -97,7 +96,7 @@ static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weigh
   return share * gap;
 }
 
-/* The same of the cover */
+/* The same for the covered area */
 static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal weight, PlaneMotion *by,
   PetscReal place[2])
 {
@@ -117,19 +116,19 @@ static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentri
   }
 }
 
-/* The derivative of a sum over a triangle by its area */
+/* Adds the derivative through a triangle's area; mean: the sum over the triangle per area */
 static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, PetscReal mean, PlaneMotion *by)
 {
   for (PetscInt v = 0; v < 3; ++v) {
     const PetscReal *from   = o->corner[triangle->corner[(v + 1) % 3]].y,
                     *to     = o->corner[triangle->corner[(v + 2) % 3]].y;
-    const PetscReal turn[2] = {from[1] - to[1], to[0] - from[0]}; /* twice what the area changes with */
+    const PetscReal turn[2] = {from[1] - to[1], to[0] - from[0]}; /* derivative of twice the area */
 
     for (PetscInt d = 0; d < 2; ++d) by->corner[triangle->corner[v]][d] += 0.5 * triangle->sign * mean * turn[d];
   }
 }
 
-/* The points of triangle t, and its area's derivative, which a triangle of no area has as well */
+/* Adds the points of triangle t and the derivative by its area, which exists also if the area is zero */
 static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair,
   PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
 {
@@ -159,7 +158,7 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
   }
 }
 
-/* Distributes the derivative by a corner's motion with its line k to the two vertices that define the line */
+/* Distributes the derivative by a corner that moves with its line k to the two vertices of that line */
 static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2],
   PlaneMotion *by)
 {
@@ -174,8 +173,8 @@ static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscIn
   }
 }
 
-/* Distributes the derivative by a corner to the vertices of the two lines that intersect there. If the lines are
-   almost parallel, the corner keeps its place on the nonmortar facet */
+/* Distributes the derivative by a corner to the vertices of the two lines that intersect there. If they are almost
+   parallel, the corner is taken as fixed on the nonmortar facet. */
 static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const PetscReal force[2], PlaneMotion *by)
 {
   PetscReal normal[2][2], along[2][2], staying[2], sine, stays;
@@ -191,7 +190,8 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
 
     if (corner->line[0][0] / 4 == corner->line[1][0] / 4 &&
         (from == corner->line[1 - k][0] ||
-          from == corner->line[1 - k][1])) { /* a vertex of the facet that both are of */
+          from == corner->line[1 - k][1])) { /* both lines belong to the same facet: the corner is their common
+                                                vertex */
       for (PetscInt c = 0; c < 2; ++c) by->p[from / 4][from % 4][c] += force[c];
       return;
     }
@@ -214,7 +214,8 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
   }
 }
 
-/* From the plane's axes to the vertices of one facet; height: by those over the plane, NULL: nothing */
+/* Turns derivatives in the plane's axes into derivatives by the vertices of one facet. height: derivatives by
+   heights above the plane; NULL: none */
 static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const PetscReal *height, PetscReal by_x[12])
 {
   const PetscReal(*axis)[3] = pair->frame.axis;
@@ -226,7 +227,7 @@ static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const Pet
   }
 }
 
-/* Adds the moment of derivatives by the vertices, about the plane's origin */
+/* Adds to moment the moment of derivatives by the vertices about the plane's origin */
 static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const PetscReal by_x[12], PetscReal moment[3])
 {
   for (PetscInt b = 0; b < 4; ++b) {
@@ -239,8 +240,9 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
   }
 }
 
-/* Row a. The plane turns with the nonmortar facet, and everything measured from it turns back. Patches bend as normals
-   turn, or keep their shape and turn with their facets; the nonmortar patch then turns with the plane */
+/* Derivatives of row a. The plane turns with the nonmortar facet, so everything measured in its axes turns back. Two
+   variants: patches bend with the normals; or patches keep their shape and turn with their facets (the nonmortar
+   patch then turns with the plane). */
 static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
@@ -270,7 +272,7 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
   for (PetscInt i = 0; i < 12; ++i) nonmortar->x[a][i] += tilt[i];
 }
 
-/* Row a's cover */
+/* Derivatives of row a's covered area */
 static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneMotion *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
@@ -288,8 +290,8 @@ static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *cons
 }
 
 /*
-  The overlap of x1 and x2 as ContactOverlapFind() left it. gap[A] = int phi_A (H2 - H1), cover[A] = int phi_A; their
-  derivatives are put into mortar and added to nonmortar
+   gap[A] = int phi_A (H2 - H1) and cover[A] = int phi_A over the overlap of x1 and x2 found by ContactOverlapFind().
+   Derivatives are stored in mortar and added to nonmortar.
 */
 void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],

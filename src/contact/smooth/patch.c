@@ -1,21 +1,25 @@
 /*
-   The smooth surface through a facet: the facet, plus the height of curved edges over its straight ones. An edge
-   between vertices of normals n0 and n1 is a cubic. Its chord is the straight edge d; it is bent along the mean N of
-   the normals. Its height at eta in [0, 1] is eta (1 - eta) (a0 (1 - eta) - a1 eta) with a = -2 d.n/(1 + N.n). That
-   is twice the tangent of half an angle instead of the tangent of the angle, so that the middle of an arc is exact.
-   Heights of opposite edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput. Aided
-   Geom. Design 22 (2005)). In a triangle the third edge is a point, and the height of the first counts with the
-   square; quadratic edges then give the quadratic surface.
+   The smooth surface through a facet: the facet plus the heights of curved edges over its straight ones. An edge
+   between vertices with normals n0 and n1 is a cubic over its chord, the straight edge d. It bends along the mean N of
+   the normals. Its height at eta in [0, 1] is
+
+     eta (1 - eta) (a0 (1 - eta) - a1 eta),   a = -2 d.n/(1 + N.n).
+
+   This is twice the tangent of half an angle instead of the tangent of the angle, so that the midpoint of an arc is
+   exact. Heights of opposite edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput.
+   Aided Geom. Design 22 (2005)). In a triangle the third edge is a point, and the height of the first edge is blended
+   quadratically; quadratic edges then give the quadratic surface.
 */
 #include "smoothimpl.h"
 
-/* Largest slope of an edge's end against its chord: normals of a crumpled face are meaningless */
+/* limit of the slope at an edge's end against its chord; steeper normals belong to a crumpled face and are
+   meaningless */
 #define STEEPEST 0.7
-/* Least length of the sum of the two normals: an edge is not bent if a normal is missing or they differ by 119 degrees
-   and more */
+/* limit of the length of the sum of the two normals: an edge stays straight if a normal is missing or they differ by
+   119 degrees or more */
 #define LEAST_SUM 1.01
 
-/* Whether edge e has the normals to be bent by */
+/* Whether edge e has two usable normals */
 PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
 {
   const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
@@ -25,7 +29,7 @@ PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
   return (PetscBool)(ContactDot(N, N) > PetscSqr(LEAST_SUM));
 }
 
-/* Edge e from vertex e to the next; straight where a normal is missing or the two are opposite */
+/* Computes edge e from vertex e to the next; straight if a normal is missing or the two are opposite */
 static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
 {
   const PetscReal *x0 = &x[3 * e], *x1 = &x[3 * ((e + 1) % 4)],
@@ -45,8 +49,7 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
     p->slope[e][i] = PetscClipInterval(-2.0 * ContactDot(d, n[i]) / (1.0 + ContactDot(N, n[i])), -steepest, steepest);
 }
 
-/* The patch of the facet x with these unit normals of the smooth surface at its vertices; a zero normal is a missing
-   one */
+/* Creates the patch of the facet x with these unit normals at its vertices; a zero normal means a missing one */
 void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *p)
 {
   p->triangle = ContactFacetIsTriangle(x);
@@ -54,7 +57,7 @@ void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], Conta
   for (PetscInt e = 0; e < 4; ++e) BendEdge(x, e, p);
 }
 
-/* How far the patch stands off the facet at most */
+/* Largest distance of the patch from the facet */
 PetscReal ContactPatchBulge(const ContactPatch *p)
 {
   PetscReal bulge = 0.0;
@@ -63,7 +66,7 @@ PetscReal ContactPatchBulge(const ContactPatch *p)
   return bulge;
 }
 
-/* The patch's point less the facet's at the parameters xi, and the normal there */
+/* offset: position on the patch minus position on the facet at xi; normal: of the patch there */
 void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3])
 {
   const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},

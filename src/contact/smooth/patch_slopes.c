@@ -1,12 +1,12 @@
-/* Derivatives of what is made of a patch's points: by the parameters, by the patch's numbers, and from those by
-   vertices and normals */
+/* Derivatives of quantities at a patch's points: by the parameters, by the patch's coefficients, and by the vertices
+   and normals that determine these */
 #include "smoothimpl.h"
 
-/* A patch that is inclined by more than 60 degrees to a direction is not measured along that direction */
+/* heights are not measured along a direction that makes more than 60 degrees with the patch's normal (squared
+   cosine) */
 #define STEEPEST_SQUARED_COSINE 0.25
 
-/* Height of edge e at its parameter eta in [0, 1], where it counts blend, and its derivatives by eta, by blend and by
-   the two slopes */
+/* Height of edge e at eta in [0, 1], times blend; by: its derivatives by eta, by blend and by the two slopes */
 static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal by[4])
 {
   const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta),
@@ -19,8 +19,7 @@ static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, Pe
   return blend * bump * tilt;
 }
 
-/* From the derivatives by the offset and the normal that ContactPatchEvaluate() has at xi: those by xi and by the
-   patch */
+/* Turns derivatives by offset and normal of ContactPatchEvaluate() at xi into derivatives by xi and by the patch */
 void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
 {
@@ -51,8 +50,8 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
   }
 }
 
-/* Height of the patch over its facet at xi along a unit direction, by the tangent plane at the patch's point; and its
-   derivatives */
+/* Height of the patch above its facet at xi along a unit direction, measured with the tangent plane at the patch's
+   point; with derivatives */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], ContactPatch *by)
 {
@@ -67,7 +66,7 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
       by_normal[c] = 0.0;
     }
   } else {
-    height = cosine != 0.0 ? ContactDot(offset, normal) / cosine : 0.0; /* no normal at all: no offset either */
+    height = cosine != 0.0 ? ContactDot(offset, normal) / cosine : 0.0; /* if there is no normal there is no offset */
     for (PetscInt c = 0; c < 3; ++c) {
       by_offset[c] = cosine != 0.0 ? normal[c] / cosine : 0.0;
       by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
@@ -77,7 +76,7 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
   return height;
 }
 
-/* Of edge e: adds what its slopes and its direction change with its chord and with the normals at its ends */
+/* Adds the derivatives of edge e's slopes and direction by its chord and by the normals at its ends */
 static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by,
   PetscReal by_chord[3], PetscReal by_normal[2][3])
 {
@@ -89,7 +88,8 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
     const PetscReal half = 1.0 + ContactDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
 
     if (PetscAbsReal(-2.0 * ContactDot(d, n[i]) / half) >
-        PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the steepest there is: a part of the chord */
+        PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the slope is at its limit, a fixed fraction of
+                                                                       the chord */
       for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / ContactDot(d, d) * d[c];
       continue;
     }
@@ -105,7 +105,7 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   }
 }
 
-/* Turns derivatives by the patch into derivatives by the facet's vertices x and by the unit normals there, and adds
+/* Turns derivatives by the patch into derivatives by the facet's vertices x and the unit normals there, and adds
    them */
 void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
   PetscReal by_normal[12])
@@ -125,7 +125,7 @@ void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const Conta
   }
 }
 
-/* Part of the derivatives by a patch that a rotation of the patch about any axis causes */
+/* moment: derivative by a rotation of the patch about each axis */
 void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal moment[3])
 {
   for (PetscInt c = 0; c < 3; ++c) moment[c] = 0.0;

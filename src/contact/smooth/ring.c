@@ -1,12 +1,12 @@
 /*
-   The ring: two layers of facets about those of this rank, on whatever ranks they are. Normals of a smooth surface
-   are computed from it. A corner is 4 f + a for vertex a of facet f (a triangle has three); it also stands for the
+   The ring: this rank's facets and two layers of facets around them, fetched from any rank. The normals of a smooth
+   surface are computed from it. Corner 4 f + a is vertex a of facet f (a triangle has three); it also stands for the
    edge from that vertex to the next. Facets are not neighbours across an edge that is sharper, undeformed, than the
-   feature angle: each side of it has its own normals.
+   feature angle: each side has its own normals.
 */
 #include "smoothimpl.h"
 
-/* Corners of the facet that a corner is of: a triangle has the node of its last one twice */
+/* Number of corners of the facet; a triangle stores its last node twice */
 static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)
 {
   const PetscInt *node = &ring->node[4 * (corner / 4)];
@@ -26,14 +26,14 @@ PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
   return 4 * (corner / 4) + (corner % 4 + n - 1) % n;
 }
 
-/* Whether it is the fourth corner of a triangle, which does not exist */
+/* Whether it is the fourth corner of a triangle, which is not used */
 PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
 {
   return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));
 }
 
-/* First corner about a corner's node, clockwise, and the last, as far as no edge is sharp or on the border; true
-   where all around is smooth */
+/* First (clockwise) and last corner around a corner's node before a sharp edge or the border; returns true if there
+   is neither */
 PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -48,7 +48,7 @@ PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *fir
   return PETSC_FALSE;
 }
 
-/* Computes the image v of a real node in the mirror planes */
+/* Computes the position of the image v from its real node and the mirror planes */
 void ContactRingReflect(ContactRing *ring, PetscInt v)
 {
   const ContactImage *image = &ring->image[v - ring->nreal];
@@ -75,7 +75,7 @@ PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
   PetscFunctionReturn(0);
 }
 
-/* Coordinates of the ends of the two edges of a facet that meet at a corner, from the corner's own */
+/* Edge vectors from a corner's vertex to the next and to the previous vertex of its facet */
 void ContactRingEdges(const ContactRing *ring, PetscInt corner, PetscReal after[3], PetscReal before[3])
 {
   const PetscReal *x = &ring->x[3 * ring->node[corner]],

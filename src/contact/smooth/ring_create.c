@@ -1,8 +1,8 @@
-/* Creates a ring: fetches facets from their ranks, numbers nodes, finds neighbours and numbers the normals */
+/* Creates a ring: fetches facets from their ranks, numbers nodes, finds neighbours and numbers normals */
 #include "smoothimpl.h"
 
-/* Box about this rank's undeformed facets and those next to them; the largest facet of all ranks, of this length,
-   says how far that is */
+/* Box around this rank's undeformed facets, enlarged to contain neighbouring facets; length: size of the largest
+   facet on all ranks, the amount of enlargement */
 static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal box[6], PetscReal *length)
 {
   PetscReal largest = 0.0;
@@ -31,7 +31,7 @@ static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Where this rank's own facets are among the candidates: together, in their order */
+/* Finds the first of this rank's own facets among the candidates, where they are consecutive */
 static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *facets, PetscInt *own)
 {
   PetscBool same = PETSC_FALSE;
@@ -48,7 +48,7 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
   PetscFunctionReturn(0);
 }
 
-/* Numbers the nodes from 0, and gathers them from a displacement */
+/* Numbers the nodes from 0 and creates the scatter that gathers them from a displacement */
 static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, ContactRing *ring)
 {
   IS rows;
@@ -75,7 +75,7 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscFunctionReturn(0);
 }
 
-/* The one corner whose edge has the same nodes in opposite order; negative: none, or several */
+/* The only corner whose edge has the same nodes in opposite order; negative: none or several */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
   const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
@@ -97,7 +97,7 @@ static PetscBool FacetNormal(const ContactRing *ring, PetscInt f, PetscReal n[3]
   return ContactFacetNormal(x, n);
 }
 
-/* Neighbours across edges that are not sharp, of the undeformed facets */
+/* Finds the neighbours across edges of the undeformed facets that are not sharp */
 static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
 {
   PetscInt *first, *corner; /* corners at a node */
@@ -125,10 +125,12 @@ static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
   PetscFunctionReturn(0);
 }
 
-/* Numbers the normals at the surface's own corners from 0, each at the first of its corners */
+/* Numbers the normals at the surface's own corners from 0. The corners of a fan share one normal, computed at its
+   first corner. */
 static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
 {
-  PetscInt *number; /* of the normal at the first corner of a fan, or at the lowest one if it has no end */
+  PetscInt *number; /* number of the normal, stored at the first corner of a fan, or at its lowest corner if it is
+                       closed */
 
   PetscFunctionBegin;
   ring->nnormals = 0;
@@ -158,7 +160,7 @@ static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
   PetscFunctionReturn(0);
 }
 
-/* Collective. cosine: of the feature angle; u: any displacement */
+/* Collective. Creates the ring; cosine: of the feature angle; u: any displacement vector */
 PetscErrorCode ContactRingCreate(MPI_Comm comm, Vec u, PetscReal cosine, const ContactSurface *s, ContactRing *ring)
 {
   ContactSurface    undeformed = *s;

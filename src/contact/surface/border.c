@@ -1,4 +1,4 @@
-/* The border of a face: edges that only one of its facets has, on whatever rank */
+/* The border of a face: edges with a facet of the face on one side only, on all ranks */
 #include <petscsf.h>
 #include <mesh.h>
 #include "surfaceimpl.h"
@@ -17,8 +17,8 @@ static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value
   PetscFunctionReturn(0);
 }
 
-/* The mesh's edge between two vertices of it; the edge or facet itself where one of them is its node, of which
-   another one lies on it; negative: inside a triangle, or no edge at all */
+/* Finds the mesh's edge between two vertices. If one of them is the midside node of an edge or facet that contains
+   the other, gets that edge or facet. Negative: inside a triangle, or no edge */
 static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
@@ -37,12 +37,12 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
   PetscFunctionReturn(0);
 }
 
-/* Collective. The border of s, kept there */
+/* Collective. Finds the border of s and stores it */
 PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
 {
   PetscSF  sf;
   PetscInt npoints, *count, *ends,
-    *edge; /* facets at an edge, twice where it is cut in halves; 1 for a vertex on the border */
+    *edge; /* number of facets at an edge (2 per half if it is divided); 1 for a vertex on the border */
 
   PetscFunctionBegin;
   PetscCall(DMGetPointSF(dm, &sf));
@@ -72,7 +72,7 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* marks of the nodes of a face, of all its facets on this rank: joined with a value by MPI_BOR or MPI_MAX */
+/* Marks the nodes of all facets of a face on this rank: combines marks with value by MPI_BOR or MPI_MAX */
 static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscInt value, PetscInt marks[])
 {
   IS              facets;
@@ -95,7 +95,7 @@ static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Collective. Where faces with these prescribed displacements hold the vertices of s; kept there */
+/* Collective. Finds the vertices of s where faces with these prescribed displacements hold them, and stores the axes */
 PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
 {
   PetscSF  sf;
@@ -119,8 +119,8 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscFunctionReturn(0);
 }
 
-/* The first displacement that moves its face along an axis as this one does; CONTACT_AT_REST: it does not move at all
- */
+/* The first displacement that moves its face along an axis like displacement k; CONTACT_AT_REST: the face does not
+   move */
 static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
 {
   const SceneDisplacement *d     = &displacements[k];
@@ -158,8 +158,8 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
   PetscFunctionReturn(0);
 }
 
-/* Collective. plane[4 i + a]: 1 + the number of the displacement that is a symmetry plane along no axis, on which
-   vertex a of facet i is; 0: none */
+/* Collective. plane[4 i + a]: 1 + the number of the inclined symmetry plane that contains vertex a of facet i; 0:
+   none */
 PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[],
   const ContactSurface *s, PetscInt plane[])
 {

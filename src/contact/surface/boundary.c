@@ -1,4 +1,4 @@
-/* The boundary of all bodies, undeformed: how large they are, and what is inside them */
+/* The undeformed boundary of all bodies: thickness, boxes, and inside tests */
 #include <mesh.h>
 #include "surfaceimpl.h"
 
@@ -21,7 +21,7 @@ static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
   PetscFunctionReturn(0);
 }
 
-/* Collective. The facets on this rank */
+/* Collective. Collects the boundary facets on this rank */
 PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
 {
   PetscInt   start, end;
@@ -61,8 +61,8 @@ PetscErrorCode ContactBoundaryDestroy(ContactBoundary *b)
 }
 
 /*
-  Collective. Mean thickness of every body: twice its volume (3 V = int x.n) by the area of its boundary, the
-  thickness of a thin plate or shell, and less than any width of a compact body.
+   Collective. Mean thickness of each body: 2 volume / boundary area, with 3 volume = int x.n. This is the thickness of
+   a thin plate or shell; for a compact body it is smaller than any width.
 */
 PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thickness[])
 {
@@ -86,10 +86,10 @@ PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thic
   PetscFunctionReturn(0);
 }
 
-/* Collective. Boxes about the bodies */
+/* Collective. Bounding boxes of the bodies */
 PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
 {
-  PetscReal *low; /* and minus the upper corner */
+  PetscReal *low; /* lower corner, and negative of the upper corner */
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * b->nbodies, &low));
@@ -111,8 +111,8 @@ PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
   PetscFunctionReturn(0);
 }
 
-/* Solid angle that the triangle p, q, r is seen under from the origin, positive from behind (Van Oosterom and
-   Strackee 1983) */
+/* Solid angle of the triangle p, q, r as seen from the origin, positive from its back (Van Oosterom and Strackee
+   1983) */
 static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
 {
   const PetscReal triple =
@@ -133,7 +133,8 @@ static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3
   return 2.0 * PetscAtan2Real(triple, pp * qq * rr + pq * rr + qr * pp + rp * qq);
 }
 
-/* This rank's part of the solid angle that a body's boundary is seen under: in sum 4 pi from inside, 0 from outside */
+/* This rank's part of the solid angle of a body's boundary as seen from a point; the sum over ranks is 4 pi inside
+   the body and 0 outside */
 PetscReal ContactBoundarySolidAngle(const ContactBoundary *b, PetscInt body, const PetscReal from[3])
 {
   PetscReal sum = 0.0;

@@ -1,10 +1,10 @@
-/* The facets of a named face; those of order 2 are cut into four. Taken from the mesh once, deformed at every contact
-   update */
+/* The facets of a named face; facets of order 2 are cut into four. They are taken from the mesh once and deformed at
+   every contact update. */
 #include <mesh.h>
 #include "surfaceimpl.h"
 
-/* Number of a vertex, any node of the mesh, among those of all ranks; the mesh lays out 3 rows a node, owned ones as
-   they are, others encoded */
+/* Global number of a vertex (any node of the mesh). The section has 3 rows a node; rows of other ranks are encoded
+   as negative numbers. */
 static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
 {
   PetscInt offset;
@@ -33,7 +33,7 @@ static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, Pet
   PetscFunctionReturn(0);
 }
 
-/* The body these facets belong to, on all ranks */
+/* Finds the body that these facets belong to, on all ranks */
 static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt facet[], PetscInt *body)
 {
   PetscInt mine = -1;
@@ -49,8 +49,7 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
-/* The facets of four nodes, or triangles, that n facets of the mesh are cut into: their nodes, local and global
-   numbers */
+/* Cuts n facets of the mesh into facets with four or three nodes; stores local and global numbers of their nodes */
 static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], ContactSurface *s)
 {
   PetscSection global;
@@ -75,7 +74,7 @@ static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], Cont
   PetscFunctionReturn(0);
 }
 
-/* Collective. thickness: of every body */
+/* Collective. Creates the surface of a face; thickness: of every body */
 PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal thickness[], ContactSurface *s)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -106,7 +105,7 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscFunctionReturn(0);
 }
 
-/* Coordinates of n vertices moved by a local displacement vector */
+/* Coordinates of n vertices, displaced by a local vector */
 PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[])
 {
   PetscSection section;
@@ -124,7 +123,7 @@ PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Coordinates of the vertices moved by a local displacement vector */
+/* Coordinates of the surface's vertices, displaced by a local vector */
 PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
 {
   PetscSection section;
@@ -147,9 +146,9 @@ static void SurfaceNormalize(PetscInt n, PetscReal normal[])
 }
 
 /*
-  Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the
-  sum of the area vectors of the face's facets about a vertex, whatever ranks they are on, scaled to length 1. Zero
-  where they cancel: such a vertex has no normal, and its row is empty.
+   Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the sum
+   of the area vectors of the face's facets around a vertex on all ranks, scaled to length 1. A normal is zero if they
+   cancel; the vertex then has an empty row.
 */
 PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n,
   const PetscInt vertex[], PetscReal vertexnormal[])

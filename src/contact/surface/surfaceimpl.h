@@ -1,5 +1,5 @@
 /*
-   The faces of the bodies as facets: where they are, what holds them, where they end.
+   Faces of the bodies as facets: positions, border, and where they are held.
 */
 #ifndef SURFACEIMPL_H
 #define SURFACEIMPL_H
@@ -7,7 +7,7 @@
 #include "src/contact/geometry/geometryimpl.h"
 #include <mesh.h>
 
-/* boundary.c: the facets on this rank that bound the bodies, undeformed */
+/* boundary.c: undeformed boundary facets of all bodies on this rank */
 typedef struct {
   MPI_Comm   comm;
   PetscInt   nbodies, n, *body;
@@ -21,24 +21,24 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 
 /* surface.c: the facets of a named face that this rank owns */
 typedef struct {
-  char     *name;
-  PetscInt  nfacets;
-  PetscInt *vertex; /* [4 nfacets] local DMPlex points that carry nodes, counterclockwise seen from outside; the last of
-                       a triangle twice */
-  PetscInt *node;   /* [4 nfacets] global numbers of the vertices: a third of their first global row */
+  char      *name;
+  PetscInt   nfacets;
+  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points with nodes, counterclockwise seen from outside; a triangle
+                       stores its last one twice */
+  PetscInt  *node;      /* [4 nfacets] global numbers of the vertices (first global row / 3) */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
-  PetscInt  *bend;      /* [4 nfacets] their global numbers */
-  PetscBool  patched;   /* whether there are those; the same on all ranks */
-  PetscBool  cut;       /* whether facets are parts of facets of order 2; the same on all ranks */
+  PetscInt  *bend;      /* [4 nfacets] global numbers of these normals */
+  PetscBool  patched;   /* whether patch and bend exist; the same on all ranks */
+  PetscBool  cut;       /* whether the facets are parts of order-2 facets; the same on all ranks */
   PetscInt
-    *held; /* [nfacets] bits 3 a + c: vertex a is on a face of the mesh whose displacement along axis c is prescribed */
-  PetscInt *border; /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex a
-                       is; of a triangle bit 2: its last vertex */
-  PetscBool bordered;  /* whether the border has been computed; the same on all ranks */
-  PetscReal area;      /* of the whole undeformed face, all ranks [length^2] */
-  PetscInt  body;      /* behind the face */
+    *held; /* [nfacets] bit 3 a + c: the displacement of vertex a along axis c is prescribed by a face of the mesh */
+  PetscInt *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex
+                       a is on it. For a triangle bit 2 stands for its last vertex */
+  PetscBool bordered;  /* whether `border` has been computed; the same on all ranks */
+  PetscReal area;      /* area of the whole undeformed face, on all ranks [length^2] */
+  PetscInt  body;      /* body that the face belongs to */
   PetscReal thickness; /* mean thickness of that body [length] */
 } ContactSurface;
 PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
@@ -48,20 +48,18 @@ PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, Pe
   const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; NULL: none */
-typedef enum {
-  CONTACT_TRACE_FORWARD,
-  CONTACT_TRACE_INVERSE
-} ContactTraceType;
+/* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; a NULL matrix
+   means none */
+typedef enum { CONTACT_TRACE_FORWARD, CONTACT_TRACE_INVERSE } ContactTraceType;
 PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType, PetscInt components, Mat *correction);
 PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec local);
 PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian);
 PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 
-/* border.c: fills in a surface's border; where it is held */
+/* border.c: the border of a surface, and where it is held */
 #define CONTACT_FREE    -2 /* no displacement is prescribed */
-#define CONTACT_AT_REST -1 /* it is, as 0 */
+#define CONTACT_AT_REST -1 /* a displacement of 0 is prescribed */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindMotions(DM, PetscInt n, const SceneDisplacement[], PetscInt axis,

@@ -1,11 +1,13 @@
 /*
-   Faces of order 2 are cut at their nodes into four facets each, and forces act on the vertices of these. But the
-   bilinear interpolation between nodes is not the displacement of the face, and a load spread that way is not the
-   load on quadratic cells: a uniform pressure would bend them. T corrects this. Along each edge (T u)_middle =
-   u_middle + (2 u_middle - u_first - u_last)/6, and likewise in the middle of a facet, edge by edge in both
-   directions. T u, interpolated on the halves, has the integral of the quadratic u, and equals u where u is linear.
-   So T^T turns loads of bilinear facets into loads of the quadratic face: exactly where the facets are plane and
-   wholly covered, and with the same sum everywhere.
+   Faces of order 2 are cut at their nodes into four facets each, and contact forces act on the vertices of these.
+   However, bilinear interpolation between the nodes differs from the quadratic displacement of the face, and a uniform
+   pressure distributed that way would bend the cells. The matrix T corrects this. Along each edge
+
+     (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6,
+
+   and likewise in the middle of a facet, in both directions. T u, interpolated on the halves, has the integral of the
+   quadratic u, and equals u where u is linear. Hence T^T turns loads on bilinear facets into loads on the quadratic
+   face: exactly if the facets are plane and fully covered, and with the same resultant always.
 */
 #include <petscsf.h>
 #include <mesh.h>
@@ -36,17 +38,18 @@ static PetscErrorCode TraceMark(DM dm, PetscInt nsurfaces, const ContactSurface 
   PetscFunctionReturn(0);
 }
 
-/* A point's part of T - 1 or of its inverse: the global rows of the nodes, and how much its own moves with each. It
-   is that along an edge, edge by edge */
+/* A point's rows of T - 1 or of its inverse: the columns of the nodes it depends on and their weights. A facet's
+   weights are products of those along edges. */
 typedef struct {
   PetscInt row, n,
-    column[TRACE_MAX_NODES]; /* the first of the node's; the row is negative where another rank owns the point */
+    column[TRACE_MAX_NODES]; /* first global column of each node; row is negative if another rank owns the point */
   PetscReal weight[TRACE_MAX_NODES];
 } TracePoint;
 
 static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type, TracePoint *trace)
 {
-  static const PetscReal of_edge[2][2] = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}}; /* by type, and by depth */
+  /* indexed by the type of correction and by the depth of the node's point */
+  static const PetscReal of_edge[2][2]  = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}};
   static const PetscReal of_facet[2][3] = {{1.0 / 36.0, -2.0 / 9.0, 7.0 / 9.0}, {1.0 / 64.0, 3.0 / 32.0, -7.0 / 16.0}};
   PetscSection           global;
   PetscInt               depth, own, npoints, *closure = NULL;
@@ -69,15 +72,15 @@ static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type
   PetscFunctionReturn(0);
 }
 
-/* Which correction, of how many components a node */
+/* Type of correction, and number of components per node */
 typedef struct {
   DM               dm;
   ContactTraceType type;
   PetscInt         components;
 } TraceLayout;
 
-/* The rows of the marked points that this rank owns: counts what they have in diagonal and offdiagonal, or puts it in
-   where they are NULL */
+/* Processes the rows of marked points that this rank owns: counts their entries in diagonal and offdiagonal, or
+   inserts them if these are NULL */
 static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], PetscInt rstart,
   PetscInt rend, PetscInt diagonal[], PetscInt offdiagonal[], Mat correction)
 {
@@ -127,7 +130,8 @@ static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoi
   PetscFunctionReturn(0);
 }
 
-/* Collective. correction: T - 1, or T^-1 - 1, of so many components a node; NULL where no surface has order 2 */
+/* Collective. correction: T - 1, or T^-1 - 1, with this number of components per node; NULL if no surface has order
+   2 */
 PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType type, PetscInt components, Mat *correction)
 {
@@ -147,7 +151,7 @@ PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurfac
   PetscFunctionReturn(0);
 }
 
-/* The displacement of the surfaces' vertices, local, from that of the mesh, global */
+/* local: displacement of the surfaces' vertices, from the global displacement u of the mesh */
 PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
 {
   Vec trace;
@@ -160,8 +164,8 @@ PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* Derivatives by the displacement of the surfaces' vertices become those by the mesh's; of the rows where `which` is
-   1, or all */
+/* Turns derivatives by the displacement of the surfaces' vertices into derivatives by that of the mesh's nodes, in
+   rows where `which` is 1 (NULL: all) */
 PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian)
 {
   Mat product;
@@ -174,7 +178,8 @@ PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian
   PetscFunctionReturn(0);
 }
 
-/* The rows of the displacement of a surface's vertices become those of the mesh's; correction: of the inverse */
+/* Turns rows for the displacement of a surface's vertices into rows for that of the mesh's nodes; correction: of the
+   inverse */
 PetscErrorCode ContactTraceRecover(Mat correction, Mat rows)
 {
   Mat product;

@@ -1,4 +1,4 @@
-/* Shape functions of hexahedra at tensor Gauss points, and of tetrahedra at theirs */
+/* Shape functions of hexahedra at tensor Gauss points, and of tetrahedra at their quadrature points */
 #include "elementsimpl.h"
 #include <petscdt.h>
 

@@ -18,9 +18,9 @@
 typedef struct {
   int       npolynomials;
   PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], H[CELL_MAX_POINTS][9];
-  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell, the first is 1 */
+  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell; the first is 1 */
   PetscReal g[POLYNOMIALS][3][CELL_MAX_NODES];
-  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum mean_k p_k */
+  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum_k mean_k p_k */
 } Dilatation;
 
 static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
@@ -32,7 +32,7 @@ static inline void DilatationSetPoints(const int n, const CellBasis *basis, Pets
   }
 }
 
-/* 1, x, y and z, each less its part along those before it */
+/* Orthogonalizes 1, x, y and z over the cell */
 static void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
 {
   d->npolynomials = basis->nnodes == 27 ? POLYNOMIALS : 1;
@@ -80,7 +80,7 @@ static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, Pet
   CELL_CALL(DilatationProject, basis, m, d);
 }
 
-/* Theta at a point */
+/* Theta at a quadrature point */
 static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
 {
   PetscReal theta = 0;
@@ -92,13 +92,14 @@ static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
 static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES])
 {
-  Dilatation d;
-  PetscReal  sum = 0;
+  Dilatation     d;
+  PetscReal      sum = 0;
+  MaterialModuli own;
 
   ElementDilatation(basis, m, X, U, &d);
   for (int k = 0; k < d.npolynomials; ++k) sum += 0.5 * m->moduli.bulk * d.square[k] * d.mean[k] * d.mean[k];
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal density = m->law->energy(&m->isochoric, d.H[q]);
+    const PetscReal density = m->law->energy(CellModuli(&m->isochoric, q, &own), d.H[q]);
 
     if (density >= PETSC_INFINITY) return PETSC_INFINITY;
     sum += d.w[q] * density;
@@ -109,7 +110,8 @@ static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *
 static inline PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
   PetscReal F[3][CELL_MAX_NODES])
 {
-  PetscReal P[9];
+  PetscReal      P[9];
+  MaterialModuli own;
 
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < n; ++a) F[i][a] = 0;
@@ -118,7 +120,7 @@ static inline PetscBool BbarForce(const int n, const CellBasis *basis, const Bod
     }
   }
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->stress(&m->isochoric, d->H[q], P)) return PETSC_FALSE;
+    if (!m->law->stress(CellModuli(&m->isochoric, q, &own), d->H[q], P)) return PETSC_FALSE;
     CellForceAdd(n, d->w[q], d->G[q], P, F);
   }
   return PETSC_TRUE;
@@ -138,12 +140,13 @@ static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m
 static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
   PetscScalar K[])
 {
-  PetscReal A[81];
-  CellSums  S;
+  PetscReal      A[81];
+  CellSums       S;
+  MaterialModuli own;
 
   CellSumsClear(basis->nnodes, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->tangent(&m->isochoric, d->H[q], A)) return PETSC_FALSE;
+    if (!m->law->tangent(CellModuli(&m->isochoric, q, &own), d->H[q], A)) return PETSC_FALSE;
     m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
     CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
   }
@@ -181,19 +184,20 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
 static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
-  Dilatation d;
-  PetscReal  s[6];
+  Dilatation     d;
+  PetscReal      s[6];
+  MaterialModuli own;
 
   ElementDilatation(basis, m, X, U, &d);
   for (int k = 0; k < 6; ++k) sigma[k] = k < 3 ? m->moduli.bulk * d.mean[0] : 0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->cauchy(&m->isochoric, d.H[q], s)) return PETSC_FALSE;
+    if (!m->law->cauchy(CellModuli(&m->isochoric, q, &own), d.H[q], s)) return PETSC_FALSE;
     for (int k = 0; k < 6; ++k) sigma[k] += d.w[q] / d.square[0] * s[k];
   }
   return PETSC_TRUE;
 }
 
-/* The dilatation enters by its projection */
+/* As for full integration, but with the projected dilatation */
 static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {

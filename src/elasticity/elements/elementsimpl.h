@@ -1,5 +1,5 @@
 /*
-   Cells: shape functions, elements, and the bodies that they are of.
+   Cells: shape functions, elements, and data of bodies.
 */
 #ifndef ELEMENTSIMPL_H
 #define ELEMENTSIMPL_H
@@ -10,8 +10,8 @@
 #include <petscsf.h>
 
 /*
-   basis.c: hexahedra of 8 and of 27 nodes on [-1,1]^3, tetrahedra of 4 and of 10 between the origin and the ends of
-   the unit vectors. Arrays over nodes come last, for the compiler to vectorize; n is the number of nodes, which
+   basis.c: hexahedra with 8 or 27 nodes on [-1,1]^3; tetrahedra with 4 or 10 nodes, corners at the origin and the unit
+   vectors' ends. The node index of arrays is last, so that the compiler can vectorize; n is the number of nodes, which
    CELL_CALL() makes a constant for 8.
 */
 #define CELL_MAX_NODES  27
@@ -25,7 +25,7 @@ typedef struct {
   PetscReal dN[CELL_MAX_POINTS][3][CELL_MAX_NODES]; /* dN/dxi_k */
 } CellBasis;
 
-/* Nodes of a cell: 4, 8, 10 or 27; Gauss points per axis of a hexahedron: 2 or 3 */
+/* nnodes: 4, 8, 10 or 27 nodes of a cell; gausspoints per axis of a hexahedron: 2 or 3 */
 PETSC_INTERN PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt gausspoints, CellBasis *);
 
 #define CELL_CALL(function, basis, ...) \
@@ -89,7 +89,7 @@ static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MA
   }
 }
 
-/* stiffness.c: of a cell, from the tangents at its points; the elements share it. K[(3 a + i) 3 n + 3 b + k] */
+/* stiffness.c: stiffness of a cell from the tangents at its points, for all elements. K[(3 a + i) 3 n + 3 b + k] */
 typedef struct {
   PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b], k >= i */
 } CellSums;
@@ -97,47 +97,84 @@ typedef struct {
 /* Stiffness of a law with constant tangent */
 PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *,
   PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
-/* Clears the sums; adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]; then the stiffness from the
-   sums over all points */
+/* Clear: zeroes the sums. Add: adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]. Finish: the
+   stiffness from the sums over all points */
 PETSC_INTERN void CellSumsClear(PetscInt n, CellSums *);
 PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
   const PetscReal A[81], CellSums *);
 PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, PetscScalar K[]);
 
 /*
-   full.c, bbar.c, incompatible.c: elements, which are how energy, force, stiffness and stress of a cell follow from
-   its law and its vertices.
-
-   A new element is one file with an Element, and one line in formulation.h.
+   full.c, bbar.c, incompatible.c: elements. An element computes energy, force, stiffness and stress of a cell from its
+   law and nodes. A new element is a file with an Element, and a line in formulation.h.
 */
 typedef struct {
   const MaterialLaw *law;
-  MaterialModuli     moduli, isochoric; /* all of the law, and what is left of it without its bulk modulus */
+  MaterialModuli     moduli, isochoric; /* of the law; and of the law without its bulk modulus. With a history: of a
+                                           cell's points in turn */
 } BodyMaterial;
+
+/* The moduli at point q of a cell: a copy of its own if the law has a history */
+static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, PetscInt q, MaterialModuli *own)
+{
+  if (!cell->history) return cell;
+  *own = *cell;
+  own->history += MATERIAL_HISTORY * q;
+  return own;
+}
+
+/* Subtracts the plastic strain at point q from a displacement gradient */
+static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H[9])
+{
+  static const int at[9]   = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+  const PetscReal *history = cell->moduli.history;
+
+  for (int i = 0; history && i < 9; ++i) H[i] -= history[MATERIAL_HISTORY * q + at[i]];
+}
 
 #define ELEMENT_STRAINS 10
 
 /*
-   A cell with nodes X[d][a] displaced by U[d][a]. Where a point of it is turned inside out the energy is
-   PETSC_INFINITY, and the others return PETSC_FALSE and what they wrote means nothing.
+   Functions of a cell with nodes X[d][a] and displacements U[d][a]. If a point is inverted the energy is
+   PETSC_INFINITY; the other functions then return PETSC_FALSE, and their results are undefined.
 */
 typedef struct {
-  PetscInt nnodes; /* of the cells that it takes; 0: any */
+  PetscInt nnodes; /* number of nodes of the cells it supports; 0: any */
   PetscReal (
     *energy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES]);
   /* Derivative of the energy, F[d][a] */
   PetscBool (*force)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
-  /* Second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not read where the law's tangent is constant */
+  /* Second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not used if the law's tangent is constant */
   PetscBool (*stiffness)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
   /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
   PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
-  /* Volumes of the points; displacement gradient (9) and dilatation there, those whose energy is the cell's */
+  /* For each point: volume, displacement gradient (9) and dilatation as used in the cell's energy, plastic strain
+     included */
   void (*strains)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
+
+/* modes.c: det J0 J0^(-1) of a cell, its incompatible modes at point q, which has volume w, and Cholesky's factor */
+#define INCOMPATIBLE_MODES 12
+PETSC_INTERN void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3]);
+PETSC_INTERN void IncompatibleModes(const CellBasis *, PetscInt q, PetscReal w, PetscReal cofactor[3][3],
+  PetscReal M[INCOMPATIBLE_MODES][9]);
+PETSC_INTERN void IncompatibleFactor(PetscReal L[INCOMPATIBLE_MODES][INCOMPATIBLE_MODES]);
+
+/* condensed.c: incompatible modes of a law that is not linear, members of an Element */
+PETSC_INTERN PetscReal CondensedEnergy(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES]);
+PETSC_INTERN PetscBool CondensedForce(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
+PETSC_INTERN PetscBool CondensedStiffness(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
+PETSC_INTERN PetscBool CondensedCauchy(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
+PETSC_INTERN void      CondensedStrains(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
+       PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 
 #define ELEMENT_DECLARE(name, element, text) PETSC_INTERN const Element Element##element;
 ELEMENT_TYPES(ELEMENT_DECLARE)
@@ -151,17 +188,20 @@ PETSC_INTERN PetscLogEvent  ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Err
 PETSC_INTERN PetscErrorCode ElasticityEventsRegister(void);
 
 typedef struct {
+  Material         given; /* as given by the caller */
   BodyMaterial     material;
   ElementType      type;
-  const Element   *element; /* with the basis, that of the body's cells; NULL on ranks without any */
+  const Element   *element; /* the element and the basis of the body's cells; NULL on ranks without cells of it */
   const CellBasis *basis;
-  PetscBool        kept;       /* constant tangent, and no vertex shared with a body that is assembled again */
-  PetscInt         assemblies; /* into any tangent */
+  PetscBool        kept;       /* constant tangent, and no common vertex with a body that is assembled again */
+  PetscInt         assemblies; /* number of assemblies into any tangent */
   PetscBool        expands;
-  PetscReal        expansion[9]; /* thermal, a tensor [1/temperature] */
+  PetscReal        expansion[9]; /* thermal expansion tensor [1/temperature] */
+  PetscReal        density;      /* [mass/length^3] */
+  PetscBool        rigid;
 } Body;
 
-/* The last tangent assembled, as it was left: a matrix of another id or state is assembled completely */
+/* Identifies the last assembled tangent and its state; any other matrix is assembled completely */
 typedef struct {
   PetscObjectId    id; /* 0: none */
   PetscObjectState state;
@@ -170,20 +210,26 @@ typedef struct {
 struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
-  PetscBool        mattype_given; /* by an option */
+  PetscBool        mattype_given; /* set by an option */
   CellBasis       *basis[4];      /* of order 1 and 2, hexahedra and tetrahedra; NULL: no such cells on this rank */
   PetscInt         nbodies;
   Body            *bodies;
-  PetscInt         quadrature;     /* Gauss points per axis of order 1 */
-  PetscInt         ncells, nnodes; /* of this rank; nodes are numbered as the local section does */
+  PetscInt         quadrature;     /* Gauss points per axis for order 1 */
+  PetscInt         ncells, nnodes; /* on this rank; nodes are numbered as in the local section */
   PetscInt        *cellstart;      /* ncells + 1 */
-  PetscInt        *cellnodes;      /* nodes of cell c, in tensor order, from cellnodes[cellstart[c]] */
+  PetscInt        *cellnodes;      /* the nodes of cell c start at cellnodes[cellstart[c]], in tensor order */
   PetscInt        *cellbody;
-  unsigned char   *prescribed;  /* a node's bit d is set if its component d is prescribed; NULL if nothing is */
-  Vec              springs;     /* stiffness of those to the ground, one a row; NULL: none [force/length] */
-  Mat              between;     /* of springs between unknowns; NULL: there are none [force/length] */
-  PetscReal       *temperature; /* 4 a cell; NULL: none is set */
+  unsigned char   *prescribed;  /* bit d of a node: its component d is prescribed; NULL: none is */
+  Vec              springs;     /* stiffness of springs to the ground, one per row; NULL: none [force/length] */
+  Mat              between;     /* stiffness of springs between unknowns; NULL: none [force/length] */
+  PetscReal       *temperature; /* 4 per cell; NULL: none */
+  PetscBool        yields;      /* some body's law has a history */
+  PetscInt        *firstpoint;  /* then: first point of cell c in history; PETSC_DECIDE: its law has none */
+  PetscInt         npoints;     /* number of points with a history on this rank */
+  PetscReal       *history;     /* at the last state of equilibrium, MATERIAL_HISTORY values per point */
   AssembledTangent assembled;
+  PetscReal        inertia, viscosity; /* of tangents: factor of the mass, 0: none; more than 1 of the stiffness */
+  PetscBool        consistent, *light; /* mass; local nodes that have none, NULL: all have theirs */
 };
 
 /* locals.c: local values of a displacement (NULL: zero), and the coordinates */
@@ -192,7 +238,7 @@ PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, c
 PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul,
   const PetscScalar **x);
 
-/* Values of a local vector (3 a node) at a cell's nodes, component by component */
+/* Gathers the values of a local vector (3 per node) at a cell's nodes, by component */
 static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[],
   PetscReal values[3][CELL_MAX_NODES])
 {
@@ -201,23 +247,31 @@ static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscSca
   }
 }
 
-/* A cell with its places and displacements */
+/* A cell with coordinates and displacements */
 typedef struct {
-  PetscInt        n;
-  const PetscInt *nodes;
-  const Body     *body;
-  PetscReal       X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
+  PetscInt            n;
+  const PetscInt     *nodes;
+  const Body         *body;
+  const BodyMaterial *material; /* the body's material, or */
+  BodyMaterial        own;      /* a copy with the cell's history */
+  PetscReal           X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
 } CellState;
 
-/* thermal.c: takes off what a cell would move by in its temperature if it were free */
+/* thermal.c: subtracts the free thermal displacement of a cell */
 PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 
 static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],
   CellState *cell)
 {
-  cell->n     = e->cellstart[c + 1] - e->cellstart[c];
-  cell->nodes = e->cellnodes + e->cellstart[c];
-  cell->body  = &e->bodies[e->cellbody[c]];
+  cell->n        = e->cellstart[c + 1] - e->cellstart[c];
+  cell->nodes    = e->cellnodes + e->cellstart[c];
+  cell->body     = &e->bodies[e->cellbody[c]];
+  cell->material = &cell->body->material;
+  if (e->history && e->firstpoint[c] >= 0) {
+    cell->own                = cell->body->material;
+    cell->own.moduli.history = cell->own.isochoric.history = e->history + MATERIAL_HISTORY * e->firstpoint[c];
+    cell->material                                         = &cell->own;
+  }
   CellGather(cell->n, cell->nodes, x, cell->X);
   CellGather(cell->n, cell->nodes, u, cell->U);
   if (e->temperature && cell->body->expands) ThermalSubtract(e->temperature + 4 * c, cell);

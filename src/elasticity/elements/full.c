@@ -4,14 +4,15 @@
 static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
-  PetscReal G[3][CELL_MAX_NODES], H[9], sum = 0;
+  PetscReal      G[3][CELL_MAX_NODES], H[9], sum = 0;
+  MaterialModuli own;
 
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w = CellGradients(n, basis, q, X, G);
     PetscReal       density;
 
     CellDisplacementGradient(n, U, G, H);
-    density = m->law->energy(&m->moduli, H);
+    density = m->law->energy(CellModuli(&m->moduli, q, &own), H);
     if (density >= PETSC_INFINITY) return PETSC_INFINITY;
     sum += w * density;
   }
@@ -27,7 +28,8 @@ static PetscReal ElementEnergy_Full(const CellBasis *basis, const BodyMaterial *
 static inline PetscBool FullForce(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
-  PetscReal G[3][CELL_MAX_NODES], H[9], P[9];
+  PetscReal      G[3][CELL_MAX_NODES], H[9], P[9];
+  MaterialModuli own;
 
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < n; ++a) F[i][a] = 0;
@@ -36,7 +38,7 @@ static inline PetscBool FullForce(const int n, const CellBasis *basis, const Bod
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->stress(&m->moduli, H, P)) return PETSC_FALSE;
+    if (!m->law->stress(CellModuli(&m->moduli, q, &own), H, P)) return PETSC_FALSE;
     CellForceAdd(n, w, G, P, F);
   }
   return PETSC_TRUE;
@@ -52,15 +54,16 @@ static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m
 static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  PetscReal G[3][CELL_MAX_NODES], H[9], A[81];
-  CellSums  S;
+  PetscReal      G[3][CELL_MAX_NODES], H[9], A[81];
+  CellSums       S;
+  MaterialModuli own;
 
   CellSumsClear(n, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->tangent(&m->moduli, H, A)) return PETSC_FALSE;
+    if (!m->law->tangent(CellModuli(&m->moduli, q, &own), H, A)) return PETSC_FALSE;
     CellStiffnessAdd(basis, w, G, A, &S);
   }
   CellStiffnessFinish(basis, &S, K);
@@ -78,14 +81,15 @@ static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMateria
 static inline PetscBool FullCauchy(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
-  PetscReal G[3][CELL_MAX_NODES], H[9], s[6], volume = 0;
+  PetscReal      G[3][CELL_MAX_NODES], H[9], s[6], volume = 0;
+  MaterialModuli own;
 
   for (int k = 0; k < 6; ++k) sigma[k] = 0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w = CellGradients(n, basis, q, X, G);
 
     CellDisplacementGradient(n, U, G, H);
-    if (!m->law->cauchy(&m->moduli, H, s)) return PETSC_FALSE;
+    if (!m->law->cauchy(CellModuli(&m->moduli, q, &own), H, s)) return PETSC_FALSE;
     for (int k = 0; k < 6; ++k) sigma[k] += w * s[k];
     volume += w;
   }

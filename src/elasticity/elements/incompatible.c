@@ -1,74 +1,15 @@
 /*
-   Incompatible modes, for linear laws and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), the modes of
-   a cell condensed in it. With J the Jacobian at a point and J0 that at the centre the 12 modes are
-
-     M_(3 i + k) = det J0/det J  xi_k e_i (x) (row k of J0^(-1)),   M_(9 + k) = det J0/det J  xi_(k + 1) xi_(k + 2) I:
-
-   the gradients of xi_k^2, in which a bent cell does not shear, and the dilatations that a trilinear displacement
-   lacks, without which it locks as Poisson's ratio nears 1/2. det J0/det J makes int M = 0 in cells of every shape,
-   so they pass the patch test.
-
-   References: Taylor, Beresford and Wilson, A non-conforming element for stress analysis, 1976. Simo and Rifai, A
-   class of mixed assumed strain methods and the method of incompatible modes, 1990. Simo, Armero and Taylor, Improved
-   versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
+   Incompatible modes, for laws of small strain and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), with
+   the modes M_m of modes.c, condensed in the cell. Laws that are not linear: condensed.c.
 */
 #include "elementsimpl.h"
 
-#define MODES 12
+#define MODES INCOMPATIBLE_MODES
 
 typedef struct {
-  PetscReal K[MODES][3][CELL_MAX_NODES]; /* derivatives of the energy by a mode and U[i][a] */
-  PetscReal L[MODES][MODES];             /* Cholesky factor of those by two modes */
+  PetscReal K[MODES][3][CELL_MAX_NODES]; /* second derivatives of the energy by a mode and U[i][a] */
+  PetscReal L[MODES][MODES];             /* Cholesky factor of the second derivatives by two modes */
 } Incompatibility;
-
-/* det J0 J0^(-1): the modes are scaled by det J0 */
-static void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
-{
-  PetscReal J[3][3];
-
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      J[i][k] = 0;
-      for (int a = 0; a < 8; ++a) J[i][k] += 0.125 * (a >> k & 1 ? X[i][a] : -X[i][a]);
-    }
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-
-    for (int j = 0; j < 3; ++j)
-      cofactor[k][j] = J[(j + 1) % 3][k1] * J[(j + 2) % 3][k2] - J[(j + 1) % 3][k2] * J[(j + 2) % 3][k1];
-  }
-}
-
-/* The modes as displacement gradients at point q, whose volume is w */
-static void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3],
-  PetscReal M[MODES][9])
-{
-  const PetscReal *xi = basis->xi[q], inverse = basis->weight[q] / w;
-
-  for (int m = 0; m < MODES; ++m) {
-    for (int j = 0; j < 9; ++j) M[m][j] = 0;
-  }
-  for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) M[3 * i + k][3 * i + j] = inverse * xi[k] * cofactor[k][j];
-      M[9 + k][4 * i] = inverse * xi[(k + 1) % 3] * xi[(k + 2) % 3];
-    }
-  }
-}
-
-/* Positive definite: no combination of modes is a rotation at all points */
-static void IncompatibleFactor(PetscReal L[MODES][MODES])
-{
-  for (int m = 0; m < MODES; ++m) {
-    for (int n = 0; n <= m; ++n) {
-      PetscReal sum = L[m][n];
-
-      for (int k = 0; k < n; ++k) sum -= L[m][k] * L[n][k];
-      L[m][n] = m == n ? PetscSqrtReal(sum) : sum / L[n][n];
-    }
-  }
-}
 
 static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   Incompatibility *modes)
@@ -92,7 +33,7 @@ static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, Pet
   IncompatibleFactor(modes->L);
 }
 
-/* a = -K_aa^(-1) K_au u; returns the energy that the modes take away, a.K_aa a/2 */
+/* a = -K_aa^(-1) K_au u; returns the energy that the modes remove, a.K_aa a/2 */
 static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][CELL_MAX_NODES], PetscReal a[MODES])
 {
   PetscReal released = 0;
@@ -119,6 +60,7 @@ static PetscReal ElementEnergy_Incompatible(const CellBasis *basis, const BodyMa
   Incompatibility modes;
   PetscReal       a[MODES];
 
+  if (m->law->advance) return CondensedEnergy(basis, m, X, U);
   IncompatibleSetUp(basis, m, X, &modes);
   return ElementFull.energy(basis, m, X, U) - IncompatibleSolve(&modes, U, a);
 }
@@ -129,6 +71,7 @@ static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMat
   Incompatibility modes;
   PetscReal       a[MODES];
 
+  if (m->law->advance) return CondensedForce(basis, m, X, U, F);
   IncompatibleSetUp(basis, m, X, &modes);
   (void)IncompatibleSolve(&modes, U, a);
   if (!ElementFull.force(basis, m, X, U, F)) return PETSC_FALSE;
@@ -147,6 +90,7 @@ static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const Bod
   Incompatibility modes;
   PetscReal       row[24];
 
+  if (m->law->advance) return CondensedStiffness(basis, m, X, U, K);
   IncompatibleSetUp(basis, m, X, &modes);
   if (!ElementFull.stiffness(basis, m, X, U, K)) return PETSC_FALSE;
   for (int k = 0; k < MODES; ++k) {
@@ -164,11 +108,11 @@ static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const Bod
   return PETSC_TRUE;
 }
 
-/* The modes' stresses have no mean */
+/* The modes' stresses have no mean where the law is linear */
 static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
-  return ElementFull.cauchy(basis, m, X, U, sigma);
+  return m->law->advance ? CondensedCauchy(basis, m, X, U, sigma) : ElementFull.cauchy(basis, m, X, U, sigma);
 }
 
 static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
@@ -177,6 +121,10 @@ static void ElementStrains_Incompatible(const CellBasis *basis, const BodyMateri
   Incompatibility modes;
   PetscReal       a[MODES], M[MODES][9], C[9], cofactor[3][3];
 
+  if (m->law->advance) {
+    CondensedStrains(basis, m, X, U, w, H);
+    return;
+  }
   ElementFull.strains(basis, m, X, U, w, H);
   IncompatibleCentre(X, cofactor);
   IncompatibleSetUp(basis, m, X, &modes);

@@ -1,4 +1,4 @@
-/* Displacements and coordinates as the cells of this rank see them */
+/* Displacements and coordinates of the cells of this rank */
 #include "elementsimpl.h"
 #include <mesh.h>
 

@@ -1,4 +1,4 @@
-/* Stiffness of a cell from its points' tangents, shared by the elements */
+/* Stiffness of a cell from the tangents at its points, for all elements */
 #include "elementsimpl.h"
 
 void CellSumsClear(PetscInt n, CellSums *S)
@@ -97,7 +97,7 @@ void CellStiffnessFinish(const CellBasis *basis, const CellSums *S, PetscScalar 
   }
 }
 
-/* With the tangent at rest, where it does not come from lambda and mu alone */
+/* For an anisotropic law, with its constant tangent A */
 static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
   const PetscReal A[81], PetscScalar K[])
 {

@@ -1,20 +1,15 @@
 /*
-   Thermal strain of bodies of small strain: the law sees the displacement gradient less A T, with the expansion A and
-   the temperature T above that of the body without stress.
-
-   In a cell T is taken as linear, T_c + g.y with y the place from the centre, by least squares over the nodes. A
-   strain linear in the place is compatible: a free cell would move by
-
-     u = A y (T_c + g.y) - (y.A y)/2 g,
-
-   whose symmetric gradient is A (T_c + g.y). So each cell is evaluated at its displacement less that one, whatever
-   its element, and a free body in a temperature that is linear in the place is without stress, in bending too. The
-   tangent does not know of it.
+   Thermal strain for small-strain laws. The law is evaluated with the displacement gradient minus A T, where A is the
+   thermal expansion tensor and T the temperature above the stress-free one. In each cell T is approximated by a linear
+   function T_c + g.y of the position y from its centre, by least squares over the nodes. The thermal strain is then
+   compatible: a free cell would be displaced by u = A y (T_c + g.y) - (y.A y)/2 g, whose symmetric gradient is A (T_c +
+   g.y). Each cell is evaluated at its displacement minus this one, with any element. Hence a free body in a linear
+   temperature field has no stress, also in bending. The tangent is not affected.
 */
 #include "elementsimpl.h"
 #include <mesh.h>
 
-/* Solves the 3 x 3 system of a symmetric positive definite matrix by Cramer's rule */
+/* Solves M x = b for a symmetric positive definite 3 x 3 matrix by Cramer's rule */
 static void ThermalSolve(PetscReal M[3][3], const PetscReal b[3], PetscReal x[3])
 {
   PetscReal C[3][3], det;
@@ -37,7 +32,7 @@ static void ThermalCentre(PetscInt n, PetscReal X[3][CELL_MAX_NODES], PetscReal 
   }
 }
 
-/* T_c and g from the temperatures of the nodes */
+/* fit: T_c and g from the nodal temperatures */
 static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscReal T[], PetscReal fit[4])
 {
   PetscReal centre[3], M[3][3] = {{0}}, b[3] = {0};
@@ -56,7 +51,7 @@ static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscRe
   ThermalSolve(M, b, fit + 1);
 }
 
-/* Takes the free displacement off that of a cell */
+/* Subtracts the free thermal displacement from a cell's displacement */
 void ThermalSubtract(const PetscReal fit[4], CellState *cell)
 {
   const PetscReal *A = cell->body->expansion;
@@ -131,8 +126,7 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
 
   Notes:
   Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
-  small strain, which alone
-  expand, does not depend on it.
+  small strain, which alone expand, does not depend on it.
 
 .seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
 @*/

@@ -1,4 +1,4 @@
-/* Integrals over faces, all from one quadrature: tractions, what a face measures, springs */
+/* Integrals over faces with one quadrature rule: tractions, areas and moments, springs */
 #include "facesimpl.h"
 
 /* The facets of a face on this rank */
@@ -8,7 +8,7 @@ typedef struct {
 } Face;
 
 typedef struct {
-  PetscReal N[FACET_MAX_NODES], x[3], area; /* shape functions, place, weight times area */
+  PetscReal N[FACET_MAX_NODES], x[3], area; /* shape functions, coordinates, weight x area */
 } FacePoint;
 
 #define FACE_POINTS 9
@@ -41,7 +41,7 @@ static PetscErrorCode FaceDestroy(Face *face)
   PetscFunctionReturn(0);
 }
 
-/* 3 x 3 points of a facet: exact where it is plane */
+/* 3 x 3 points of a facet: exact for plane facets */
 static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
 {
   for (int q = 0; q < FACE_POINTS; ++q) {
@@ -63,7 +63,7 @@ static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
   }
 }
 
-/* A global vector gets int N_a f(x) dA */
+/* Adds int N_a f(x) dA to a global vector */
 static PetscErrorCode FaceAddField(Elasticity e, const char                             name[],
   void (*field)(const PetscReal x[3], const void *ctx, PetscReal value[3]), const void *ctx, Vec total)
 {
@@ -143,7 +143,7 @@ static void FaceTwisted(const PetscReal x[3], const void *ctx, PetscReal value[3
   }
 }
 
-/* Area, centroid, and the second moments int r r^T dA about a point: xx yy zz xy yz zx */
+/* Area, centroid, and second moments int r r^T dA about a point: xx yy zz xy yz zx */
 static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscReal about[3], PetscReal sums[10])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -170,7 +170,7 @@ static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* b of int r x (b x r) dA = moment, by Cramer's rule on the face's tensor of inertia */
+/* Solves int r x (b x r) dA = moment for b by Cramer's rule; s: second moments */
 static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3], PetscReal b[3])
 {
   const PetscReal inertia[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[2] + s[0], -s[4]},

@@ -1,16 +1,16 @@
-/* Pressures that follow the deformed normal and area: their load at a displacement, and how it changes */
+/* Follower pressures on the deformed normal and area: their load, and its derivative */
 #include "facesimpl.h"
 #include <mesh.h>
 
-/* The deformed facet, and what -pressure n does to its nodes */
+/* Deforms the facet, and computes the nodal forces of -pressure n */
 static void FollowerLoad(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscReal F[][3])
 {
   FacetNormals(facet->n, x, F);
   for (PetscInt i = 0; i < 3 * facet->n; ++i) F[i / 3][i % 3] *= -pressure;
 }
 
-/* Symmetric part of the load's derivative: central differences, which are exact as the load is quadratic in the
-   places */
+/* S: symmetric part of the load's derivative by central differences, which are exact since the load is quadratic in
+   the coordinates */
 static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscScalar S[])
 {
   const PetscInt width = 3 * facet->n;
@@ -35,7 +35,7 @@ static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][
   }
 }
 
-/* To rows and columns that are not prescribed */
+/* Adds to rows and columns that are not prescribed */
 static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const PetscInt global[], PetscScalar S[],
   Mat slope)
 {

@@ -2,7 +2,7 @@
 #include "facesimpl.h"
 #include <mesh.h>
 
-/* Integrals of the shape functions */
+/* volume[a] = int N_a over a cell */
 static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal volume[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES];
@@ -15,9 +15,9 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
   }
 }
 
-/* The same, but in a tetrahedron of 10 nodes, where those of the corners are negative: in proportion to the integrals
-   of the squared shape functions */
-static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
+/* The same; for tetrahedra with 10 nodes, whose corner integrals are negative, distributed in proportion to int
+   N_a^2 */
+void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
 
@@ -35,7 +35,7 @@ static void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], P
   for (PetscInt a = 0; a < 10; ++a) mass[a] = whole / sum * square[a];
 }
 
-/* Adds factor[d] times the integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
+/* Adds factor[d] times these integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
 static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
   void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]),
   const PetscReal factor[3], Vec total)
@@ -126,7 +126,7 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* The vectors of a facet's nodes are those of the bilinear facets, or triangles, that they cut it into */
+/* F: area vectors at the nodes, from the bilinear facets or triangles into which the nodes divide the facet */
 static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
 {
   for (PetscInt a = 0; a < facet->n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
@@ -141,7 +141,8 @@ static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
   }
 }
 
-/* Adds factor times int N_a n dA over a face, of its facets or cut at their nodes */
+/* Adds factor times int N_a n dA over a face, for its facets, or for the parts into which their nodes divide them
+   (cut) */
 static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], PetscReal factor, PetscBool cut, Vec total)
 {
   IS                 facets;
@@ -196,9 +197,8 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is
-  not a face of the mesh is an
-  error.
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
+  a face of the mesh is an error.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
 @*/
@@ -226,8 +226,7 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 
   Notes:
   Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
-  quadratic shape functions
-  are loads.
+  quadratic shape functions are loads.
 
 .seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
 @*/

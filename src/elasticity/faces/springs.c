@@ -1,4 +1,4 @@
-/* Springs. To the ground: one stiffness k an unknown, E = sum k u^2/2. Between bodies: a matrix S, E = u^T S u/2. */
+/* Springs. To the ground: a stiffness k per unknown, E = sum k u^2/2. Between bodies: a matrix S, E = u^T S u/2. */
 #include "facesimpl.h"
 
 /*@
@@ -43,7 +43,7 @@ static PetscErrorCode SpringsMultiply(Elasticity e, Vec u, Vec product)
   PetscFunctionReturn(0);
 }
 
-/* Part of this rank, added to a sum over the ranks to come */
+/* Adds this rank's part; the caller sums over the ranks */
 PetscErrorCode SpringsAddEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   const PetscScalar *f, *v;
@@ -77,8 +77,8 @@ PetscErrorCode SpringsAddForce(Elasticity e, Vec u, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* To the diagonal blocks of nodes that this rank owns, of all bodies or of those that are not kept. Where an unknown
-   is prescribed its diagonal is arbitrary */
+/* Adds to the diagonal blocks of owned nodes, of all bodies or of those that are assembled again. The diagonal of
+   prescribed unknowns is arbitrary */
 PetscErrorCode SpringsAddTangent(Elasticity e, PetscBool all, const PetscInt global[], Mat tangent)
 {
   const PetscScalar *k;

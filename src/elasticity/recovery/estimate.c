@@ -1,11 +1,11 @@
-/* Estimate of the discretization error: distance of the elements' strains from the recovered ones, in the norm of the
-   energy */
+/* Estimate of the discretization error: difference between the elements' strains and the recovered ones, in the
+   energy norm */
 #include "recoveryimpl.h"
 
 /*
-   The second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error, where the
-   dilatation's own error counts for kappa. theta's curvature is left out: it integrates to zero under uniform
-   pressure. At finite strain the isochoric tangent may be indefinite; no error is negative.
+   Second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error; the error of
+   the dilatation is used for kappa. The curvature of theta is omitted, as it integrates to zero under uniform pressure.
+   At finite strain the isochoric tangent may be indefinite; negative values are set to zero.
 */
 static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9],
   const PetscReal error[ELEMENT_STRAINS])
@@ -13,7 +13,7 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
   const PetscReal volumetric = m->moduli.bulk * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
 
-  if (m->law->constant) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
+  if (m->law->constant || m->law->advance) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
   if (!m->law->tangent(&m->isochoric, H, A)) return PETSC_INFINITY;
   for (int i = 0; i < 9; ++i) {
     for (int j = 0; j < 9; ++j) isochoric += error[i] * A[9 * i + j] * error[j];
@@ -23,19 +23,19 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
 
 static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recovered[])
 {
-  const CellBasis    *basis = cell->body->basis;
-  const BodyMaterial *m     = &cell->body->material;
-  PetscReal           w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
+  const CellBasis *basis = cell->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
 
-  cell->body->element->strains(basis, m, cell->X, cell->U, w, H);
+  cell->body->element->strains(basis, cell->material, cell->X, cell->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal error[ELEMENT_STRAINS];
 
+    CellElastic(cell->material, q, H[q]);
     for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = -H[q][k];
     for (PetscInt a = 0; a < cell->n; ++a) {
       for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[cell->nodes[a]].value[k];
     }
-    sum += w[q] * EstimateNormSquared(m, H[q], error);
+    sum += w[q] * EstimateNormSquared(&cell->body->material, H[q], error);
   }
   return sum;
 }
@@ -58,8 +58,8 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
 }
 
 /*
-   Selects from the bodies that remain some of which no two share a node, and takes them off: those that are the first
-   at all of their nodes
+   Selects from the remaining bodies some of which no two share a node, and removes them: those that are the first at
+   all of their nodes
 */
 static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
   PetscBool *more)
@@ -99,7 +99,7 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Selects bodies that remain, takes them off, and recovers them; more: whether others remain */
+/* Selects remaining bodies, removes them, and recovers their strains; more: whether others remain */
 PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {
@@ -131,18 +131,15 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   Level: intermediate
 
   Notes:
-  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements'
-  own stress s_h,
-  and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's second
-  derivative at u. The
-  true stress is replaced by one recovered from the cells around each vertex, never across the border of a body.
+  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
+  stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
+  second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
+  the border of a body.
 
-  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across
-  the body on, and nears 1 as the
-  mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with its own, too small energy
-  still tells
-  it. Errors of a solver, of the loads or of the geometry are not seen. In bodies of one layer of cells the estimate
-  is rough.
+  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
+  body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
+  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies
+  of one layer of cells the estimate is rough.
 
   Where a cell is turned inside out the estimate is infinite.
 

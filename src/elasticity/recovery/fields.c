@@ -1,8 +1,8 @@
-/* Fields for people to look at: stress at the nodes and at the quadrature points, strain energy of the cells */
+/* Output fields: stress at nodes and quadrature points, strain energy of cells */
 #include "recoveryimpl.h"
 
-/* Cauchy stress of a displacement gradient (9) and a dilatation of its own, whose pressure the energy kappa/2 theta^2
-   makes */
+/* Cauchy stress from a displacement gradient (9) and a separate dilatation, which determines the pressure kappa
+   theta */
 static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
 {
   const PetscBool valid = m->law->cauchy(&m->isochoric, strain, stress);
@@ -11,7 +11,7 @@ static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEM
   return valid;
 }
 
-/* Adds the stresses of the selected bodies' nodes; n: how many were added to each */
+/* Adds the stresses at the selected bodies' nodes; n: number of contributions per node */
 static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[],
   PetscReal n[], PetscReal stress[])
 {
@@ -53,10 +53,9 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 
   Notes:
   Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
-  body, and the law gives the stress of
-  them: second order up to the surface, where the cells' own stress is first order. Where bodies share a node it has
-  the mean of theirs. A node
-  at which the material is turned inside out has `PETSC_INFINITY`.
+  body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first
+  order. Where bodies share a node it has the mean of theirs. A node at which the material is turned inside out has
+  `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
 @*/
@@ -128,8 +127,9 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
 
     ElasticityGetCell(e, c, x, ul, &cell);
     basis = cell.body->basis;
-    cell.body->element->strains(basis, &cell.body->material, cell.X, cell.U, w, H);
+    cell.body->element->strains(basis, cell.material, cell.X, cell.U, w, H);
     for (PetscInt q = 0; q < basis->npoints; ++q, ++k) {
+      CellElastic(cell.material, q, H[q]);
       (void)FieldsStress(&cell.body->material, H[q], *stress + 6 * k);
       for (int a = 0; a < basis->nnodes; ++a) {
         for (int d = 0; d < 3; ++d) (*places)[3 * k + d] += basis->N[q][a] * cell.X[d][a];
@@ -155,7 +155,8 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
   Level: intermediate
 
   Notes:
-  Density times volume sums to `ElasticityEnergy()`. A cell turned inside out has `PETSC_INFINITY`.
+  Density times volume sums to `ElasticityEnergy()`, less the plastic work. A cell turned inside out has
+  `PETSC_INFINITY`.
 
 .seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
 @*/
@@ -175,7 +176,10 @@ PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
     ElasticityGetCell(e, c, x, ul, &cell);
     basis = cell.body->basis;
     for (PetscInt q = 0; q < basis->npoints; ++q) volume += CELL_CALL(CellGradients, basis, q, cell.X, G);
-    energy        = cell.body->element->energy(basis, &cell.body->material, cell.X, cell.U);
+    energy = cell.body->element->energy(basis, cell.material, cell.X, cell.U);
+    for (PetscInt q = 0; cell.material->moduli.history && q < basis->npoints; ++q)
+      energy -= CELL_CALL(CellGradients, basis, q, cell.X, G) *
+                cell.material->law->work(&cell.material->moduli, cell.material->moduli.history + MATERIAL_HISTORY * q);
     (*density)[c] = energy < PETSC_INFINITY ? energy / volume : PETSC_INFINITY;
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));

@@ -1,26 +1,27 @@
 /*
-   Recovery of displacement gradient and dilatation at the nodes of cells of order 2: as in recovery.c, but from 8
-   samples a cell, at the 2 x 2 x 2 Gauss points where the gradients of order 2 are superconvergent, or 4 a
-   tetrahedron, at the points of its rule of degree 2, fitted by quadratic polynomials over the cells around a vertex:
-   second order there, and beyond on regular meshes. Nodes between the vertices take the mean of the polynomials of
-   their cells' vertices that are trusted best: those inside the body, else those of as many cells as any. Terms that
-   the samples do not determine are left out, as the square across one layer of cells.
+   Recovery of displacement gradient and dilatation at the nodes of cells of order 2. As in recovery.c, but from 8
+   samples per cell at the 2 x 2 x 2 Gauss points, where gradients of order 2 are superconvergent (4 per tetrahedron),
+   fitted by quadratic polynomials over the cells around a vertex. The result is of second order, and higher on regular
+   meshes. Other nodes get the mean of the polynomials of their cells' vertices with the highest rank: vertices inside
+   the body, else those with the most cells. Terms that the samples do not determine are omitted, such as the square
+   across one layer of cells.
 */
 #include "recoveryimpl.h"
 
 #define TERMS   10 /* 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
 #define SAMPLES 8
 
-/* Least squares about a vertex: sums over the samples around it */
+/* Least squares around a vertex: sums over the samples around it */
 typedef struct {
-  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* then the polynomial's coefficients */
-  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* afterwards the polynomial's coefficients */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; and sum of its magnitudes */
   PetscReal ncells;
 } QuadraticPatch;
 
 typedef struct {
-  PetscInt  n;                                                         /* samples, as many as vertices */
-  PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3]; /* places, values; int grad N of the vertices */
+  PetscInt n; /* number of samples, and of vertices */
+  /* coordinates and values of samples; int grad N of the vertices */
+  PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3];
 } QuadraticCell;
 
 static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
@@ -33,7 +34,7 @@ static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
   }
 }
 
-/* Weights that take values at 3 Gauss points of a line to its two superconvergent ones */
+/* Weights from values at 3 Gauss points of a line to its two superconvergent points */
 static void QuadraticLine(PetscReal weight[2][3])
 {
   const PetscReal gauss = PetscSqrtReal(0.6), at[2] = {-PetscSqrtReal(1. / 3), PetscSqrtReal(1. / 3)};
@@ -47,8 +48,8 @@ static void QuadraticLine(PetscReal weight[2][3])
   }
 }
 
-/* Weights that take values at the points of a tetrahedron to its 4 samples, in each of which one barycentric
-   coordinate is the largest: those of the linear polynomial that is nearest in the mean */
+/* Weights from values at the points of a tetrahedron to its 4 samples, by the linear polynomial of least squares; in
+   each sample one barycentric coordinate is the largest */
 static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
 {
   const PetscReal place = 0.1381966011250105;
@@ -64,7 +65,7 @@ static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLE
   }
 }
 
-/* Weights that take values at the points of a cell to its samples, of which there are n */
+/* Weights from values at the points of a cell to its n samples */
 static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
 {
   PetscReal line[2][3];
@@ -89,7 +90,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
 
   *cell = (QuadraticCell){0};
   QuadraticWeights(basis, &cell->n, weight);
-  state->body->element->strains(basis, &state->body->material, state->X, state->U, w, H);
+  state->body->element->strains(basis, state->material, state->X, state->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal x[3] = {0, 0, 0};
 
@@ -98,6 +99,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
       for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
       for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
     }
+    CellElastic(state->material, q, H[q]);
     for (int s = 0; s < cell->n; ++s) {
       for (int d = 0; d < 3; ++d) cell->x[s][d] += weight[s][q] * x[d];
       for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight[s][q] * H[q][k];
@@ -127,8 +129,8 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
   patch->ncells += 1;
 }
 
-/* Cholesky's factor in units of the diagonal; scale is 0 of terms that the samples do not tell from those before,
-   which are left out */
+/* Cholesky factorization scaled by the diagonal; scale is 0 for terms that depend on earlier ones in the samples,
+   which are omitted */
 static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], PetscReal L[TERMS][TERMS])
 {
   for (int i = 0; i < TERMS; ++i) {
@@ -148,7 +150,7 @@ static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], P
   }
 }
 
-/* The coefficients, in the place of b: of a quadratic polynomial as far as the samples determine it */
+/* Replaces b by the coefficients of a quadratic polynomial, as far as the samples determine it */
 static void QuadraticPatchFit(QuadraticPatch *patch)
 {
   PetscReal L[TERMS][TERMS], scale[TERMS];
@@ -176,8 +178,8 @@ static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
   return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
-/* How far a vertex's polynomial is to be trusted at a node of a cell: most inside the body, else the more cells it is
-   of; more at the vertex itself */
+/* Rank of a vertex's polynomial at a node of a cell: highest inside the body, else by its number of cells; higher at
+   the vertex itself */
 static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscBool itself)
 {
   return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (itself ? 1 : 0);
@@ -194,8 +196,8 @@ static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], 
   }
 }
 
-/* At the nodes of a cell: the highest rank that a polynomial of its vertices has; or with `sums` adds the polynomials
-   of the rank that is known by now */
+/* At the nodes of a cell: the highest rank among the polynomials of its vertices; or with `sums`, adds the
+   polynomials of that rank */
 static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[],
   PetscInt rank[], RecoveredNode sums[])
 {
@@ -214,7 +216,7 @@ static void QuadraticContinue(const CellState *state, const PetscInt number[], c
   }
 }
 
-/* Numbers the vertices of the cells of order 2; -1: another node. And shares them as the nodes are shared */
+/* Numbers the vertices of cells of order 2 (-1: another node), and creates their star forest from that of the nodes */
 static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt number[], PetscInt *n, PetscSF *vertices)
 {
   PetscInt           nleaves, nshared = 0, *theirs, *leaf;
@@ -277,8 +279,7 @@ static PetscErrorCode QuadraticFitPatches(Elasticity e, PetscSF sf, const PetscB
   PetscFunctionReturn(0);
 }
 
-/* The mean of the polynomials of the highest rank at every node of the selected bodies' cells of order 2: their sums,
-   and how many */
+/* Sums and counts the polynomials of highest rank at every node of the selected bodies' cells of order 2 */
 static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], const PetscInt number[], const QuadraticPatch patches[], RecoveredNode sums[])
 {
@@ -305,7 +306,7 @@ static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Values at the nodes of the selected bodies' cells of order 2; those of other nodes stay */
+/* Sets the values at the nodes of the selected bodies' cells of order 2; other nodes are unchanged */
 PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[])
 {

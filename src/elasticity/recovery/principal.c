@@ -1,12 +1,13 @@
 /* Principal values of a stress */
 #include "recoveryimpl.h"
 
-/* Takes the product of two axes to zero by a rotation in their plane */
+/* One Jacobi rotation: makes the entry (p, q) zero */
 static void PrincipalRotate(PetscReal A[3][3], int p, int q)
 {
   const int       r    = 3 - p - q;
   const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q];
-  const PetscReal size = PetscMax(PetscAbsReal(half), PetscAbsReal(off)); /* squares of tiny products would vanish */
+  /* without scaling the squares of tiny numbers would underflow */
+  const PetscReal size = PetscMax(PetscAbsReal(half), PetscAbsReal(off));
   PetscReal       t, c, s, pr = A[p][r], qr = A[q][r];
 
   if (off == 0) return;

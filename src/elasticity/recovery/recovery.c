@@ -1,25 +1,23 @@
 /*
-   Recovery of displacement gradient and dilatation at the vertices, by superconvergent patches: cell averages, placed
-   at the cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a
-   vertex on a body's surface lie on one side of it; the polynomials of the interior vertices of these cells are
-   continued to it, and averaged: second order up to the surface. A body of one layer of cells has no interior vertex;
-   its vertices take the mean of their cells.
-
-   References:
-   Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
+   Recovery of displacement gradient and dilatation at the vertices by superconvergent patches. Cell averages, placed at
+   the cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a vertex on
+   the surface are on one side of it; such a vertex gets the mean of the polynomials of the interior vertices of its
+   cells. The result is of second order up to the surface. A body with one layer of cells has no interior vertex; its
+   vertices get the mean of their cells. References: Zienkiewicz and Zhu, The superconvergent patch recovery and a
+   posteriori error estimates, parts 1 and 2, 1992.
 */
 #include "recoveryimpl.h"
 
-/* Of the cells around a node, their places relative to it */
+/* Sums over the cells around a node, with positions relative to it */
 typedef struct {
-  PetscReal n, d[3], dd[6]; /* number, sum of places and of their products xx yy zz xy yz zx */
-  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sum of values, and of places times values */
-  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of its lengths */
+  PetscReal n, d[3], dd[6]; /* number of cells; sums of positions and of their products xx yy zz xy yz zx */
+  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sums of values, and of positions x values */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; and sum of its magnitudes */
 } NodeSums;
 
 typedef struct {
   PetscBool inside;
-  PetscReal value[ELEMENT_STRAINS], slope[3][ELEMENT_STRAINS]; /* at the node */
+  PetscReal value[ELEMENT_STRAINS], slope[3][ELEMENT_STRAINS]; /* value and derivatives at the node */
 } NodePolynomial;
 
 typedef union {
@@ -44,6 +42,7 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
 
     CellDisplacementGradient((int)state->n, state->U, G, s);
     s[9] = law->dilatation(s, C);
+    CellElastic(state->material, q, s);
     volume += w;
     for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {
@@ -73,7 +72,7 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, c
   sums->area += PetscSqrtReal(PetscSqr(cell->B[0][a]) + PetscSqr(cell->B[1][a]) + PetscSqr(cell->B[2][a]));
 }
 
-/* Inverse of the scatter of the cells' centroids about their mean; false where they lie in a plane, or nearly */
+/* Inverse of the covariance of the cells' centroids; false if they lie (almost) in a plane */
 static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
 {
   const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1],
@@ -94,7 +93,7 @@ static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mea
   return PETSC_TRUE;
 }
 
-/* The linear polynomial of least squares about a node inside a body */
+/* Fits the linear polynomial of least squares around a node inside a body */
 static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
 {
   const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
@@ -124,7 +123,7 @@ static void NodePatchFit(NodePatch *patch)
   else patch->polynomial.inside = PETSC_FALSE;
 }
 
-/* Leaves are the local nodes that another rank owns, roots the local nodes */
+/* Star forest: leaves are local nodes that other ranks own, roots are local nodes */
 PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
 {
   MPI_Comm           comm = PetscObjectComm((PetscObject)e->dm);
@@ -161,7 +160,7 @@ PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
   PetscFunctionReturn(0);
 }
 
-/* Sums records of n reals over the ranks, and gives every rank the sums */
+/* Sums records of n reals over the ranks that share a node; all of them get the sum */
 PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
 {
   MPI_Datatype record;
@@ -195,7 +194,7 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* Continues the polynomials of a cell's interior vertices to the others */
+/* Adds the polynomials of a cell's interior vertices at its other nodes */
 static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES],
   RecoveredNode recovered[])
 {
@@ -215,8 +214,8 @@ static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt n
   }
 }
 
-/* Values at the nodes of the selected bodies' cells of order 1, of which no two share a node. recovered is zero on
-   entry */
+/* Sets the values at the nodes of the selected bodies' cells of order 1; no two bodies share a node. recovered is
+   zero on entry */
 PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[])
 {

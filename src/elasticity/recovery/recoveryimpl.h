@@ -1,5 +1,5 @@
 /*
-   Recovered gradients: the error estimate, and fields to look at.
+   Recovered gradients: error estimate, and output fields.
 */
 #ifndef RECOVERYIMPL_H
 #define RECOVERYIMPL_H
@@ -8,11 +8,11 @@
 
 /* recovery.c: displacement gradient (9) and dilatation at the nodes */
 typedef struct {
-  PetscReal n; /* polynomials that were continued to a node on the surface */
+  PetscReal n; /* number of polynomials that contributed to a surface node */
   PetscReal value[ELEMENT_STRAINS];
 } RecoveredNode;
 
-/* The corner nodes of a cell, whose polynomials are continued to its other nodes */
+/* Corner nodes of a cell, whose polynomials are used at its other nodes */
 static inline PetscInt RecoveryCorner(PetscInt nnodes, PetscInt corner)
 {
   return nnodes == 27 ? 2 * (corner & 1) + 6 * (corner >> 1 & 1) + 18 * (corner >> 2) : corner;
@@ -27,8 +27,7 @@ PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBo
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c: the error estimate, public, and the recovery of bodies that remain, as many as can be recovered
-   together */
+/* estimate.c: recovery of as many remaining bodies as possible at once; the error estimate is public */
 PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
 

@@ -1,7 +1,7 @@
-/* How far bodies of a small-strain law are strained and turned */
+/* Strain and rotation of bodies with a small-strain law */
 #include "recoveryimpl.h"
 
-/* Largest principal strain, by its size, and the angle of the infinitesimal rotation of a displacement gradient */
+/* Principal strain of largest magnitude, and angle of the infinitesimal rotation, from a displacement gradient */
 static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
 {
   const PetscReal e[6] = {H[0], H[4], H[8], 0.5 * (H[1] + H[3]), 0.5 * (H[5] + H[7]), 0.5 * (H[2] + H[6])};
@@ -24,7 +24,7 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(&X[0][0], &cell->X[0][0], 3 * CELL_MAX_NODES));
   PetscCall(PetscArraycpy(&U[0][0], &cell->U[0][0], 3 * CELL_MAX_NODES));
-  cell->body->element->strains(basis, &cell->body->material, X, U, w, H);
+  cell->body->element->strains(basis, cell->material, X, U, w, H);
   *volume = *strain = *rotation = 0.0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal s = 0.0, r = 0.0;
@@ -64,7 +64,7 @@ PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* energy, energy x strain, volume, volume x rotation of each body */
+  PetscReal         *sums; /* of each body: energy, energy x strain, volume, volume x rotation */
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
@@ -74,9 +74,9 @@ PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2
     CellState  cell;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (!cell.body->material.law->constant) continue;
+    if (cell.body->material.law->finite) continue;
     PetscCall(StrainMeasureCell(&cell, &volume, &strain, &rotation));
-    energy = cell.body->element->energy(cell.body->basis, &cell.body->material, cell.X, cell.U);
+    energy = cell.body->element->energy(cell.body->basis, cell.material, cell.X, cell.U);
     sum[0] += energy;
     sum[1] += energy * strain;
     sum[2] += volume;

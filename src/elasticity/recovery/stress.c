@@ -24,8 +24,7 @@ static PetscReal StressVonMises(const PetscReal s[6])
 
   Notes:
   The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
-  dilatation. A cell
-  turned inside out has the value `PETSC_INFINITY`.
+  dilatation. A cell turned inside out has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/
@@ -42,7 +41,7 @@ PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
     CellState  cell;
 
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (cell.body->element->cauchy(cell.body->basis, &cell.body->material, cell.X, cell.U, s)) s[6] = StressVonMises(s);
+    if (cell.body->element->cauchy(cell.body->basis, cell.material, cell.X, cell.U, s)) s[6] = StressVonMises(s);
     else {
       for (int k = 0; k < 7; ++k) s[k] = PETSC_INFINITY;
     }

@@ -1,23 +1,23 @@
 /*
-   Quadratic cells for a grid that has straight ones only. Edges on its surface become arcs between the normals at
-   their ends, as contact has them between its facets; edges inside stay straight. Edges where facets make a larger
-   angle than ARC_FEATURE stay sharp, and are bent by the surfaces on both sides.
+   Quadratic cells for a grid of straight ones. Edges on its surface become arcs that fit the normals at their ends, as
+   between contact facets; edges inside stay straight. Edges where facets make an angle larger than ARC_FEATURE stay
+   sharp; they are bent by the surfaces on both sides.
 */
 #include "gmshimpl.h"
 #include <stdlib.h>
 
-#define ARC_FEATURE 35.0 /* degrees; contact's default */
-#define ARC_FLAT    1e-6 /* of an edge: less is rounding in the file */
+#define ARC_FEATURE 35.0 /* degrees; the default of contact */
+#define ARC_FLAT    1e-6 /* relative to an edge: smaller heights are rounding of the file */
 
-/* Facets that bound the grid, their vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet
-   f, and the edge from there to the next */
+/* The boundary facets of a grid, vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet f;
+   it also stands for the edge from there to the next vertex */
 typedef struct {
   PetscInt         ncorners, *vertex;
-  PetscInt        *twin; /* the same edge, seen from the other facet; negative: sharp, or there is not one other */
-  const PetscReal *x;    /* 3 a vertex */
+  PetscInt        *twin; /* the same edge in the neighbouring facet; negative: sharp, or not exactly one neighbour */
+  const PetscReal *x;    /* 3 coordinates per vertex */
 } ArcSurface;
 
-/* Something found by up to four vertices, ascending */
+/* An object that is found by up to four vertices, ascending */
 typedef struct {
   PetscInt key[4], at;
 } ArcKey;
@@ -52,7 +52,7 @@ static void ArcCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
   for (PetscInt d = 0; d < 3; ++d) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
-/* Zero stays zero */
+/* Scales n to length 1; a zero vector stays zero */
 static void ArcScale(PetscReal n[3])
 {
   const PetscReal length = PetscSqrtReal(ArcDot(n, n));
@@ -65,7 +65,7 @@ static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e
   for (PetscInt d = 0; d < 3; ++d) e[d] = s->x[3 * s->vertex[to] + d] - s->x[3 * s->vertex[from] + d];
 }
 
-/* The sides of the cells that no other cell has */
+/* Finds the sides of cells that belong to one cell only */
 static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
 {
   static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
@@ -94,7 +94,7 @@ static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* Along the diagonals: of a facet that need not be plane */
+/* Normal from the diagonals, since a facet need not be plane */
 static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
   const PetscInt first = corner - corner % 4;
@@ -106,7 +106,7 @@ static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   ArcScale(n);
 }
 
-/* edges: all corners by the ends of their edges, sorted */
+/* Finds the neighbour of each edge. edges: all corners by the ends of their edges, sorted */
 static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
 {
   const PetscReal cosine = PetscCosReal(ARC_FEATURE * PETSC_PI / 180);
@@ -125,8 +125,7 @@ static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
   }
 }
 
-/* First corner about a corner's vertex, clockwise, and the last, as far as no edge is sharp; true where all around is
-   smooth */
+/* First (clockwise) and last corner around a corner's vertex before a sharp edge; returns true if there is none */
 static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -141,8 +140,8 @@ static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, P
   return PETSC_FALSE;
 }
 
-/* Sum of (e x f) / (e.e f.f) over the corners of a fan, e and f the edges that meet there: exact on spheres and
-   cylinders (N. Max, J. Graphics Tools 4 (1999)) */
+/* n: sum of (e x f) / (e.e f.f) over the corners of a fan, with e and f the edges that meet there; exact on spheres
+   and cylinders (N. Max, J. Graphics Tools 4 (1999)) */
 static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last, PetscReal n[3])
 {
   const PetscBool closed = ArcFan(s, corner, first, last);
@@ -162,8 +161,8 @@ static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *fi
   return closed;
 }
 
-/* How much the component of n along an edge differs from that of the mirror image of the normal at the other end, as
-   at the ends of an arc */
+/* Difference between the component of n along an edge and that of the mirror image of the normal at the other end;
+   it is zero at the ends of an arc */
 static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
 {
   PetscReal m[3];
@@ -173,7 +172,7 @@ static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[
   return -ArcDot(n, e) - ArcDot(m, e);
 }
 
-/* The one facet at a corner of the surface: along both its edges the surface is an arc */
+/* Corrects the normal at a corner with a single facet: along both edges the surface is an arc */
 static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
   PetscReal e[2][3], lack[2], a, b, c, det;
@@ -191,8 +190,8 @@ static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
     n[d] += ((b * lack[0] - c * lack[1]) * e[0][d] + (a * lack[1] - c * lack[0]) * e[1][d]) / det;
 }
 
-/* Where the surface ends: the mean is right along its border; across it the surface is an arc along the edges that
-   lead inward, by least squares */
+/* Corrects the normal where the surface ends: along the border the mean is right; across it the surface is an arc
+   along the edges that lead inward, by least squares */
 static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal e[3], f[3], along[3], across[3], sum = 0, squares = 0;
@@ -221,8 +220,7 @@ static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   ArcScale(n);
 }
 
-/* Height of the middle of an edge along the mean N of the normals at its ends: that of an arc; 0 if it is within
-   rounding */
+/* Height of an arc in the middle of an edge, along the mean N of the normals at its ends; 0 within rounding */
 static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
 {
   PetscReal n[2][3], e[3], slope[2], height;
@@ -238,7 +236,7 @@ static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
   return PetscAbsReal(height) > ARC_FLAT * PetscSqrtReal(ArcDot(e, e)) ? height : 0;
 }
 
-/* The shortest way off the middle of an edge that has both heights */
+/* off: the shortest vector from the middle of an edge that has both heights */
 static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const PetscReal n2[3], PetscReal off[3])
 {
   const PetscReal c = ArcDot(n1, n2), det = 1 - c * c;
@@ -247,7 +245,8 @@ static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const Pet
     off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;
 }
 
-/* off: 3 an edge of the surface, in the order of `edges`, at the first of those that are the same. Is any bent? */
+/* off: for each edge of the surface, in the order of `edges`, the offset of its middle; equal edges store it at the
+   first. Returns whether any edge is bent */
 static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscReal off[])
 {
   PetscBool bent = PETSC_FALSE;
@@ -272,7 +271,7 @@ static ArcKey ArcEdgeKey(PetscInt a, PetscInt b, PetscInt at)
   return key;
 }
 
-/* The cells with their edges on the surface bent */
+/* Fills the quadratic cells, with the edges on the surface bent */
 static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[],
   PetscReal curve[])
 {
@@ -294,7 +293,7 @@ static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey ed
   }
 }
 
-/* Fills in the grid's curve, unless all its edges are straight */
+/* Sets the grid's curve unless all its edges are straight */
 PetscErrorCode ShapeGridBend(ShapeGrid *grid)
 {
   ArcSurface s;

@@ -1,13 +1,12 @@
-/* Quadrilaterals of a Gmsh file's cells, and triangles of tetrahedra, found by their corners */
+/* Finds the sides of a Gmsh file's cells by their corners */
 #include "gmshimpl.h"
 #include <stdlib.h>
 
-/* Elements a slice; the number of slices is limited, since each slice passes over all elements */
+/* elements per slice; the number of slices is limited, since each slice passes over all elements */
 #define GMSH_SLICE      64
 #define GMSH_MAX_SLICES 16
 
-/* The quadrilaterals of hexahedra, prisms and pyramids, and the triangles of tetrahedra, in the corners' order of
-   Gmsh; by the number of corners */
+/* The sides of hexahedra, prisms, pyramids and tetrahedra in Gmsh's order of the corners, by the number of corners */
 static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
   {3, 0, 4, 7}};
 static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}},
@@ -54,7 +53,7 @@ static PetscBool GmshFacetsHave(const GmshFacets *facets, int n, const PetscInt6
   return ((least < 0 ? -least : least) % facets->nslices) == facets->slice ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Those of a cell that are of the slice; other elements have none */
+/* Adds the sides of a cell that belong to the slice; other elements have none */
 PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *facets)
 {
   const int n = type->dim == 3 ? sides[type->ncorners].n : 0;
@@ -89,7 +88,8 @@ void GmshFacetsSort(GmshFacets *facets)
   if (facets->n) qsort(facets->list, (size_t)facets->n, sizeof(*facets->list), GmshCompareFacets);
 }
 
-/* Sorted: cells that meet in the nodes of a side must have the same facet there, and no more than two meet */
+/* Call with sorted facets. Whether cells that meet in all nodes of a side have the same facet there, and no more
+   than two cells meet */
 PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 {
   for (PetscInt64 i = 1; i < facets->n; ++i) {
@@ -106,7 +106,8 @@ PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
   return PETSC_TRUE;
 }
 
-/* Sorted: is there exactly one with these corners, and is it of the slice? A facet between two cells is inside */
+/* Call with sorted facets. Whether exactly one facet has these corners, in this slice; a facet between two cells is
+   inside */
 PetscBool GmshFacetsBound(const GmshFacets *facets, PetscInt ncorners, const PetscInt64 corners[])
 {
   const GmshFacet  wanted = GmshFacetOf((int)ncorners, corners, 0);

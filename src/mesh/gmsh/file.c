@@ -1,11 +1,11 @@
-/* Bodies from Gmsh files: read on rank 0, cut out of its mesh volume by volume */
+/* Bodies from Gmsh files: the file is read on rank 0, and each body's volume is extracted */
 #include "gmshimpl.h"
 #include <petscbt.h>
 
-/* Which of Gmsh's corners of a hexahedron stands at i + 2 j + 4 k; a tetrahedron's are in order */
+/* Gmsh's corner number of each corner i + 2 j + 4 k of a hexahedron; tetrahedra have the same order */
 static const PetscInt corner_at[9][8] = {[4] = {0, 1, 2, 3}, [8] = {0, 1, 3, 2, 4, 5, 7, 6}};
 
-/* On rank 0 */
+/* Reads the file, on rank 0 */
 static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
 {
   char complaint[256];
@@ -25,12 +25,12 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscInt       dim;
 
   PetscFunctionBegin;
-  if (file->name) PetscCall(PetscStrcmp(file->name, body->gmsh.file, &same));
+  if (file->name) PetscCall(PetscStrcmp(file->name, GmshPath(body), &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(GmshFileClose(file));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = GmshReadFile(body->gmsh.file, &file->mesh);
+  if (rank == 0) ierr = GmshReadFile(GmshPath(body), &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a complete Gmsh mesh: %s", body->name,
     body->gmsh.file, error.message);
@@ -38,7 +38,7 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
   PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT,
     "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
-  file->name = body->gmsh.file;
+  file->name = GmshPath(body);
   PetscFunctionReturn(0);
 }
 
@@ -50,13 +50,13 @@ PetscErrorCode GmshFileClose(GmshFile *file)
   PetscFunctionReturn(0);
 }
 
-/* Is the element a cell of the volume? */
+/* Whether the element is a cell of the volume */
 static PetscBool GmshIsWithin(const GmshMesh *mesh, const GmshElement *element, PetscInt volume)
 {
   return element->type->dim == 3 && GmshMeshHasTag(mesh, element, volume) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Cells of one kind, which are read; type: of those before */
+/* Checks that all cells are of one kind, which can be read; before: type of the cells before */
 static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type, const GmshType *before)
 {
   PetscFunctionBegin;
@@ -71,8 +71,8 @@ static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type,
   PetscFunctionReturn(0);
 }
 
-/* The cells of the body's volume with their vertices numbered anew; number: new number by the place of each node,
-   PETSC_DECIDE without one */
+/* Extracts the cells of the body's volume with new vertex numbers; number: new number by position of each node,
+   PETSC_DECIDE: none */
 static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[],
   ShapeGrid *grid)
 {
@@ -110,7 +110,7 @@ static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt nu
   PetscFunctionReturn(0);
 }
 
-/* Takes second-order cells, unless their edges are straight */
+/* Extracts second-order cells, unless their edges are straight */
 static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
 {
   const PetscInt ncoordinates = grid->ncorners == 4 ? 30 : 81;
@@ -147,13 +147,13 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
   PetscFunctionReturn(0);
 }
 
-/* The corners of an element of a surface, of a triangle the last one twice */
+/* Corners of an element of a surface; a triangle repeats the last one */
 static void GmshGetCorners(const GmshMesh *mesh, const GmshElement *element, PetscInt64 corners[4])
 {
   for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + PetscMin(a, element->type->ncorners - 1)];
 }
 
-/* Those elements of surfaces that are a side of one cell of the volume, and of no other of its cells */
+/* Marks the elements of surfaces that are a side of exactly one cell of the volume */
 static PetscErrorCode GmshFindBoundary(const GmshMesh *mesh, PetscInt volume, PetscInt ncorners, PetscBT boundary)
 {
   GmshFacets facets;
@@ -183,7 +183,7 @@ static PetscErrorCode GmshFindBoundary(const GmshMesh *mesh, PetscInt volume, Pe
   PetscFunctionReturn(0);
 }
 
-/* A facet may be on several surfaces and is listed once for each */
+/* Extracts the facets of the surfaces; a facet on several surfaces is listed for each */
 static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, PetscInt nsurfaces,
   const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
@@ -224,7 +224,8 @@ static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, Pet
   PetscFunctionReturn(0);
 }
 
-/* No two vertices are at one place: sorted along a direction in which hardly any vertices of a regular mesh coincide */
+/* Checks that no two vertices coincide: sorts them along a direction in which hardly any vertices of a regular mesh
+   have equal coordinates */
 static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *grid)
 {
   static const PetscReal direction[3] = {0.5773, 0.6180, 0.5342};
@@ -261,7 +262,7 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
   PetscFunctionReturn(0);
 }
 
-/* On rank 0; volume: its tag */
+/* Extracts a body, on rank 0; volume: its tag */
 static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces,
   const PetscInt surfaces[], ShapeGrid *grid)
 {

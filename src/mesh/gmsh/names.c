@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Is the first section, past comments, that of a Gmsh file? */
+/* Whether the first section, after comments, is that of a Gmsh file */
 static PetscBool GmshIsGmsh(FILE *stream)
 {
   char      line[PETSC_MAX_PATH_LEN];
@@ -20,7 +20,7 @@ static PetscBool GmshIsGmsh(FILE *stream)
   return PETSC_FALSE;
 }
 
-/* The entries of one dimension in the section $PhysicalNames, each as tag, blank, name, new line */
+/* Collects the entries of one dimension in the section $PhysicalNames as: tag, blank, name, new line */
 static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
 {
   char      line[PETSC_MAX_PATH_LEN], entry[PETSC_MAX_PATH_LEN];
@@ -46,15 +46,15 @@ static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *
   PetscFunctionReturn(0);
 }
 
-/* On rank 0 */
+/* Reads the physical names, on rank 0 */
 static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim, size_t *length, char **entries)
 {
   FILE     *stream;
   PetscBool exists, gmsh;
 
   PetscFunctionBegin;
-  PetscCall(PetscTestFile(body->gmsh.file, 'r', &exists));
-  stream = exists ? fopen(body->gmsh.file, "r") : NULL;
+  PetscCall(PetscTestFile(GmshPath(body), 'r', &exists));
+  stream = exists ? fopen(GmshPath(body), "r") : NULL;
   PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "there is no readable mesh file \"%s\"", body->gmsh.file);
   gmsh = GmshIsGmsh(stream);
   if (gmsh) PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
@@ -63,7 +63,7 @@ static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim,
   PetscFunctionReturn(0);
 }
 
-/* The entries of one dimension on all ranks, whoever the file belongs to */
+/* Gets the entries of one dimension on all ranks */
 static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
 {
   RankError      error;
@@ -111,7 +111,7 @@ PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscI
   PetscFunctionReturn(0);
 }
 
-/* The tag of the body's volume */
+/* Gets the tag of the body's volume */
 PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *tag)
 {
   char      choices[512], **volumes;

@@ -1,15 +1,16 @@
-/* Hexahedra of Gmsh with 8, 20 or 27 nodes as the 27 places of a quadratic cell; tetrahedra with 4 or 10 as its 10 */
+/* Turns Gmsh's hexahedra with 8, 20 or 27 nodes into quadratic cells with 27 nodes, and tetrahedra with 4 or 10 into
+   ones with 10 */
 #include "gmshimpl.h"
 
-/* Where each of Gmsh's nodes stands: i + 3 j + 9 k. The corners, the middles of the edges, of the facets, the middle */
+/* Position i + 3 j + 9 k of each of Gmsh's nodes: corners, edge middles, facet middles, centre */
 static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25,
   4, 10, 12, 14, 16, 22, 13};
 
-/* The corners, i + 2 j + 4 k, that each of its first 20 nodes is between */
+/* For each of the first 20 nodes the corners, i + 2 j + 4 k, at the ends of its edge */
 const PetscInt GmshHexahedronEnds[20][2] = {{0, 0}, {1, 1}, {3, 3}, {2, 2}, {4, 4}, {5, 5}, {7, 7}, {6, 6}, {0, 1},
   {0, 2}, {0, 4}, {1, 3}, {1, 5}, {3, 2}, {3, 7}, {2, 6}, {4, 5}, {4, 6}, {5, 7}, {7, 6}};
 
-/* Whether coordinate d of a place is in the middle of the cell */
+/* Whether coordinate d of a node's position is in the middle of the cell */
 static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
 {
   static const PetscInt step[3] = {1, 3, 9};
@@ -17,8 +18,8 @@ static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
   return place / step[d] % 3 == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Sum over the places that are at an end in `ends` of the directions in which this one is in the middle, and like it
-   in the others */
+/* Sum over the nodes that are at an end in the directions `ends` in which this one is in the middle, and agree with
+   it in the others */
 static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
 {
   sum[0] = sum[1] = sum[2] = 0;
@@ -35,7 +36,7 @@ static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, P
   }
 }
 
-/* Of a straight cell: the mean of the corners about it */
+/* Position in a straight cell: mean of the corners around the node */
 static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal straight[3])
 {
   PetscInt n = 0;
@@ -45,8 +46,8 @@ static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal stra
   for (PetscInt d = 0; d < 3; ++d) straight[d] /= (PetscReal)(1 << n);
 }
 
-/* The middles that 20 nodes leave out, of facets and of the cell: their shape functions there are -1/4 at the
-   corners, and 1/2 and 1/4 at the middles of the edges */
+/* Sets the nodes that 20-node cells lack, in the middle of facets and of the cell, from their shape functions there:
+   -1/4 at the corners, 1/2 or 1/4 at the edge middles */
 static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
 {
   const PetscBool cell = (PetscBool)(place == 13);
@@ -57,7 +58,7 @@ static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
   for (PetscInt d = 0; d < 3; ++d) curve[3 * place + d] = (cell ? 0.25 : 0.5) * edges[d] - 0.25 * corners[d];
 }
 
-/* The corners, then the middles of the edges, of which Gmsh has the last two the other way round */
+/* Corners, then edge middles; Gmsh has the last two in the opposite order */
 static PetscReal OrderGetTetrahedron(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
 {
   static const PetscInt of_gmsh[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};

@@ -1,5 +1,5 @@
-/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks every number in it. It reads the same words, numbers and
-   blanks in the same order as PETSc's reader */
+/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks every number in it. It reads words, numbers and blanks in
+   the same order as PETSc's reader */
 #include "gmshimpl.h"
 #include <petscbt.h>
 #include <string.h>
@@ -9,10 +9,10 @@
 typedef struct {
   GmshStream in;
   PetscInt   nentities[4], *entities[4],
-    *labels[4];                 /* numbers of the entities of each dimension, sorted, and where their tags are */
-  PetscInt64     first, nnodes; /* numbers of the nodes lie in [first, first + nnodes) */
-  PetscBT        nodes;         /* those that exist */
-  PetscSegBuffer tags, elements, corners; /* of the mesh */
+    *labels[4];                 /* sorted numbers of the entities of each dimension, and positions of their tags */
+  PetscInt64     first, nnodes; /* node numbers are in [first, first + nnodes) */
+  PetscBT        nodes;         /* which of these exist */
+  PetscSegBuffer tags, elements, corners; /* data of the mesh being read */
   GmshMesh      *mesh;
 } GmshReader;
 
@@ -43,7 +43,7 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
   return GmshExpectNext(&reader->in, "$EndMeshFormat");
 }
 
-/* A number, then a dimension, a tag and a name in quotes for each */
+/* Checks the physical names: a count, then a dimension, a tag and a quoted name for each */
 static PetscBool GmshCheckNames(GmshReader *reader)
 {
   PetscInt64 count = 0;
@@ -71,7 +71,7 @@ static PetscBool GmshCheckNames(GmshReader *reader)
   return GmshExpectNext(&reader->in, "$EndPhysicalNames");
 }
 
-/* label: where they are among the mesh's tags */
+/* Stores tags; label: their position among the mesh's tags */
 static PetscErrorCode GmshKeepTags(GmshReader *reader, PetscInt64 n, const PetscInt64 tags[], PetscInt *label)
 {
   PetscSegBufferCount at;
@@ -86,7 +86,7 @@ static PetscErrorCode GmshKeepTags(GmshReader *reader, PetscInt64 n, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* label: of its physical tags */
+/* Reads an entity; label: position of its physical tags */
 static PetscErrorCode GmshReadEntity(GmshReader *reader, int dim, PetscInt *entity, PetscInt *label, PetscBool *sound)
 {
   PetscInt64 number = 0, ntags = 0, tags[16], bound;
@@ -126,7 +126,7 @@ static PetscErrorCode GmshReadEntities(GmshReader *reader, PetscBool *sound)
   PetscFunctionReturn(0);
 }
 
-/* The header of a block of nodes or elements in formats 4, whose entity must exist; label: of the entity's tags;
+/* Reads the header of a block of nodes or elements in formats 4; its entity must exist. label: of the entity's tags;
    last: its third number */
 static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscInt *label, PetscInt64 *last,
   PetscInt64 *count, PetscBool *sound)
@@ -152,7 +152,7 @@ static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Marks a node's number; all numbers are known to lie in the range */
+/* Marks node numbers as existing; all numbers have been checked to be in range */
 static PetscErrorCode GmshMarkNodes(GmshReader *reader, PetscInt64 n, const PetscInt64 numbers[], PetscBool *sound)
 {
   PetscInt64 first = PETSC_MAX_INT, last = 0;
@@ -191,7 +191,7 @@ static PetscBool GmshGetNodesOfBlock(GmshReader *reader, PetscInt64 n, PetscInt6
   return PETSC_TRUE;
 }
 
-/* Their numbers are sound */
+/* Stores node numbers that have been checked */
 static PetscErrorCode GmshKeepNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt64 numbers[])
 {
   PetscFunctionBegin;
@@ -205,8 +205,8 @@ static PetscErrorCode GmshKeepNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Formats 4 count blocks and all that is in them; 4.1 gives also the least and the largest number, which PETSc relies
-   on */
+/* Reads the counts of blocks and of their contents in formats 4; format 4.1 also gives the smallest and largest
+   number, on which PETSc relies */
 static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], PetscInt64 *nblocks, PetscInt64 *count,
   PetscInt64 range[2], PetscBool *sound)
 {
@@ -289,7 +289,7 @@ static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscI
   return PETSC_TRUE;
 }
 
-/* label: of its tags */
+/* Stores an element; label: position of its tags */
 static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number,
   const PetscInt64 nodes[])
 {
@@ -308,8 +308,8 @@ static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, 
   PetscFunctionReturn(0);
 }
 
-/* An element of format 2: text has its type and the number of tags in each, binary in the header of a run of them.
-   The first tag is the physical one */
+/* Reads elements of format 2. Text files give type and number of tags for each element; binary files give them for a
+   run of elements. The first tag is the physical one */
 static PetscErrorCode GmshReadElements2(GmshReader *reader, PetscInt64 total, PetscBool *sound)
 {
   PetscFunctionBegin;
@@ -409,7 +409,7 @@ static PetscErrorCode GmshReadSections(GmshReader *reader)
   PetscFunctionReturn(0);
 }
 
-/* The facets of all cells, slice by slice */
+/* Checks the facets of all cells, slice by slice */
 static PetscErrorCode GmshCheckFacets(const GmshMesh *mesh, GmshStream *in)
 {
   GmshFacets facets;
@@ -473,7 +473,7 @@ PetscErrorCode GmshMeshDestroy(GmshMesh *mesh)
   PetscFunctionReturn(0);
 }
 
-/* Is this one of the element's physical tags? */
+/* Whether `tag` is one of the element's physical tags */
 PetscBool GmshMeshHasTag(const GmshMesh *mesh, const GmshElement *element, PetscInt tag)
 {
   const PetscInt *tags = mesh->tags + element->label;
@@ -484,7 +484,7 @@ PetscBool GmshMeshHasTag(const GmshMesh *mesh, const GmshElement *element, Petsc
   return PETSC_FALSE;
 }
 
-/* Where the node of this number is among the coordinates; it exists */
+/* Position among the coordinates of the node with this number, which exists */
 PetscErrorCode GmshMeshFindNode(const GmshMesh *mesh, PetscInt number, PetscInt *place)
 {
   PetscInt at;

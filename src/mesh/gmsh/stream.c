@@ -1,11 +1,11 @@
-/* Words and numbers of a Gmsh file, text or binary, the same blanks skipped as by PETSc's own reader */
+/* Reads words and numbers of a Gmsh file, text or binary, skipping the same blanks as PETSc's reader */
 #include "gmshimpl.h"
 #include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <string.h>
 
-/* Keeps the first complaint */
+/* Stores the first error message */
 void GmshComplain(GmshStream *in, const char format[], ...)
 {
   va_list args;
@@ -16,7 +16,7 @@ void GmshComplain(GmshStream *in, const char format[], ...)
   va_end(args);
 }
 
-/* A word and the one blank after it */
+/* Reads a word and one blank after it */
 PetscBool GmshGetWord(GmshStream *in, char word[GMSH_WORD])
 {
   int    c = getc(in->file);
@@ -30,7 +30,7 @@ PetscBool GmshGetWord(GmshStream *in, char word[GMSH_WORD])
   return PETSC_TRUE;
 }
 
-/* The name of the next section, past comments */
+/* Reads the name of the next section, skipping comments */
 PetscBool GmshGetSection(GmshStream *in, char word[GMSH_WORD])
 {
   PetscBool comments = PETSC_FALSE;
@@ -64,7 +64,7 @@ PetscBool GmshGetBytes(GmshStream *in, size_t n, void *value)
   return PETSC_TRUE;
 }
 
-/* Whole numbers of so many bytes */
+/* Reads integers of this many bytes */
 PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 values[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
@@ -117,7 +117,7 @@ PetscBool GmshGetCounts(GmshStream *in, const char what[], PetscInt64 n, PetscIn
   return PETSC_TRUE;
 }
 
-/* Format 2 writes these counts as words, also in binary files */
+/* Reads a count that format 2 writes as text even in binary files */
 PetscBool GmshGetCountWord(GmshStream *in, const char what[], PetscInt64 *count)
 {
   char      word[GMSH_WORD], rest;

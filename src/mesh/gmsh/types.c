@@ -1,4 +1,4 @@
-/* Elements of Gmsh files: those of first and second order, by Gmsh's number of their type */
+/* Element types of Gmsh files of first and second order, by Gmsh's number */
 #include "gmshimpl.h"
 
 static const GmshType types[20] = {[1] = {"segment", 1, 2, 2},
@@ -21,7 +21,7 @@ static const GmshType types[20] = {[1] = {"segment", 1, 2, 2},
   [18]                                 = {"triangular_prism", 3, 15, 6},
   [19]                                 = {"pyramid", 3, 13, 5}};
 
-/* NULL: neither of first nor of second order */
+/* NULL: the type is neither of first nor of second order */
 const GmshType *GmshGetType(PetscInt64 type)
 {
   return type >= 1 && type < 20 ? &types[type] : NULL;

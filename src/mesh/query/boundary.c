@@ -1,4 +1,4 @@
-/* Which facets bound the bodies */
+/* Finds the facets on the boundary of the bodies */
 #include "queryimpl.h"
 #include <petscsf.h>
 

@@ -2,13 +2,13 @@
    one block at a time. */
 #include "queryimpl.h"
 
-#define EVALUATE_CELLS 1024 /* of a block */
+#define EVALUATE_CELLS 1024 /* cells per block */
 
-/* Cells of one rank, on all: their places and fields, 3 numbers a node each */
+/* Cells of one rank, sent to all: coordinates and fields, 3 numbers per node */
 typedef struct {
-  PetscInt   nvecs; /* places, and the fields */
+  PetscInt   nvecs; /* number of vectors: coordinates, then the fields */
   PetscInt   n, body[EVALUATE_CELLS], nnodes[EVALUATE_CELLS];
-  PetscReal *values; /* nvecs x MESH_MAX_NODES x 3 a cell */
+  PetscReal *values; /* nvecs x MESH_MAX_NODES x 3 per cell */
 } EvaluateBlock;
 
 static PetscReal *EvaluateBlockValues(const EvaluateBlock *block, PetscInt cell, PetscInt vec)
@@ -16,7 +16,7 @@ static PetscReal *EvaluateBlockValues(const EvaluateBlock *block, PetscInt cell,
   return &block->values[3 * MESH_MAX_NODES * (block->nvecs * cell + vec)];
 }
 
-/* This rank's cells from the first on; local: the places, and the fields */
+/* Fills the block with this rank's cells from `first` on; local: coordinates, then the fields */
 static PetscErrorCode EvaluateBlockFill(DM dm, PetscInt first, const Vec local[], EvaluateBlock *block)
 {
   PetscSection section;
@@ -56,8 +56,8 @@ static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, Evaluat
   PetscFunctionReturn(0);
 }
 
-/* The fields at points that have their nearest place so far in a cell of the block, the first of which has this
-   number */
+/* Evaluates the fields at points whose nearest position so far is in a cell of the block; number: of the block's
+   first cell */
 static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints,
   MeshLocator locator, PetscReal values[])
 {
@@ -82,7 +82,7 @@ static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt numb
   PetscFunctionReturn(0);
 }
 
-/* Every rank's cells in turn */
+/* Processes the cells of all ranks in turn */
 static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block, PetscInt npoints, MeshLocator locator,
   PetscReal values[])
 {

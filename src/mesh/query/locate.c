@@ -1,25 +1,24 @@
 /*
    Finds the cell that contains a point. Points are sorted into the bins of a grid that is finer where points are
-   denser. Each cell examines the points in the bins about it. A point's parameters come from inverting the cell's
-   map, linear or quadratic, clamped to the cell. The nearest cell over all ranks has the point.
+   denser. Each cell examines the points in nearby bins. A point's parameters are found by inverting the cell's linear
+   or quadratic map, clamped to the cell. The nearest cell over all ranks gets the point.
 */
 #include "queryimpl.h"
 
-/* A cell may be said to hold points that lie outside of it by this part of its size: those on curved surfaces between
+/* a point may lie outside of its cell by this fraction of the cell's size, since curved surfaces lie outside of
    facets */
 static const PetscReal locate_margin = 0.25;
 
-/* Points in a cell and on its side differ by less than this part of its size */
+/* points within this fraction of a cell's size of a side count as in the cell */
 static const PetscReal locate_rounding = 1e-12;
 
-/* Points by bin: those of bin b are order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at
-   first[d][i] */
+/* Points by bin: bin b has order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at first[d][i] */
 typedef struct {
   PetscInt   n[3], *start, *order;
   PetscReal *first[3];
 } LocateBins;
 
-/* The last bin that begins at or before x; points outside go to the nearest bin */
+/* The last bin that begins at or before x; points outside of all bins get the nearest one */
 static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
 {
   PetscInt low = 0, high = bins->n[d];
@@ -38,7 +37,7 @@ static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
   return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
 }
 
-/* Bins along an axis with equally many points each, so that they are narrow where a mesh is graded */
+/* Divides an axis into bins with equally many points, so that bins are narrow where a mesh is graded */
 static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d,
   LocateBins *bins)
 {
@@ -60,7 +59,7 @@ static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][
   PetscFunctionReturn(0);
 }
 
-/* About one point a bin, where they fill their box */
+/* Creates bins with about one point each */
 static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[][3], LocateBins *bins)
 {
   const PetscInt side = 1 + (PetscInt)PetscCbrtReal((PetscReal)npoints);
@@ -89,7 +88,7 @@ static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
   PetscFunctionReturn(0);
 }
 
-/* Shape functions of a line on [-1, 1] with 2 or 3 nodes, and their slopes */
+/* Shape functions of a line on [-1, 1] with 2 or 3 nodes, and their derivatives */
 static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s[3])
 {
   L[0]         = width == 2 ? 0.5 - 0.5 * xi : 0.5 * xi * (xi - 1);
@@ -100,7 +99,7 @@ static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s
   s[width - 1] = width == 2 ? 0.5 : xi + 0.5;
 }
 
-/* The shape functions of n nodes at a place of the reference cube, or tetrahedron, and their derivatives */
+/* Shape functions of a cell with n nodes at a point of the reference cube or tetrahedron, and their derivatives */
 void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
 {
   const PetscInt width = n == 8 ? 2 : 3;
@@ -121,7 +120,7 @@ void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal d
   }
 }
 
-/* Vector from X(xi) to the point, and dX_d/dxi_k */
+/* r: vector from X(xi) to the point; J: dX_d/dxi_k */
 static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3],
   PetscReal N[], PetscReal r[3], PetscReal J[3][3])
 {
@@ -138,7 +137,7 @@ static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point
   }
 }
 
-/* J^(-1) r by Cramer's rule */
+/* step = J^(-1) r by Cramer's rule */
 static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[3])
 {
   PetscReal det = 0;
@@ -159,7 +158,7 @@ static PetscReal LocateNorm(const PetscReal r[3])
   return PetscSqrtReal(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
 }
 
-/* Parameters of a tetrahedron that are not negative, and not more than 1 in sum */
+/* Clamps the parameters to a tetrahedron: not negative, sum at most 1 */
 static void LocateClampTetrahedron(PetscReal xi[3])
 {
   PetscReal sum = 0;
@@ -168,8 +167,8 @@ static void LocateClampTetrahedron(PetscReal xi[3])
   for (PetscInt k = 0; sum > 1 && k < 3; ++k) xi[k] /= sum;
 }
 
-/* Newton's method, each step clamped to a cube somewhat larger than the cell, and in the end to the cell; returns the
-   distance */
+/* Inverts the cell's map by Newton's method; steps are clamped to a cube somewhat larger than the cell, the result
+   to the cell. Returns the distance */
 static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
 {
   const PetscBool tetrahedron = MeshIsTetrahedron(n);
@@ -195,7 +194,7 @@ static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal poin
   return LocateNorm(r);
 }
 
-/* Of a cell's nodes, with a margin all round */
+/* Bounding box of a cell's nodes, with a margin */
 static PetscReal LocateBox(PetscInt n, PetscReal X[][3], PetscReal lower[3], PetscReal upper[3])
 {
   PetscReal diagonal[3], size;
@@ -254,15 +253,16 @@ PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const 
   PetscFunctionReturn(0);
 }
 
-/* A place in the cell is taken where it is nearer than any before; where bodies touch, to rounding, that in the first
-   of them */
+/* Stores the position if it is nearer than earlier ones; for equal distances up to rounding the body with the
+   smaller number is preferred */
 static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscReal X[][3])
 {
   MeshPlace      *nearest = &locator->places[i];
   const PetscReal rounding =
     locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
 
-  if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return; /* in a cell: none is nearer */
+  /* the point is inside a cell already */
+  if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return;
   place.distance = LocateInCell(place.n, X, locator->points[i], place.N);
   if (place.distance < nearest->distance + rounding) *nearest = place;
 }
@@ -282,9 +282,8 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   Level: developer
 
   Notes:
-  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was
-  added first. Cells farther away
-  than a quarter of their size are not looked at.
+  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added
+  first. Cells farther away than a quarter of their size are not looked at.
 
 .seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
 @*/
@@ -357,7 +356,7 @@ PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
   PetscFunctionReturn(0);
 }
 
-/* The nearest of all ranks has a point, of equals that of the first body, and of these the first */
+/* Chooses for each point the rank with the nearest position; among equals the first body, then the first rank */
 static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace places[])
 {
   PetscMPIInt rank;
@@ -401,9 +400,8 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
 - body   - the body in which each is looked for; `PETSC_DECIDE`: any
 
   Output Parameter:
-. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that
-           of the point from the cell, is the same
-           on every rank, and `PETSC_MAX_REAL` where no cell is near
+. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of
+           the point from the cell, is the same on every rank, and `PETSC_MAX_REAL` where no cell is near
 
   Level: developer
 

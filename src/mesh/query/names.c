@@ -1,4 +1,4 @@
-/* Lists of names, each allocated by itself */
+/* Lists of names, each allocated individually */
 #include "queryimpl.h"
 #include <string.h>
 

@@ -1,14 +1,14 @@
 /*
-   Nodes: the points of the mesh that carry a displacement, with as many places. Those of a body of order 1 are its
-   vertices; those of a body of order 2 also its edges, facets and cells: 27 a hexahedron, in the order i + 3 j + 9 k
-   where vertices have i + 2 j + 4 k; of a tetrahedron its edges: 10.
+   Nodes: the points of the mesh that carry a displacement. In a body of order 1 these are its vertices. In a body of
+   order 2 hexahedra have 27 nodes, on vertices, edges, facets and cell, in the order i + 3 j + 9 k (vertices: i + 2 j +
+   4 k); tetrahedra have 10, on vertices and edges.
 */
 #include "queryimpl.h"
 
-#define MESH_PLACES "nodes" /* of the mesh: the nodes' places, where they are not its vertices alone */
+#define MESH_PLACES "nodes" /* key of the nodes' coordinates, composed on the mesh if they are not its vertices alone */
 
-/* Three components at every vertex, and at every point of the hexahedra of order 2, every edge of such tetrahedra;
-   none constrained */
+/* Creates the section: three components at every vertex; in bodies of order 2 also at every other point of
+   hexahedra, and at every edge of tetrahedra; none constrained */
 PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
 {
   PetscSection section;
@@ -47,7 +47,7 @@ PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
   PetscFunctionReturn(0);
 }
 
-/* Number of a vertex among n, or n */
+/* Index of a vertex among n, or n */
 static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex)
 {
   PetscInt a = 0;
@@ -56,8 +56,8 @@ static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex
   return a;
 }
 
-/* Where an edge, facet or cell stands between the cell's vertices, i + 3 j + 9 k: amid its own ones. In a tetrahedron
-   between two, or the same; negative: more */
+/* Position of an edge, facet or cell in the cell, i + 3 j + 9 k, as the centre of its own vertices. In a tetrahedron
+   an edge is in the middle of two vertices; negative: more than two */
 static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt vertices[8], PetscInt point,
   PetscInt *place)
 {
@@ -97,7 +97,7 @@ static PetscErrorCode NodesHasEdges(DM dm, PetscSection section, PetscInt facet,
   PetscFunctionReturn(0);
 }
 
-/* The points of a cell with values in a section: its vertices, or all that are nodes of order 2 */
+/* The points of a cell with values in a section: its vertices, or all nodes of order 2 */
 PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, PetscInt *n,
   PetscInt points[MESH_MAX_NODES])
 {
@@ -137,9 +137,8 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
   Output Parameters:
 + n     - their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10
 - nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the
-          reference cube; of
-          order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the
-          vertices, then the edges 01, 12, 02, 03, 13 and 23
+          reference cube; of order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a
+          tetrahedron the vertices, then the edges 01, 12, 02, 03, 13 and 23
 
   Level: developer
 
@@ -302,7 +301,7 @@ PetscErrorCode MeshGetOrders(DM dm, PetscInt nbodies, PetscInt orders[])
   PetscFunctionReturn(0);
 }
 
-/* Of all nodes of a mesh that has them, or of its vertices */
+/* Coordinates and section of all nodes if the mesh has them, or of its vertices */
 PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
 {
   PetscFunctionBegin;
@@ -316,7 +315,7 @@ PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
   PetscFunctionReturn(0);
 }
 
-/* The 27 places of a cell whose edges are straight, from its corners: trilinear; or the 10 of a tetrahedron */
+/* The 27 nodes of a straight cell from its corners (trilinear), or the 10 of a tetrahedron */
 void MeshPlacesSetStraight(PetscInt ncorners, const PetscReal corners[][3], PetscReal places[MESH_MAX_NODES][3])
 {
   for (PetscInt i = 0; ncorners == 4 && i < 30; ++i)
@@ -362,7 +361,7 @@ static PetscErrorCode NodesFillCells(DM dm, PetscScalar x[])
   PetscFunctionReturn(0);
 }
 
-/* Places for the nodes of a mesh with a section, straight between the vertices; nothing where these are all */
+/* copies to a plain vector, because a vector of the mesh would reference the mesh that holds it */
 PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
 {
   PetscSection section;
@@ -374,7 +373,7 @@ PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || orders[b] > 1);
   if (!any) PetscFunctionReturn(0);
-  /* Copies into a plain vector: a vector of the mesh would refer to the mesh that holds it, in a circle */
+  /* Copies the vertices' coordinates from the nodes', after these were moved */
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(PetscSectionGetStorageSize(section, &n));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &places));
@@ -387,7 +386,7 @@ PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
   PetscFunctionReturn(0);
 }
 
-/* The vertices' coordinates from the nodes', after these have been moved */
+/* the global coordinates, if they exist, are out of date */
 PetscErrorCode MeshUpdateVertices(DM dm)
 {
   MeshPlaces         from, to;

@@ -1,7 +1,7 @@
-/* Undeformed places of the nodes that this rank owns, and their bodies. */
+/* Undeformed coordinates and bodies of the nodes that this rank owns. */
 #include "queryimpl.h"
 
-/* Of every node that this rank owns; it has a cell of each */
+/* Body of each owned node; this rank has a cell of every owned node */
 static PetscErrorCode VertexPlacesFindBodies(DM dm, PetscSection global, PetscInt rstart, PetscInt body[])
 {
   DMLabel  label;

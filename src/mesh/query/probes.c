@@ -1,8 +1,7 @@
-/* Where the probes of a scene are in its mesh */
+/* Locates the probes of a scene in its mesh */
 #include "queryimpl.h"
 
-/* A point outside by less than this part of the cell's size is on the surface, because facets are not where the curved
-   surface is */
+/* a point outside of its cell by less than this fraction of the cell's size is on the curved surface between facets */
 static const PetscReal probe_tolerance = 0.1;
 
 static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3],

@@ -1,8 +1,8 @@
-/* Are the cells sound? */
+/* Quality checks of cells */
 #include "queryimpl.h"
 #include <petscdt.h>
 
-/* Gauss points of hexahedra, or the rule of tetrahedra */
+/* Gauss points of hexahedra, or the quadrature points of tetrahedra */
 static PetscErrorCode QualityIntegrationPoints(PetscInt n, PetscInt *npoints, PetscReal xi[][3])
 {
   PetscReal weight[MESH_MAX_NODES], x[3], w[3];
@@ -51,7 +51,7 @@ static PetscReal QualityDeterminant(PetscReal e[3][3])
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Smallest of the Jacobian's determinants, in units of the longest slope at a node cubed */
+/* Smallest Jacobian determinant, divided by the cube of the longest derivative at a node */
 PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
 {
   PetscReal smallest = PETSC_MAX_REAL, longest = 0;
@@ -72,7 +72,7 @@ PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
   return longest > 0 ? smallest / (longest * longest * longest) : 0;
 }
 
-/* Is a before b along x, or else along y, or else along z? */
+/* Whether a is before b in lexicographic order */
 static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
 {
   for (PetscInt d = 0; d < 3; ++d) {
@@ -81,8 +81,7 @@ static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
   return PETSC_FALSE;
 }
 
-/* Raises the first of the bodies that have bad cells, with the place that is before all others; count and place are
-   this rank's */
+/* Raises an error for the first body with bad cells, with their smallest position; count and place are this rank's */
 static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[],
   PetscReal place[][3])
 {
@@ -115,7 +114,7 @@ static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneB
 PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[], PetscBool mapped)
 {
   MeshPlaces         places;
-  MeshQualityTable  *tables; /* of linear and quadratic hexahedra, and of such tetrahedra, as they are met */
+  MeshQualityTable  *tables; /* tables of linear and quadratic hexahedra and tetrahedra, created on demand */
   const PetscScalar *array;
   PetscInt           cstart, cend, *count;
   PetscReal(*place)[3];

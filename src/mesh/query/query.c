@@ -1,8 +1,8 @@
-/* What the other parts ask of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
+/* Queries of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
 #include "queryimpl.h"
 
-/* DMPlex turns the bottom of a cell outward: tensor order (x fastest) of a hexahedron's vertices; of a tetrahedron's
-   so that its edges from the first are right-handed */
+/* DMPlex has the vertices at the bottom of a cell reversed. Returns the order that gives tensor order (x fastest)
+   for a hexahedron, and right-handed edges from the first vertex for a tetrahedron */
 const PetscInt *MeshPlexCorners(PetscInt ncorners)
 {
   static const PetscInt hexahedron[8] = {0, 3, 1, 2, 4, 5, 7, 6}, tetrahedron[4] = {1, 0, 2, 3};
@@ -10,7 +10,7 @@ const PetscInt *MeshPlexCorners(PetscInt ncorners)
   return ncorners == 4 ? tetrahedron : hexahedron;
 }
 
-/* Points of a face label's stratum 1 within [start, end), as a sorted index set, empty on ranks without any */
+/* Points of a face label's stratum 1 within [start, end), as a sorted index set; may be empty */
 static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)
 {
   PetscBool       has;
@@ -181,7 +181,7 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
   for (PetscInt p = 0; p < npoints; ++p) {
     const PetscInt q = closure[2 * p];
 
-    /* a negative orientation: the cell sees the facet's vertices in reverse */
+    /* a negative orientation: the cell has the facet's vertices in reverse order */
     if (q >= vstart && q < vend) {
       vertices[sign < 0 ? ncorners - 1 - n : n] = q;
       ++n;

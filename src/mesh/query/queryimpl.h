@@ -1,5 +1,5 @@
 /*
-   What is asked of a mesh that is there: nodes, cells, facets, points in it.
+   Queries of an existing mesh: nodes, cells, facets, location of points.
 */
 #ifndef QUERYIMPL_H
 #define QUERYIMPL_H
@@ -7,26 +7,25 @@
 #include "src/mesh/shapes/shapesimpl.h"
 
 /* boundary.c */
-#define MESH_INNER_LABEL "inner" /* of facets inside a body that have one cell */
+#define MESH_INNER_LABEL "inner" /* label of facets with one cell that are inside a body (local refinement) */
 
-/* names.c: lists of names; joined with commas, or the word none, cut off at size */
+/* names.c: lists of names; joined by commas, or the word none, truncated to size */
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
-/* tetrahedron.c: the place of a node on the reference tetrahedron; and what is public */
+/* tetrahedron.c: position of a node on the reference tetrahedron */
 PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 
-/* query.c: number within DMPlex's cell of so many corners of the vertex at each corner; the corners of a cell; and
-   what is public */
+/* query.c: DMPlex's vertex number for each corner of a cell; the corners of a cell */
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
 PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
-/* nodes.c: the points that carry displacements. Their places are first straight between the vertices in a shape's
-   parameters, then mapped and bent like the vertices. MeshUpdateVertices() copies the vertices' places back to DMPlex.
-   */
+/* nodes.c: points that carry displacements. Their positions are first straight between the vertices in a shape's
+   parameters, then mapped and curved like the vertices. MeshUpdateVertices() copies the vertices' positions back to
+   DMPlex. */
 typedef struct {
   PetscSection section;
-  Vec          x; /* [length], or a shape's parameters */
+  Vec          x; /* coordinates [length], or a shape's parameters */
 } MeshPlaces;
 PETSC_INTERN PetscErrorCode MeshSetSection(DM, const PetscInt orders[]);
 PETSC_INTERN PetscErrorCode MeshCreateNodes(DM, PetscInt nbodies, const PetscInt orders[]);
@@ -37,9 +36,9 @@ PETSC_INTERN void           MeshPlacesSetStraight(PetscInt ncorners, const Petsc
             PetscReal places[MESH_MAX_NODES][3]);
 PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 
-/* quality.c: the slopes of a cell's shape functions at its nodes, which come first, and at the integration points of
-   order 2; the smallest of the Jacobian's determinants there. Collective error if a cell is inverted or flat at one
-   of its corners; mapped: at one of these places, also in bodies that are mapped after refinement */
+/* quality.c: derivatives of a cell's shape functions at its nodes, then at the quadrature points of order 2; the
+   smallest Jacobian determinant there. Collective error if a cell is inverted or flat at a corner; mapped: at any of
+   these points, also in bodies that are mapped after refinement */
 #define MESH_QUALITY_PLACES (2 * MESH_MAX_NODES)
 typedef struct {
   PetscInt  nnodes, nplaces;
@@ -49,11 +48,10 @@ PETSC_INTERN PetscErrorCode MeshQualityTableCreate(PetscInt nnodes, MeshQualityT
 PETSC_INTERN PetscReal      MeshCellQuality(const MeshQualityTable *, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
-/* places.c: where the nodes that this rank owns are, undeformed, and in which body; in the order of the global
-   vectors */
+/* places.c: undeformed coordinates and body of each owned node, in the order of global vectors */
 typedef struct {
   Vec       x;    /* [length] */
-  PetscInt *body; /* one a node */
+  PetscInt *body; /* one per node */
 } VertexPlaces;
 
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);

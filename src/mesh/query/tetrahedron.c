@@ -1,10 +1,10 @@
-/* Tetrahedra of 4 and of 10 nodes: the corners, then the middles of the edges, as VTK has them */
+/* Tetrahedra with 4 and with 10 nodes: corners, then edge middles, in VTK's order */
 #include "queryimpl.h"
 
 const PetscInt MeshTetrahedronEnds[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3},
   {2, 3}};
 
-/* Place of a node on the reference tetrahedron, whose corners are the origin and the ends of the unit vectors */
+/* Position of a node on the reference tetrahedron, whose corners are the origin and the unit vectors' ends */
 void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3])
 {
   for (PetscInt d = 0; d < 3; ++d)
@@ -49,13 +49,13 @@ void MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], Pets
   }
 }
 
-/* Places with the same barycentric coordinates in all orders: n of them, the coordinates that differ from the others */
+/* Quadrature points whose barycentric coordinates are permutations of each other */
 typedef struct {
   PetscInt  n;
-  PetscReal place, weight; /* of the whole, each */
+  PetscReal place, weight; /* the coordinate that differs; weight of each point, relative to the whole */
 } TetrahedronOrbit;
 
-/* Of n points of an orbit: of 4, one coordinate is 1 - 3 place; of 6, two are 1/2 - place */
+/* Point i of an orbit of n points: of 4, one coordinate is 1 - 3 place; of 6, two are 1/2 - place */
 static void TetrahedronOrbitPoint(const TetrahedronOrbit *orbit, PetscInt i, PetscReal xi[3])
 {
   const PetscReal other = orbit->n == 4 ? 1 - 3 * orbit->place : 0.5 - orbit->place;

@@ -1,7 +1,7 @@
-/* Cells with quadratic edges and facets, of bodies whose mesh file has them: refined vertices lie on these */
+/* Quadratic cells of bodies whose mesh file has them; refined vertices lie on their edges and facets */
 #include "refineimpl.h"
 
-/* Coordinates of the places of a cell of so many corners */
+/* Number of coordinates that describe a cell with this many corners */
 PetscInt MeshCurveSize(PetscInt ncorners)
 {
   return ncorners == 4 ? 30 : 81;
@@ -68,7 +68,7 @@ PetscErrorCode MeshCurvesDistribute(PetscSF sf, DM distributed, MeshCurves *curv
   PetscFunctionReturn(0);
 }
 
-/* Place of a point of a tetrahedron */
+/* Position of a point in a tetrahedron */
 static void CurveEvaluateTetrahedron(const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
 {
   PetscReal N[10], dN[3][MESH_MAX_NODES];
@@ -78,7 +78,7 @@ static void CurveEvaluateTetrahedron(const PetscScalar places[], const PetscReal
   for (PetscInt i = 0; i < 30; ++i) x[i % 3] += N[i / 3] * PetscRealPart(places[i]);
 }
 
-/* Place of a point of a cell, xi in [0, 1]^3 */
+/* Position of a point in a cell, xi in [0, 1]^3 */
 static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
 {
   PetscReal n[3][3];
@@ -100,8 +100,7 @@ static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const P
   }
 }
 
-/* What refinement makes of one cell, in DMPlex's order, which is that of every cell: corners, as many a child as a
-   cell has, in [0, 1]^3 */
+/* Corners in [0, 1]^3 of the children of one refined cell, in DMPlex's order, which is the same for every cell */
 typedef struct {
   PetscInt n;
   PetscReal (*corners)[8][3];
@@ -136,8 +135,8 @@ static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, Curve
   PetscFunctionReturn(0);
 }
 
-/* Of a tetrahedron and of a hexahedron: as many, so that cell c of a refined mesh is number c % n of cell c / n,
-   tetrahedra being before hexahedra */
+/* Children of a tetrahedron and of a hexahedron. Both have n, so that cell c of the refined mesh is child c % n of
+   cell c / n; tetrahedra come before hexahedra */
 static PetscErrorCode CurveGetAllChildren(PetscInt levels, CurveChildren children[2])
 {
   PetscFunctionBegin;
@@ -152,7 +151,7 @@ static PetscErrorCode CurveDestroyChildren(CurveChildren children[2])
   PetscFunctionReturn(0);
 }
 
-/* The curve of a part of a cell with these corners */
+/* Quadratic nodes of the part of a cell with these corners */
 static void CurveCut(PetscInt ncorners, const PetscScalar places[], const PetscReal corners[8][3], PetscScalar part[])
 {
   PetscReal xi[MESH_MAX_NODES][3], place[3];
@@ -208,14 +207,14 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
-/* Corners of a part of a cell that local refinement made, in [0, 1]^3 */
+/* Corners in [0, 1]^3 of a part of a cell created by local refinement */
 static void CurveGetPart(const PetscInt place[4], PetscReal corners[8][3])
 {
   for (PetscInt i = 0; i < 24; ++i)
     corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
 }
 
-/* The places of such a part's corners; those stay where the cell that it is of has no curve */
+/* Positions of such a part's corners; unchanged if its cell has no curve */
 PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell,
   PetscReal places[8][3])
 {
@@ -234,7 +233,7 @@ PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *he
   PetscFunctionReturn(0);
 }
 
-/* Those of the parts of cells that local refinement made */
+/* Creates the curves of the parts of cells that local refinement created */
 PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *curves)
 {
   MeshCurves         there = {NULL, NULL};
@@ -311,7 +310,7 @@ PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fin
   PetscCall(VecRestoreArray(at.x, &x));
   PetscCall(VecRestoreArrayRead(curves->places, &places));
   PetscCall(CurveDestroyChildren(children));
-  /* Updates the global coordinates, if they exist, which are still those from before */
+  /* the global coordinates, if they exist, are out of date */
   if (!nodes) PetscCall(DMSetCoordinatesLocal(fine, at.x));
   PetscFunctionReturn(0);
 }

@@ -1,11 +1,11 @@
-/* Hanging vertices, in the middle of an edge or a side of a cell: their place and displacement are the mean of its 2
-   or 4 vertices. None of these hangs itself. */
+/* Hanging vertices in the middle of an edge or side of a coarser cell. Their position and displacement are the mean
+   of its 2 or 4 vertices, none of which hangs itself. */
 #include "refineimpl.h"
 #include <petscsf.h>
 
-#define MESH_HANGING "hanging" /* of the mesh: the matrix of the means, a row a node */
+#define MESH_HANGING "hanging" /* key of the matrix of the means, composed on the mesh; one row per node */
 
-/* What is carried along as the mesh is distributed: of a cell its number, of a vertex its number and, where it hangs,
+/* Data that are distributed with the mesh: the number of each cell; for each vertex its number and, if it hangs,
    those of up to four others */
 PetscErrorCode MeshHangingCreate(const MeshHexes *hexes, DM dm, MeshHanging *hanging)
 {
@@ -56,11 +56,11 @@ PetscErrorCode MeshHangingDistribute(PetscSF sf, DM before, MeshHanging *hanging
   PetscFunctionReturn(0);
 }
 
-/* Vertices of this rank as the numbers have them: those that it owns, and those of them that hang */
+/* Vertices of this rank by number: the owned ones, and those of them that hang */
 typedef struct {
-  PetscInt nowned, *number, *node; /* the owned ones' numbers and global nodes */
-  PetscInt n, *at, *parent;        /* those that hang: global nodes, and four numbers each */
-  PetscInt largest;                /* number, of all ranks; -1: there is none */
+  PetscInt nowned, *number, *node; /* of owned vertices: numbers and global nodes */
+  PetscInt n, *at, *parent;        /* of hanging vertices: global nodes, and four numbers each */
+  PetscInt largest;                /* largest number on all ranks; -1: no vertices */
 } HangingVertices;
 
 static PetscErrorCode HangingVerticesCreate(DM dm, const MeshHanging *hanging, HangingVertices *vertices)
@@ -93,7 +93,7 @@ static PetscErrorCode HangingVerticesCreate(DM dm, const MeshHanging *hanging, H
   PetscFunctionReturn(0);
 }
 
-/* The global nodes of parents in place of their numbers */
+/* Replaces the numbers of parents by their global nodes */
 static PetscErrorCode HangingFindParents(MPI_Comm comm, HangingVertices *vertices)
 {
   PetscLayout layout;
@@ -124,7 +124,7 @@ static PetscErrorCode HangingFindParents(MPI_Comm comm, HangingVertices *vertice
   PetscFunctionReturn(0);
 }
 
-/* The means of the nodes' neighbours, in the rows of those that hang */
+/* Creates the matrix of means, in the rows of hanging nodes */
 static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices, Mat *means)
 {
   PetscInt n;
@@ -148,7 +148,7 @@ static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices,
   PetscFunctionReturn(0);
 }
 
-/* After the layout of the unknowns; the mesh has the matrix from here on, where any vertex hangs */
+/* Composes the matrix of means on the mesh, if any vertex hangs; call after the layout of the unknowns */
 PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -182,9 +182,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 . dm - mesh from `MeshCreateScene()`
 
   Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are
-          the mean of, none of which hangs; the
-          others are empty. The mesh's own; NULL where no vertex hangs
+. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the
+          mean of, none of which hangs; the others are empty. The mesh's own; NULL where no vertex hangs
 
   Level: developer
 
@@ -232,7 +231,7 @@ PetscErrorCode MeshCountHanging(DM dm, PetscInt *n)
   PetscFunctionReturn(0);
 }
 
-/* One component of v at the hanging nodes is the mean of that at others */
+/* Sets one component of v at the hanging nodes to the mean at their neighbours */
 static PetscErrorCode HangingSetMeans(Mat means, PetscInt component, Vec v)
 {
   Vec                from, to;
@@ -260,7 +259,7 @@ static PetscErrorCode HangingSetMeans(Mat means, PetscInt component, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* The places of the hanging vertices, once the others have theirs */
+/* Sets the positions of hanging vertices from those of the others */
 PetscErrorCode MeshHangingPlace(DM dm)
 {
   Mat means;

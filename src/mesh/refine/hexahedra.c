@@ -1,17 +1,16 @@
 /*
-   Hexahedra on one rank, some refined more often than their neighbours: each becomes eight, and what has a side or an
-   edge in common differs by one refinement at most. A vertex in the middle of an edge or a side of a cell that is not
-   refined hangs there.
+   Hexahedra on one rank, some refined more than others. Each refined cell becomes eight. Cells with a common side or
+   edge differ by at most one refinement. A vertex in the middle of an edge or side of an unrefined cell hangs there.
 */
 #include "refineimpl.h"
 #include <petsc/private/hashmapij.h>
 
-/* Vertices in the middle, by the two ends of an edge and by a diagonal of a side */
+/* Middle vertices by the two ends of their edge, or by a diagonal of their side */
 struct _n_MeshMiddles {
   PetscHMapIJ edges, sides;
 };
 
-/* The corners of a cell about a place i + 3 j + 9 k of it, with vertices at even i, j, k: itself, the ends of an
+/* Corners of a cell around its position i + 3 j + 9 k (vertices at even i, j, k): the vertex itself, the ends of an
    edge, the corners of a side, or all */
 static PetscInt HexAround(PetscInt place, PetscInt corners[8])
 {
@@ -27,7 +26,7 @@ static PetscInt HexAround(PetscInt place, PetscInt corners[8])
   return n;
 }
 
-/* The vertices about a place of a cell */
+/* Vertices around a position of a cell */
 static PetscInt HexesGetAround(const MeshHexes *hexes, PetscInt cell, PetscInt place, PetscInt around[8])
 {
   const PetscInt n = HexAround(place, around);
@@ -36,7 +35,7 @@ static PetscInt HexesGetAround(const MeshHexes *hexes, PetscInt cell, PetscInt p
   return n;
 }
 
-/* By the ends of an edge, or by that diagonal of a side which has the smallest vertex */
+/* Key of a middle vertex: the ends of its edge, or the diagonal of its side that contains the smallest vertex */
 static void HexesGetKey(PetscInt n, const PetscInt around[], PetscHashIJKey *key)
 {
   PetscInt first = 0;
@@ -46,7 +45,7 @@ static void HexesGetKey(PetscInt n, const PetscInt around[], PetscHashIJKey *key
   key->j = around[n - 1 - first];
 }
 
-/* The vertex in the middle of an edge or a side, negative where there is none */
+/* The vertex in the middle of an edge or side; negative: none */
 static PetscErrorCode HexesFindMiddle(const MeshHexes *hexes, PetscInt n, const PetscInt around[], PetscInt *middle)
 {
   PetscHashIJKey key;
@@ -105,7 +104,7 @@ PetscErrorCode MeshHexesDestroy(MeshHexes *hexes)
   PetscFunctionReturn(0);
 }
 
-/* A vertex amid n others */
+/* Adds a vertex in the middle of n others */
 static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscInt around[], PetscInt *vertex)
 {
   PetscFunctionBegin;
@@ -126,7 +125,7 @@ static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscIn
   PetscFunctionReturn(0);
 }
 
-/* The vertex at a place of a cell, a new one where the neighbours have none there */
+/* Gets the vertex at a position of a cell; creates it unless a neighbour has it */
 static PetscErrorCode HexesGetVertex(MeshHexes *hexes, PetscInt cell, PetscInt place, PetscInt *vertex)
 {
   PetscInt       around[8];
@@ -144,7 +143,7 @@ static PetscErrorCode HexesGetVertex(MeshHexes *hexes, PetscInt cell, PetscInt p
   PetscFunctionReturn(0);
 }
 
-/* The cells on whose edges and sides each vertex hangs, in compressed rows; cells NULL: counts alone */
+/* Lists, for each vertex, the cells on whose edges and sides it hangs, in compressed rows; cells NULL: only counts */
 static PetscErrorCode HexesFindHolders(const MeshHexes *hexes, PetscInt start[], PetscInt cells[])
 {
   PetscFunctionBegin;
@@ -174,7 +173,7 @@ static PetscErrorCode HexesCreateHolders(const MeshHexes *hexes, PetscInt **star
   PetscFunctionReturn(0);
 }
 
-/* If a vertex of a cell that will be refined hangs on another cell, that cell is refined, too */
+/* Marks cells for refinement: if a vertex of a marked cell hangs on another cell, that cell is marked too */
 static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt *start, *holders, *pending, n = 0;
@@ -202,7 +201,7 @@ static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
   PetscFunctionReturn(0);
 }
 
-/* The cells that vertices of some hang on, in place of these; any: whether there are any */
+/* Replaces the marks by marks of the cells on which vertices of marked cells hang; any: whether there are any */
 PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], PetscBool *any)
 {
   PetscInt  *start, *holders;
@@ -225,7 +224,7 @@ PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], 
   PetscFunctionReturn(0);
 }
 
-/* A cell's eight parts, of which the first is number `to` of a longer list */
+/* Splits a cell into eight parts, stored from index `to` on in the new list */
 static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, PetscInt vertex[], PetscInt root[],
   PetscInt place[])
 {
@@ -245,7 +244,7 @@ static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, P
   PetscFunctionReturn(0);
 }
 
-/* Marks the given cells, and others so that neighbours differ by one level */
+/* Refines the marked cells, and others so that neighbours differ by at most one level */
 PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt n = 0, *vertex, *root, *place;
@@ -280,7 +279,7 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscFunctionReturn(0);
 }
 
-/* Which vertices hang, of hexes->nvertices */
+/* hangs: which of the hexes->nvertices vertices hang */
 PetscErrorCode MeshHexesFindHanging(const MeshHexes *hexes, PetscBool hangs[])
 {
   PetscInt *count;

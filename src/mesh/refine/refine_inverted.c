@@ -1,13 +1,13 @@
 /*
    Thin cells along curved surfaces. A hanging vertex is on the straight edge of the coarser cell, not on the curve,
-   which may invert a fine cell. Then the coarser cells are refined, too, until none of the finer ones loses more than
-   a part of its volume.
+   which may invert a fine cell. The coarser cells are then refined too, until no fine cell loses more than a fraction
+   of its volume.
 */
 #include "refineimpl.h"
 
-#define MEND_LEAST 0.25 /* of the smallest Jacobian that a cell has with all its vertices on the curve */
+#define MEND_LEAST 0.25 /* relative to the smallest Jacobian of the cell with all its vertices on the curve */
 
-/* The places of a cell's vertices, those that hang on the curve too */
+/* Positions of a cell's vertices with hanging ones on the curve */
 static PetscErrorCode RefineInvertedPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves,
   const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
 {
@@ -25,7 +25,7 @@ static PetscErrorCode RefineInvertedPlaceCell(DM dm, const SceneBody bodies[], c
   PetscFunctionReturn(0);
 }
 
-/* Vertices that came since the last time: a shape's map may cost more than all else, and no vertex moves */
+/* Computes the positions of new vertices only: a shape's map may be expensive, and vertices do not move */
 static PetscErrorCode RefineInvertedPlace(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
   PetscReal places[8][3];
@@ -46,7 +46,7 @@ static PetscErrorCode RefineInvertedPlace(DM dm, const SceneBody bodies[], const
   PetscFunctionReturn(0);
 }
 
-/* The quality of a cell with its vertices placed; hangs: those that hang are between others, NULL: none does */
+/* Quality of a cell. hangs: these vertices are placed at the mean of their neighbours; NULL: all are on the curve */
 static PetscReal RefineInvertedQuality(const MeshHexes *hexes, const MeshQualityTable *table, PetscInt cell,
   const PetscBool hangs[])
 {
@@ -64,7 +64,7 @@ static PetscReal RefineInvertedQuality(const MeshHexes *hexes, const MeshQuality
   return MeshCellQuality(table, corners);
 }
 
-/* Not collective: on the rank that has the cells */
+/* Not collective: call on the rank that has the cells */
 PetscErrorCode MeshHexesRefineInverted(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
   PetscBool        more = PETSC_TRUE;

@@ -1,8 +1,8 @@
-/* Local refinement: of the mesh that uniform refinement made, on the rank that has it, a mesh of the cells as they
-   are then, with its labels and curves */
+/* Local refinement of a uniformly refined mesh on the rank that has it: creates the mesh of the locally refined
+   cells, with labels and curves */
 #include "refineimpl.h"
 
-/* Which side of a cell a facet of it is: 2 d + end */
+/* side: number 2 d + end of a facet within its cell */
 static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscInt *side)
 {
   PetscInt vertices[8], npoints, sum[3] = {0, 0, 0}, *closure = NULL;
@@ -23,7 +23,7 @@ static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* The facet of the mesh before that a side of a cell lies on, negative where it is inside of one of its cells */
+/* The facet of the original mesh that contains a side of a cell; negative: the side is inside an original cell */
 static PetscErrorCode LocalGetRootFacet(DM dm, const MeshHexes *hexes, PetscInt cell, PetscInt side, PetscInt *facet)
 {
   const PetscInt *place = &hexes->place[4 * cell], *cone;
@@ -52,8 +52,8 @@ static PetscErrorCode LocalIsMade(const char label[], PetscBool *made)
   PetscFunctionReturn(0);
 }
 
-/* Labels of a facet that bounds its body are those of the facet that it lies on; one that does not and has one cell
-   is a coarse cell's, or those of fine ones beside it */
+/* Labels a facet. On the boundary it gets the labels of the original facet that contains it. A facet inside with
+   only one cell belongs to a coarse cell, or to fine ones beside it */
 static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, PetscInt facet)
 {
   const PetscInt *cells;
@@ -104,8 +104,7 @@ static PetscErrorCode LocalLabelPoints(DM dm, const MeshHexes *hexes, DM fine)
   PetscFunctionReturn(0);
 }
 
-/* Collective: the labels of the mesh before, and of facets that bound no body though they have one cell; as level 0
-   has them */
+/* Collective: copies the labels of the original mesh, and labels facets inside that have one cell */
 static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
 {
   PetscInt nlabels;
@@ -148,7 +147,7 @@ static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
   PetscFunctionReturn(0);
 }
 
-/* Collective; the mesh is that of the first rank */
+/* Collective; the mesh is on the first rank */
 PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBody bodies[], DM *dm, MeshCurves *curves,
   MeshHanging *hanging)
 {

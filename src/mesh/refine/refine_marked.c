@@ -1,9 +1,9 @@
-/* Cells that are marked mesh after mesh: the same marks make the same meshes again, on any number of ranks */
+/* Cells that were marked on a sequence of meshes. The same marks reproduce the same meshes on any number of ranks */
 #include "refineimpl.h"
 
-#define MESH_NUMBERS "cell numbers" /* of the mesh: of its cells, as the first rank had them */
+#define MESH_NUMBERS "cell numbers" /* key of the cells' numbers on the first rank, composed on the mesh */
 
-/* Keeps with the mesh the numbers of its cells */
+/* Stores the numbers of the cells with the mesh */
 PetscErrorCode MeshNumberCells(DM dm, const MeshHanging *hanging)
 {
   PetscInt cstart, cend, *number;
@@ -104,7 +104,7 @@ PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* Not collective: on the rank that has the marks */
+/* Not collective: call on the rank that has the marks */
 PetscErrorCode MeshHexesRefineMarks(const MeshMarks *marks, DM dm, const SceneBody bodies[], const MeshCurves *curves,
   MeshHexes *hexes)
 {

@@ -1,9 +1,9 @@
-/* Which cells a scene refines: those near a face, near both faces of a contact pair, or in a box, until they are as
-   fine as it says */
+/* Cells to refine by the scene: near a face, near both faces of a contact pair, or in a box, until they are fine
+   enough */
 #include "refineimpl.h"
 
-/* Where a zone is: boxes about the facets of up to two faces, and about all of each; a box of its own where there is
-   no face */
+/* Geometry of a zone: boxes around the facets of up to two faces, and around each whole face; without a face a box
+   of its own */
 typedef struct {
   PetscInt  nfaces, n[2];
   PetscReal all[2][6], *facets[2];
@@ -25,7 +25,7 @@ static void ZoneBoxAdd(PetscReal box[6], const PetscReal x[3])
   }
 }
 
-/* Are two boxes nearer than that, but for rounding? */
+/* Whether two boxes are closer than this distance, up to rounding */
 static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], PetscReal distance)
 {
   PetscReal square = 0, size = 0;
@@ -37,7 +37,7 @@ static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], Petsc
   return (PetscBool)(PetscSqrtReal(square) <= distance + 1e-9 * size);
 }
 
-/* Where a vertex of a body is; of a curved shape its coordinates are still parameters */
+/* Position of a vertex of a body; curved shapes still have parameters as coordinates */
 static PetscErrorCode ZonePlaceVertex(const SceneBody *body, const PetscReal parameters[3], PetscReal x[3])
 {
   const Shape *shape;
@@ -101,7 +101,7 @@ static PetscErrorCode ZoneDestroy(Zone *zone)
   PetscFunctionReturn(0);
 }
 
-/* Is a box within the distance of each of the faces, or of the zone's box? */
+/* Whether a box is within the distance of each of the faces, or of the zone's box */
 static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal box[6])
 {
   if (!zone->nfaces) return ZoneBoxesMeet(zone->all[0], box, distance);
@@ -114,7 +114,7 @@ static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal
   return PETSC_TRUE;
 }
 
-/* The boxes about all cells, 6 numbers each */
+/* Boxes around all cells, 6 numbers each */
 static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshHexes *hexes, PetscInt body[],
   PetscReal box[])
 {
@@ -132,7 +132,7 @@ static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshH
   PetscFunctionReturn(0);
 }
 
-/* No cell is near both faces, or in the box */
+/* Error: no cell is near both faces, or in the box */
 static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefinement *refinement)
 {
   const PetscReal  *a = refinement->lower, *b = refinement->upper;
@@ -148,7 +148,7 @@ static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefineme
     *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }
 
-/* Marks the cells of a zone that are not fine enough, and counts those of any size */
+/* Marks the cells of a zone that are not fine enough, and counts all its cells */
 static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone,
   const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
 {
@@ -170,7 +170,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
   PetscFunctionReturn(0);
 }
 
-/* Not collective: all zones, each until its cells are fine enough; dm: the mesh that the cells were made of */
+/* Not collective: refines all zones until their cells are fine enough; dm: the mesh before local refinement */
 PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n, const SceneRefinement refinements[],
   MeshHexes *hexes)
 {

@@ -1,4 +1,4 @@
-/* Octant of a ball: a core, the image of a cube, and three patches from the core to the sphere */
+/* Octant of a ball: a core, the image of a cube, and three patches between the core and the sphere */
 #include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
@@ -17,11 +17,13 @@ static PetscErrorCode ShapeCreate_Ball(const SceneBody *body, ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-/* Trilinear image of the unit cube for a ball of radius 1. The corners on an axis, in a coordinate plane and inside
-   lie at 0.5, 0.6 and 0.62 of the radius: angles within the patches and the core stay far from 0 and 180 degrees */
+/* Trilinear map of the unit cube to the core of a ball of radius 1. Its corners on an axis, in a coordinate plane
+   and inside are at 0.5, 0.6 and 0.62 of the radius, which keeps angles in the patches and the core away from 0 and
+   180 degrees */
 static void BallCore(const PetscReal p[3], PetscReal x[3])
 {
-  static const PetscReal component[4] = {0, 0.5, 0.424, 0.358}; /* of a corner with so many components that are not 0 */
+  static const PetscReal component[4] = {0, 0.5, 0.424, 0.358}; /* coordinates of a corner, by the number of its
+                                                                   components that are not 0 */
 
   x[0] = x[1] = x[2] = 0;
   for (PetscInt corner = 0; corner < 8; ++corner) {

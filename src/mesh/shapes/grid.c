@@ -1,7 +1,7 @@
-/* Level 0 grids made of blocks of cells, graded, and the limits of their numbers: what the shapes share */
+/* Common parts of the shapes: level 0 grids of graded blocks of cells, and limits of their counts */
 #include "shapesimpl.h"
 
-/* Both sides of a block that are normal to direction d */
+/* Adds the facets of both sides of a block that are normal to direction d */
 static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
 {
   const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
@@ -78,7 +78,7 @@ PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-/* Length of the first i cells: `even` of length 1, then growing by the ratio */
+/* Length of the first i cells: `even` cells of length 1, then growing by the ratio */
 static PetscReal ShapeGradedLength(PetscReal ratio, PetscInt even, PetscInt i)
 {
   if (i <= even) return (PetscReal)i;
@@ -125,7 +125,7 @@ PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* Of this rank's grids, the first cell of each body in one mesh of all: tetrahedra come before hexahedra */
+/* The first cell of each body in the mesh of all of this rank's grids; tetrahedra come before hexahedra */
 PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
 {
   PetscInt cell = 0;

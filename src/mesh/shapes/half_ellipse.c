@@ -1,25 +1,18 @@
 /*
-   Prism over half an ellipse, or a quarter: an O-grid of a core and a ring, extruded.
-
-   Parameters: (u, v) along depth and across, and w along the axis, from 0 to 1. The core is [0, 1] x [-1, 1], or [0,
-   1]^2 for a quarter. Outside of it, with m = max(u, |v|), q = (u, v)/m lies on the core's outline and s = m - 1 goes
-   from 0 there to 1 on the arc, where q is a place by arc length.
+   Prism over half an ellipse, or over a quarter: an O-grid of a core and a ring, extruded. Parameters are (u, v) along
+   depth and across, and w along the axis from 0 to 1. The core is [0, 1] x [-1, 1], or [0, 1]^2 for a quarter. Outside
+   of it, with m = max(u, |v|), q = (u, v)/m is on the core's outline and s = m - 1 runs from 0 there to 1 on the arc,
+   where q is a position by arc length.
 */
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt core[2], ring, length; /* cells: of the core along depth and across one half, of the ring, along the axis */
-  PetscInt middle;                /* index across of the plane of symmetry */
-  PetscInt nring, nsection;       /* vertices on the core's outline, and in the cross-section */
+  PetscInt core[2], ring, length; /* number of cells: core along depth and across one half; ring; along the axis */
+  PetscInt middle;                /* index, across, of the plane of symmetry */
+  PetscInt nring, nsection;       /* number of vertices on the core's outline, and in the cross-section */
 } HalfEllipse;
 
-enum {
-  ELLIPSE_FLAT,
-  ELLIPSE_ARC,
-  ELLIPSE_LMIN,
-  ELLIPSE_LMAX,
-  ELLIPSE_SYMMETRY
-};
+enum { ELLIPSE_FLAT, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX, ELLIPSE_SYMMETRY };
 
 static const char *const *ShapeFaces_HalfEllipse(const SceneBody *body)
 {
@@ -88,7 +81,7 @@ static PetscInt EllipseCoreVertex(const void *context, PetscInt i, PetscInt j, P
   return k * e->nsection + i + (e->core[0] + 1) * j;
 }
 
-/* Vertex `layer` outside of the outline's vertex number `at`, counted with v growing */
+/* Vertex of the ring: layer, position `at` on the outline (v growing), position k along the axis */
 static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k)
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
@@ -99,7 +92,7 @@ static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt
   return EllipseCoreVertex(e, e->core[0] - (at - below - across), across, k);
 }
 
-/* The three sides of the ring, each right-handed */
+/* Vertex numbers of the three blocks of the ring, each right-handed */
 static PetscInt EllipseBelowVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
@@ -121,7 +114,8 @@ static PetscInt EllipseAboveVertex(const void *context, PetscInt i, PetscInt lay
   return EllipseRingVertex(e, layer, e->nring - 1 - i, k);
 }
 
-/* Place of the core's vertex i along depth, or j across: counted from the plane of symmetry, on both sides */
+/* Parameter of the core's vertex i along depth (d = 0), or across (d = 1), counted from the plane of symmetry to
+   both sides */
 static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
 {
   const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i));
@@ -129,7 +123,7 @@ static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscIn
   return i < 0 ? -place : place;
 }
 
-/* u, v of an outline's vertex */
+/* Parameters u, v of a vertex on the outline */
 static void EllipseOutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
@@ -168,8 +162,8 @@ static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *
   }
 }
 
-/* Do depth, across and axis make a left-handed system? Across points to the half that is meant, else along its
-   coordinate axis */
+/* Whether depth, across and axis form a left-handed system. Across points to the modelled half, or along its
+   coordinate axis if both are modelled */
 static PetscBool EllipseIsMirrored(const SceneBody *body)
 {
   const PetscInt depth = body->ellipse.depth, half = body->ellipse.half;
@@ -206,9 +200,9 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
   PetscFunctionReturn(0);
 }
 
-/* Length of the arc from the crown to the angle, measured at the auxiliary circle: 4 panels of 8 Gauss points reach
-   rounding for ratios of the semi-axes up to about 5, and stay monotone beyond, where the arc is cut into not quite
-   equal parts */
+/* Length of the arc from the crown to an angle on the auxiliary circle. 4 panels of 8 Gauss points are exact up to
+   rounding for ratios of the semi-axes up to about 5. For larger ratios the result is still monotone, and the arc is
+   divided into not quite equal parts */
 static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
 {
   static const PetscReal point[4]  = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -233,7 +227,7 @@ static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, Pe
   const PetscReal target = fraction * EllipseArcLength(semi_axes, PETSC_PI / 2);
   PetscReal       low = 0, high = PETSC_PI / 2, angle = fraction * PETSC_PI / 2;
 
-  /* Newton, kept in the bracket */
+  /* Newton's method, kept within a bracket */
   for (PetscInt i = 0; i < 50; ++i) {
     const PetscReal excess = EllipseArcLength(semi_axes, angle) - target;
     const PetscReal slope =
@@ -249,20 +243,20 @@ static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, Pe
   point[1] = fraction == 0 ? 0 : semi_axes[1] * PetscSinReal(angle);
 }
 
-/* From (u, v) with v >= 0 to (depth, across) */
+/* Maps (u, v) with v >= 0 to (depth, across) */
 static void EllipseSectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal place[2])
 {
   const PetscReal *a       = body->ellipse.semi_axes;
   const PetscReal  ring    = body->cells[2];
   const PetscReal  total   = (PetscReal)(body->cells[0] + body->cells[1]);
   const PetscReal  edge[2] = {body->cells[0] / (body->cells[0] + ring),
-     body->cells[1] / (body->cells[1] + ring)}; /* of the core, so that cells on the symmetry lines are equal */
+     body->cells[1] / (body->cells[1] + ring)}; /* size of the core, such that cells on the symmetry lines are equal */
   const PetscReal  m = PetscMax(uv[0], uv[1]), scale = PetscMax(m, 1);
   const PetscReal  q[2] = {uv[0] / scale, uv[1] / scale};
   PetscReal        corner[2], arc[2];
 
   EllipseArcPoint(a, body->cells[1] / total, corner);
-  /* The core: bilinear, its corner below that of the arc by the mean thickness of the ring */
+  /* the core is bilinear; its corner lies below that of the arc by the mean thickness of the ring */
   for (PetscInt d = 0; d < 2; ++d) corner[d] *= (edge[0] + edge[1]) / 2;
   place[0] = q[0] * (1 - q[1]) * edge[0] * a[0] + q[0] * q[1] * corner[0];
   place[1] = q[1] * (1 - q[0]) * edge[1] * a[1] + q[0] * q[1] * corner[1];

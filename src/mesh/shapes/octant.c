@@ -2,22 +2,18 @@
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt  n[3], layers, ncore, nsurface; /* vertices of the core, and of one layer outside of it */
+  PetscInt  n[3], layers, ncore, nsurface; /* number of vertices of the core, and of one layer outside of it */
   PetscBool core;
-  PetscInt *surface; /* number on the far sides of the vertices of the core's lattice, PETSC_DECIDE inside */
+  PetscInt *surface; /* number on the far sides of each vertex of the core's lattice; PETSC_DECIDE inside */
 } Octant;
 
 typedef struct {
   const Octant *octant;
-  PetscInt      axis; /* of a patch */
+  PetscInt      axis; /* axis normal to the patch */
 } OctantPatch;
 
-/* The faces' order; x0, y0, z0 follow each other, and a ball has no inner one */
-enum {
-  OCTANT_OUTER,
-  OCTANT_PLANE,
-  OCTANT_INNER = OCTANT_PLANE + 3
-};
+/* Order of the faces; x0, y0, z0 are consecutive, and a ball has no inner face */
+enum { OCTANT_OUTER, OCTANT_PLANE, OCTANT_INNER = OCTANT_PLANE + 3 };
 
 const char *const *OctantFaces(const SceneBody *body)
 {
@@ -71,7 +67,7 @@ static PetscInt OctantCoreVertex(const void *context, PetscInt i, PetscInt j, Pe
   return OctantVertex(((const OctantPatch *)context)->octant, 0, at);
 }
 
-/* Layers, then the two other axes in cyclic order: right-handed */
+/* Vertex number of a patch: layers, then the two other axes in cyclic order, which is right-handed */
 static PetscInt OctantPatchVertex(const void *context, PetscInt layer, PetscInt i, PetscInt j)
 {
   const OctantPatch *patch = (const OctantPatch *)context;

@@ -1,5 +1,5 @@
 /*
-   The shapes of bodies, and their grids at refinement level 0, on one rank.
+   Shapes of bodies, and their grids at refinement level 0 on one rank.
 */
 #ifndef SHAPESIMPL_H
 #define SHAPESIMPL_H
@@ -10,28 +10,26 @@
 #include <stddef.h>
 
 /*
-   grid.c: level 0 meshes of single bodies, made on one rank: hexahedra, or tetrahedra where a file has them.
-
-   The vertices of a mesh are refined in a shape's parameters, where its cells are straight, and mapped to space at
-   the end: so refinement follows curved surfaces on every level without any communication. A body whose facets are to
-   stay is mapped at level 0.
+   grid.c: level 0 grids of single bodies on one rank: hexahedra, or tetrahedra from a file. Vertices are refined in a
+   shape's parameters, where cells are straight, and mapped to space at the end. Refinement thus follows curved surfaces
+   on every level without communication. A body that keeps its facets is mapped at level 0.
 */
 typedef struct {
   PetscInt   ncells, nvertices, nfacets;
-  PetscInt   ncorners; /* of a cell: 8 of hexahedra, 4 of tetrahedra */
-  PetscInt  *cells; /* ncorners vertices a cell, of hexahedra in tensor order: vertex i + 2 j + 4 k lies at the corner
-                         (i, j, k) */
-  PetscReal *coordinates; /* 3 parameters a vertex; for a shape without a map, its place [length] */
-  PetscInt  *facets;      /* 4 vertices a facet, the last of a triangle's twice */
-  PetscInt  *facetface;   /* index of each facet's face in the names that MeshGetFaceNames() gives */
-  PetscReal *curve; /* 27 places a cell, tensor order, or 10, of the quadratic cell that refinement follows; NULL: it
-                       has straight edges */
+  PetscInt   ncorners;    /* vertices per cell: 8 for hexahedra, 4 for tetrahedra */
+  PetscInt  *cells;       /* ncorners vertices per cell; of hexahedra in tensor order: vertex i + 2 j + 4 k is at the
+                       corner (i, j, k) */
+  PetscReal *coordinates; /* 3 parameters per vertex; for a shape without a map its coordinates [length] */
+  PetscInt  *facets;      /* 4 vertices per facet; a triangle repeats the last one */
+  PetscInt  *facetface;   /* index of each facet's face among the names of MeshGetFaceNames() */
+  PetscReal *curve; /* 27 (tensor order) or 10 nodes per cell, of the quadratic cell that refinement follows; NULL:
+                       straight edges */
 } ShapeGrid;
 
 PETSC_INTERN PetscErrorCode ShapeGridDestroy(ShapeGrid *);
 
-/* A block of n[0] x n[1] x n[2] cells. faces: of the sides at the begin and the end of each direction, or
-   PETSC_DECIDE inside the body */
+/* A block of n[0] x n[1] x n[2] cells. faces: face of the sides at the start and end of each direction;
+   PETSC_DECIDE: inside the body */
 typedef struct {
   PetscInt    n[3], faces[6];
   const void *context;
@@ -42,24 +40,18 @@ typedef struct {
    left-handed */
 PETSC_INTERN PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock[], PetscInt nvertices,
   PetscBool mirrored, ShapeGrid *);
-/* Place in [0, 1] of vertex i of n cells, the last `grading` times as large as the first (0: 1): `even` (0: 1) equal
-   ones at the fine end, from there on growing geometrically */
+/* Position in [0, 1] of vertex i of n graded cells. The last cell is `grading` times as large as the first (0: 1).
+   `even` (0: 1) cells at the fine end are equal, the others grow geometrically */
 PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i);
-/* Errors: a count that is not positive; a count or total too large; a grading that is not positive, or has more even
-   cells than there are */
+/* Checks: error for a count that is not positive; a count or total that is too large; a grading that is not
+   positive, or has more even cells than cells */
 PETSC_INTERN PetscErrorCode ShapeCheckCount(MPI_Comm, const SceneBody *, const char what[], PetscInt count);
 PETSC_INTERN PetscErrorCode ShapeCheckTotal(MPI_Comm, const SceneBody *, PetscReal nvertices);
 PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading, PetscInt even,
   PetscInt n);
 
-/* The keys of shapes, as scenes have them: values of a SceneBody. An underscore may be nested, as outer: {radius: 1} */
-typedef enum {
-  KEY_REALS,
-  KEY_INTS,
-  KEY_AXIS,
-  KEY_DIRECTION,
-  KEY_TEXT
-} KeyType;
+/* Keys of shapes in scenes: values of a SceneBody. A key with an underscore may be nested, as outer: {radius: 1} */
+typedef enum { KEY_REALS, KEY_INTS, KEY_AXIS, KEY_DIRECTION, KEY_TEXT } KeyType;
 
 typedef struct {
   const char *name;
@@ -75,20 +67,19 @@ typedef struct {
   }
 
 /*
-   box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes.
-
-   A new shape is one file with a Shape, and one line in model.h.
+   box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes. A new shape is a file with a
+   Shape, and a line in model.h.
 */
 typedef struct {
   /* Names of the faces, NULL-terminated */
   const char *const *(*faces)(const SceneBody *);
-  /* Collective error if the body's parameters are not valid; number of level 0 cells and vertices */
+  /* Collective error if the body's parameters are invalid; otherwise number of level 0 cells and vertices */
   PetscErrorCode (*size)(MPI_Comm, const SceneBody *, PetscInt64 *ncells, PetscInt64 *nvertices);
-  /* Not collective; fills the grid, whose arrays are the caller's to free with ShapeGridDestroy() */
+  /* Not collective; fills the grid. The caller frees it by ShapeGridDestroy() */
   PetscErrorCode (*create)(const SceneBody *, ShapeGrid *);
-  /* From parameters to places in space; NULL if they are the same. x and the parameters may be one array */
+  /* Maps parameters to coordinates; NULL if they are the same. x and the parameters may be the same array */
   PetscErrorCode (*map)(const SceneBody *, const PetscReal parameters[3], PetscReal x[3]);
-  const ShapeKey *keys; /* the last one has no name */
+  const ShapeKey *keys; /* ends with a key without name */
 } Shape;
 
 #define SHAPE_DECLARE(name, shape, text) PETSC_INTERN const Shape Shape##shape;
@@ -96,14 +87,12 @@ BODY_SHAPES(SHAPE_DECLARE)
 #undef SHAPE_DECLARE
 
 /*
-   octant.c: octants of shells and balls as O-grids.
-
-   Parameters: a cube [0, 1]^3 with a corner at the octant's corner, whose three far sides (the patches) are extruded
-   to the cube [0, 2]^3: there, with m the largest component, the point q = p/m of a far side gives a direction and s
-   = m - 1 the place across the shell, 0 at its inner and 1 at its outer surface. Shells have no cells in [0, 1]^3, a
-   ball has its core there.
+   octant.c: octants of shells and balls as O-grids. The parameters are a cube [0, 1]^3 with one corner at the octant's
+   corner; its three far sides (the patches) are extruded to the cube [0, 2]^3. With m the largest component of p, the
+   point q = p/m on a far side gives a direction, and s = m - 1 the position through the shell, 0 at its inner and 1 at
+   its outer surface. Shells have no cells in [0, 1]^3; a ball has its core there.
 */
-/* What every octant has: where it is, and how it is divided */
+/* Keys of every octant: position and division */
 #define OCTANT_PLACE_KEYS \
   SHAPE_KEY("center", KEY_REALS, 3, octant.corner, PETSC_FALSE), \
     SHAPE_KEY("octant", KEY_INTS, 3, octant.signs, PETSC_FALSE)
@@ -117,27 +106,27 @@ PETSC_INTERN const char *const *OctantFaces(const SceneBody *);
 PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells,
       PetscInt64 *nvertices);
 PETSC_INTERN PetscErrorCode     OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
-/* q on the far sides of the unit cube and s, from parameters outside of the core */
+/* Splits parameters outside of the core into q on the far sides of the unit cube, and s */
 PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
-/* Unit vector of a point of the far sides, all components >= 0; equal steps along the cube's edges are equal angles */
+/* Unit vector of a point on the far sides, all components >= 0; equal steps along the cube's edges are equal angles */
 PETSC_INTERN void OctantDirection(const PetscReal q[3], PetscReal direction[3]);
-/* Place of a point given relative to the corner, all components >= 0 */
+/* Coordinates of a point that is given relative to the corner with all components >= 0 */
 PETSC_INTERN void OctantPlace(const SceneBody *, const PetscReal relative[3], PetscReal x[3]);
 
 /* shape.c: the shape of a body; NULL for a body from a file */
 PETSC_INTERN PetscErrorCode ShapeGet(MPI_Comm, const SceneBody *, const Shape **);
 
-/* body.c: one body at level 0, sizes and faces on all ranks, the grid on rank 0 */
+/* body.c: one body at level 0; sizes and faces on all ranks, the grid on rank 0 */
 typedef struct {
   PetscInt64 ncells, nvertices;
-  PetscInt   ncorners, order; /* of its cells; what it asks for, or what suits them */
+  PetscInt   ncorners, order; /* order: the requested one, or that which suits its cells */
   PetscInt   nfaces;
   char     **faces;
-  PetscBool  quadratic; /* its grid has a curve */
+  PetscBool  quadratic; /* its grid has curved edges */
   ShapeGrid  grid;
 } MeshBody;
 
-/* grid.c: the first cell of each body in one mesh of all, tetrahedra before hexahedra as DMPlex wants them */
+/* grid.c: first cell of each body in the mesh of all; tetrahedra before hexahedra, as DMPlex requires */
 PETSC_INTERN PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody[], PetscInt first[]);
 
 #endif

@@ -1,9 +1,8 @@
-/* Octant of a shell between spheres that need not be concentric. The outer surface may be cut by a further sphere,
-   the cap. Every surface is met by rays from the octant's corner, so that all points stay in their coordinate planes.
- */
+/* Octant of a shell between spheres that need not be concentric. A third sphere, the cap, may cut the outer surface.
+   Each surface is intersected by rays from the octant's corner, so that points stay in their coordinate planes. */
 #include "shapesimpl.h"
 
-/* Distance from the corner to the sphere along a direction of the first octant; the corner is inside */
+/* Distance from the corner, which is inside the sphere, to the sphere along a direction of the first octant */
 static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere, const PetscReal direction[3])
 {
   PetscReal along = 0, square = 0;
@@ -43,7 +42,7 @@ static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, con
 static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
   PetscInt64 *nvertices)
 {
-  const PetscInt samples = 8; /* directions along an edge of the cube of parameters */
+  const PetscInt samples = 8; /* number of directions along an edge of the cube of parameters */
 
   PetscFunctionBegin;
   PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,

@@ -1,4 +1,4 @@
-/* Arc of a tube. Parameters: distance from the axis, angle about it, place along it */
+/* Arc of a tube. Parameters: distance from the axis, angle about it, position along it */
 #include "shapesimpl.h"
 
 static const char *const *ShapeFaces_TubeArc(PETSC_UNUSED const SceneBody *body)

@@ -1,4 +1,4 @@
-/* Expressions of a scene file: evaluated, checked, and complained of. */
+/* Expressions of a scene file: evaluation, checks, error messages. */
 #include "formatimpl.h"
 #include "src/model/modelimpl.h"
 
@@ -12,11 +12,11 @@ static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const
   PetscFunctionReturn(0);
 }
 
-/* Of this time in a program of so many load steps; what is no number is complained of */
-PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscInt nsteps,
+/* Evaluates text at a time of a load program that ends at `end`; records an error if it is not a number */
+PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscReal end,
   PetscReal *value)
 {
-  Expression e = {.at = text, .names = "ts", .values = {time, time / (PetscReal)nsteps}};
+  Expression e = {.at = text, .names = "ts", .values = {time, time / end}};
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);
@@ -26,7 +26,7 @@ PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[]
   PetscFunctionReturn(0);
 }
 
-/* Complains of what makes no sense; whether it is finite is known where it is used */
+/* Records an error if the expression has a syntax error; whether it is finite is checked where it is used */
 PetscErrorCode SceneCheckExpression(SceneKeys keys, const char key[], const char text[])
 {
   Expression e = {.at = text, .names = "xyz"};

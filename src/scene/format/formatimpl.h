@@ -1,5 +1,5 @@
 /*
-   The format of scene files: text to keys, keys to values. Nothing here knows what a scene is made of.
+   The format of scene files: from text to keys, from keys to values. Independent of what a scene contains.
 */
 #ifndef FORMATIMPL_H
 #define FORMATIMPL_H
@@ -7,19 +7,19 @@
 #include <model.h>
 #include <rankerror.h>
 
-/* Where keys stand in the file, counted from 1 */
+/* Line of each key in the file, from 1 */
 typedef struct {
   PetscInt n;
   char   **keys;
   size_t  *lines;
 } SceneKeyLines;
 
-/* yaml.c. Not collective: an error if the text is no YAML that PETSc can read */
+/* yaml.c. Not collective: error if the text is not YAML that PETSc can read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
 
-/* keys.c: the keys and values of a scene file. Every reader asks for a full key (nested keys joined with _); what
-   nobody asked for is misspelt. A bad or missing value is stored, not raised, because a misspelt key explains it
-   better. */
+/* keys.c: the keys and values of a scene file. Each reader asks for a full key (nested keys joined with _); keys
+   that no reader asked for are reported as unknown. A bad or missing value is recorded, not raised at once, because
+   an unknown key often explains it better. */
 typedef struct {
   char    *name;
   Material material;
@@ -31,14 +31,15 @@ typedef struct {
   PetscOptions               options;
   PetscInt                   nasked, maxasked;
   char                     **asked;
-  const struct _n_SceneList *list; /* that is being read */
-  const struct _n_SceneKey  *top;  /* rows of the top level, for what is misspelt there */
+  const struct _n_SceneList *list; /* the list that is being read */
+  const struct _n_SceneKey  *top;  /* rows of the top level, for messages about unknown keys */
   SceneKeyLines              lines;
-  char                       complaint[1024]; /* the first; empty if none */
-  PetscBool                  decides; /* which keys are known hangs on what is complained of: it comes before them */
+  char                       complaint[1024]; /* the first error; empty: none */
+  PetscBool                  decides; /* the error decides which keys are valid, so it is reported before unknown
+                                         keys */
 
-  char           library[PETSC_MAX_PATH_LEN]; /* where materials come from, in words; empty: no library */
-  PetscInt       nmaterials;                  /* that have names, once they are read */
+  char           library[PETSC_MAX_PATH_LEN]; /* where materials may come from, as text; empty: no library */
+  PetscInt       nmaterials;                  /* materials with names that have been read */
   SceneMaterial *materials;
 } * SceneKeys;
 
@@ -48,13 +49,17 @@ PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKe
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* owner_key, with its line where the file has the key, and what is wrong with it */
+PETSC_INTERN PetscErrorCode SceneKeysComplainOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
+/* Begins the complaint, if there is one, with the line of this key */
+PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
-/* A file's name, relative to the folder of the scene */
+/* Makes a file's name relative to the folder of the scene */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
-/* parse.c: values; key is for the complaint. A list has exactly n entries, or any number where *n is PETSC_DECIDE on
-   entry */
+/* parse.c: converts values; key is for error messages. A list must have n entries, or any number if *n is
+   PETSC_DECIDE on entry */
 PETSC_INTERN PetscErrorCode SceneParseReal(SceneKeys, const char key[], const char text[], PetscReal *);
 PETSC_INTERN PetscErrorCode SceneParseInt(SceneKeys, const char key[], const char text[], PetscInt *);
 PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const char text[], const char *const names[],
@@ -68,85 +73,82 @@ PETSC_INTERN PetscErrorCode SceneParseRamp(SceneKeys, Scene, const char key[], c
 PETSC_INTERN PetscBool      SceneIsName(const char[]);
 PETSC_INTERN PetscErrorCode SceneGetNames(SceneKeys, const char key[], PetscBool required, PetscInt *n, char ***names);
 
-/* numbers.c: a number such that it reads back the same; [values]; name: [values] */
+/* numbers.c: prints a number so that it reads back the same; [values]; name: [values] */
 PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 PETSC_INTERN PetscErrorCode SceneViewList(PetscViewer, PetscInt n, const PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
 
-/* expression.c: a number that follows time; whether one that follows the place, which SceneEvaluatePlace() evaluates,
-   makes sense */
-PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time,
-  PetscInt nsteps, PetscReal *);
+/* expression.c: evaluates an expression of time; checks the syntax of an expression of position, which
+   SceneEvaluatePlace() evaluates */
+PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscReal end,
+  PetscReal *);
 PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
-/* table.c: factors at the ends of load steps, from an expression or a table of times and values; found: there is one
-   or the other below the key */
-PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], PetscInt nsteps, PetscReal factor[],
-  PetscBool *found);
+/* table.c: factors of a ramp at the ends of load steps, in dynamics also at time 0, from an expression or a table of
+   times and values. found: the key has one of them */
+PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], Scene, SceneRamp *, PetscBool *found);
 
 /*
-   The table of keys, which sections/keytable.c has. A row is read into an entry, which is a struct of model.h, at so
-   many bytes; is shown unless it is as it began; and frees the texts that it has.
+   The table of keys (rows in sections/keytable.c). A row describes one key: it is read into a member (at a byte offset)
+   of a struct of model.h, printed unless it has its initial value, and freed if it owns text.
 */
 typedef enum {
   SCENE_REALS,
   SCENE_INTS,
   SCENE_ANSWER, /* true or false */
   SCENE_CHOICE, /* an enumeration, by its names */
-  SCENE_AXIS,   /* the same, kept as PetscInt */
+  SCENE_AXIS,   /* the same, stored as PetscInt */
   SCENE_TEXT,
-  SCENE_BODY, /* a body's name, kept as its number */
+  SCENE_BODY, /* a body's name, stored as its number */
   SCENE_RAMP, /* a ramp's */
   SCENE_OWN,
-  SCENE_SECTION /* read and shown by a file of sections/ */
+  SCENE_SECTION /* read and printed by a file in sections/ */
 } SceneKeyType;
 
 typedef enum {
   SCENE_OPTIONAL,
-  SCENE_SHOWN, /* may be missing, and is shown in any case */
+  SCENE_SHOWN, /* optional, and always printed */
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum {
-  SCENE_ANY,
-  SCENE_ABOVE_0,
-  SCENE_FROM_0
-} SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
 
-/* A value with a grammar of its own */
+/* A value with a syntax of its own */
 typedef struct {
   PetscErrorCode (*read)(SceneKeys, Scene, const char key[], const char text[], void *entry);
   PetscBool (*shown)(const void *entry);
   PetscErrorCode (*view)(Scene, PetscViewer, const void *entry);
-  PetscInt ntexts; /* allocated, one after the other */
+  PetscInt ntexts; /* number of allocated texts, stored consecutively */
 } SceneOwn;
 
 typedef struct _n_SceneKey {
   const char        *name;
-  const char        *of; /* the shapes or laws that have it, with blanks between; NULL: all */
+  const char        *of; /* shapes or material laws that have the key, separated by blanks; NULL: all */
   SceneKeyType       type;
   PetscInt           n; /* numbers */
   size_t             at;
   SceneNeed          need;
   SceneRange         range;
-  const char *const *names; /* of an enumeration */
+  const char *const *names; /* names of an enumeration */
   const SceneOwn    *own;
-  const char        *unit, *otherwise, *help; /* F force, L length; what holds without the key; a sentence */
+  const char        *unit, *otherwise, *help; /* unit (F force, L length); value without the key; one-sentence help */
 } SceneKey;
 
 typedef struct _n_SceneList {
   const char     *name;
   const SceneKey *rows;
-  size_t          size;             /* of an entry, whose name comes first */
-  size_t          count, entries;   /* where a scene has them; 0: it is read by a file of sections/ */
-  const void     *initial;          /* entry; NULL: zeros */
-  PetscBool       required, shared; /* it must not be empty; another list frees the entries */
-  PetscErrorCode (*finish)(SceneKeys, Scene, const char owner[], void *entry); /* after the rows */
-  PetscBool (*holds)(const void *entry);                                       /* of entries that are shared: its own */
+  size_t          size;             /* size of an entry; its first member is its name */
+  size_t          count, entries;   /* offsets in the scene of count and array; 0: read by a file in sections/ */
+  const void     *initial;          /* initial value of an entry; NULL: zeros */
+  PetscBool       required, shared; /* required: must not be empty; shared: another list frees the entries */
+  /* called after the rows of an entry were read */
+  PetscErrorCode (*finish)(SceneKeys, Scene, const char owner[], void *entry);
+  /* shared lists: whether an entry belongs to this list */
+  PetscBool (*holds)(const void *entry);
   PetscBool (*hides)(const void *entry, const char key[]);
 } SceneList;
 
-/* rows.c: entries by the rows of the table */
+/* rows.c: reads, prints and frees entries by the rows of the table */
 PETSC_INTERN PetscBool      SceneRowIsOf(const SceneKey *, const char kind[]);
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
   const char kind[], PetscBool listed, void *entry);

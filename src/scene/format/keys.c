@@ -1,10 +1,10 @@
-/* The keys of a scene file: reads it, looks keys up, and reports those that nothing has read. */
+/* The keys of a scene file: reads the file, looks up keys, and reports those that were not used. */
 #include "formatimpl.h"
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>
 
-/* On the first rank: the whole file, ended by a zero */
+/* On the first rank: reads the whole file and terminates it with a zero */
 static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
 {
   FILE     *stream;
@@ -27,7 +27,7 @@ static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, c
   PetscFunctionReturn(0);
 }
 
-/* The text of the file on all ranks, to be freed */
+/* Gets the text of the file on all ranks; the caller frees it */
 static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
 {
   RankError      error;
@@ -99,7 +99,7 @@ static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
   PetscFunctionReturn(0);
 }
 
-/* The text of a key, borrowed; NULL if the file has not got it */
+/* Gets the text of a key, borrowed; NULL if the file does not have it */
 PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
 {
   char      option[SCENE_KEY_LENGTH] = "-";
@@ -120,7 +120,7 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   PetscFunctionReturn(0);
 }
 
-/* What YAML makes of 3 in {poisson: 0,3} */
+/* Whether the key is a number, e.g. the 3 that YAML finds in {poisson: 0,3} */
 static PetscBool SceneKeyIsNumber(const char key[])
 {
   const char *last = strrchr(key, '_');
@@ -128,7 +128,7 @@ static PetscBool SceneKeyIsNumber(const char key[])
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
 }
 
-/* The line of a key; 0: it is not known */
+/* Line of a key; 0: unknown */
 static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
 {
   PetscBool same;
@@ -139,6 +139,31 @@ static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
   return 0;
 }
 
+PetscErrorCode SceneKeysAddLine(SceneKeys keys, const char key[])
+{
+  const size_t line = SceneKeysGetLine(keys, key);
+  char         complaint[sizeof(keys->complaint)];
+
+  PetscFunctionBegin;
+  if (!line || !keys->complaint[0]) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(complaint, keys->complaint, sizeof(complaint)));
+  (void)snprintf(keys->complaint, sizeof(keys->complaint), "line %zu: %.900s", line, complaint);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysComplainOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
+{
+  char   full[SCENE_KEY_LENGTH];
+  size_t line;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(full, sizeof(full), "%s_%s", owner, key));
+  line = SceneKeysGetLine(keys, full);
+  if (line) PetscCall(SceneKeysComplain(keys, "line %zu: %s %s", line, full, wrong));
+  else PetscCall(SceneKeysComplain(keys, "%s %s", full, wrong));
+  PetscFunctionReturn(0);
+}
+
 /* What other programs, or other people, call a key */
 static const char *const synonyms[][2] = {
   {"e", "young"},
@@ -146,6 +171,9 @@ static const char *const synonyms[][2] = {
   {"youngs_modulus", "young"},
   {"young_modulus", "young"},
   {"nu", "poisson"},
+  {"yield_stress", "yield"},
+  {"plastic_strain", "plastic_strains"},
+  {"hardening_modulus", "hardening"},
   {"poissons_ratio", "poisson"},
   {"poisson_ratio", "poisson"},
   {"alpha", "expansion"},
@@ -179,10 +207,15 @@ static const char *const synonyms[][2] = {
   {"gravity", "body_forces"},
   {"neumann", "tractions"},
   {"increments", "steps"},
+  {"rho", "density"},
+  {"dt", "time_step"},
+  {"step", "time_step"},
+  {"duration", "end_time"},
+  {"velocity", "initial_velocity"},
 };
 
-/* The names of the keys that may stand where an unknown one does: those that share what it is below, so many letters;
-   at the top level those of the table */
+/* The valid keys at the place of an unknown one: those with the same first *below letters (its list and entry); at
+   the top level the rows of the table */
 static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], size_t *below, PetscInt *n,
   const char ***names)
 {
@@ -210,7 +243,7 @@ static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], si
   PetscFunctionReturn(0);
 }
 
-/* What an unknown key may stand for: a synonym, the nearest name, or a list of the valid ones */
+/* Suggests what an unknown key may mean: a synonym, the nearest name, or a list of the valid ones */
 static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], char meant[], size_t length)
 {
   const char **names, *nearest, *rest;
@@ -246,7 +279,7 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   PetscFunctionReturn(0);
 }
 
-/* Raises an unknown key with its line */
+/* Raises an error for an unknown key, with its line */
 static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[])
 {
   const size_t line      = SceneKeysGetLine(keys, unknown);
@@ -280,7 +313,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   PetscFunctionBegin;
   PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
   PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
-  /* The shortest unknown key is the outermost: below a misspelt list every key is unknown */
+  /* The shortest unknown key is the outermost one: under a misspelt list every key is unknown */
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(PetscStrlen(names[i], &length));
     if (!unknown || length < shortest) {
@@ -294,7 +327,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   PetscFunctionReturn(0);
 }
 
-/* A file's name is relative to the folder of the scene */
+/* Makes a file's name relative to the folder of the scene */
 PetscErrorCode SceneResolveFile(const char scene[], char **file)
 {
   const char *slash = strrchr(scene, '/');

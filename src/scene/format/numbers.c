@@ -1,9 +1,9 @@
-/* Numbers as a scene file writes them */
+/* Prints numbers as a scene file writes them */
 #include "formatimpl.h"
 #include <petscviewer.h>
 #include <stdlib.h>
 
-/* The shortest decimal that reads back as the same number */
+/* Prints the shortest decimal that reads back as the same number */
 PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
 {
   char text[64];

@@ -1,5 +1,5 @@
-/* Values of a scene file: text to numbers, lists and names. If a value does not parse, the error is kept and the
-   variable unchanged. */
+/* Values of a scene file: from text to numbers, lists and names. If a value cannot be parsed, the error is recorded
+   and the variable unchanged. */
 #include "formatimpl.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ static PetscBool SceneParseAtEnd(const char *s)
   return *s ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* A decimal number or a fraction of two, as -5/7 */
+/* Parses a decimal number or a fraction such as -5/7 */
 PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[], PetscReal *value)
 {
   char  *end;
@@ -49,7 +49,7 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   PetscFunctionReturn(0);
 }
 
-/* names as PETSc keeps them: values, then the type's name, its prefix and NULL */
+/* Parses an enumeration; names as in PETSc: values, then the type's name, its prefix and NULL */
 PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[], const char *const names[],
   PetscInt *value)
 {
@@ -81,7 +81,7 @@ PetscErrorCode SceneParseAnswer(SceneKeys keys, const char key[], const char tex
   PetscFunctionReturn(0);
 }
 
-/* words is for PetscStrToArrayDestroy(); NULL and no words if the length is wrong */
+/* Splits a list; words is freed by PetscStrToArrayDestroy(). NULL if the length is wrong */
 PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[], PetscInt *n, char ***words)
 {
   int count;
@@ -120,7 +120,7 @@ PetscErrorCode SceneParseInts(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
-/* PETSC_DECIDE where there is none of that name */
+/* Gets the number of a body by name; PETSC_DECIDE if there is none */
 PetscErrorCode SceneParseBody(SceneKeys keys, Scene scene, const char key[], const char text[], PetscInt *body)
 {
   *body = PETSC_DECIDE;
@@ -159,7 +159,7 @@ PetscBool SceneIsName(const char name[])
   return PETSC_TRUE;
 }
 
-/* The names of a list of named things, allocated one by one. Names are keys, and keys do not tell case apart */
+/* Gets the names of a list's entries, allocated individually. Names are keys, so case does not matter */
 PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool required, PetscInt *n, char ***names)
 {
   const char *text;

@@ -1,7 +1,7 @@
 /*
-   Finds keys that a scene has twice, of which PETSc would use the last: in one mapping, or once nested and once
-   joined, as outer: {radius: 1} and outer_radius: 2. Each key has a path of the keys above it, joined like options,
-   with the numbers of list entries, since two entries of one name have an error of their own.
+   Finds keys that a scene sets twice; PETSc would use the last one. They may be in the same mapping, or once nested and
+   once joined, as outer: {radius: 1} and outer_radius: 2. Each key is compared by its path, joined like options,
+   including numbers of list entries, since two entries with the same name are reported elsewhere.
 */
 #include "repeated.h"
 #include <ctype.h>
@@ -22,7 +22,7 @@ static PetscErrorCode RepeatedSetPath(RepeatedKeys *keys, size_t length, const c
   PetscFunctionReturn(0);
 }
 
-/* One that holds a mapping is another than one with a value; mappings that are taken in, <<, may be many */
+/* Stores the path of a key. A key with a mapping differs from one with a value; merged mappings, <<, may be repeated */
 static PetscErrorCode RepeatedRemember(RepeatedKeys *keys, PetscBool mapping)
 {
   PetscBool taken;
@@ -58,7 +58,7 @@ static PetscErrorCode RepeatedReadKey(RepeatedKeys *keys, const yaml_event_t *ev
   PetscFunctionReturn(0);
 }
 
-/* What begins is a key, the value of one, an entry of a list, or the whole */
+/* Processes the start of a node: a key, the value of a key, an entry of a list, or the whole document */
 static PetscErrorCode RepeatedBeginNode(RepeatedKeys *keys, const yaml_event_t *event)
 {
   RepeatedLevel  *level = keys->depth ? &keys->levels[keys->depth - 1] : NULL;
@@ -86,7 +86,7 @@ static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping, size_t
   PetscFunctionReturn(0);
 }
 
-/* As a key is written in messages: without the numbers of entries */
+/* Removes the numbers of entries from a path, for messages */
 static void RepeatedStrip(char path[])
 {
   char *to = path;
@@ -99,7 +99,7 @@ static void RepeatedStrip(char path[])
   *to = 0;
 }
 
-/* An entry of a list is one name and what belongs to it */
+/* Error unless a list entry is one name with its contents */
 static PetscErrorCode RepeatedCheckEntry(const RepeatedKeys *keys)
 {
   const RepeatedLevel *level = &keys->levels[keys->depth - 1];
@@ -129,7 +129,7 @@ PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
   PetscFunctionReturn(0);
 }
 
-/* After the last event */
+/* Raises an error for the first repeated key; call after the last event */
 PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
 {
   PetscInt *order;
@@ -151,7 +151,7 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
   PetscFunctionReturn(0);
 }
 
-/* After the last event: the keys, as they are written in messages, are the caller's from now on */
+/* Moves the keys, as written in messages, and their lines to the caller; call after the last event */
 void RepeatedKeysGetLines(RepeatedKeys *keys, SceneKeyLines *lines)
 {
   for (PetscInt i = 0; i < keys->n; ++i) RepeatedStrip(keys->paths[i]);

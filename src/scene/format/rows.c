@@ -1,9 +1,9 @@
-/* What the rows of the table of keys say of an entry: it is read, shown and freed by them. */
+/* Reads, prints and frees an entry by the rows of the table of keys. */
 #include "formatimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* of: words apart by a blank */
+/* Whether the row applies to this kind (row->of is a list separated by blanks) */
 PetscBool SceneRowIsOf(const SceneKey *row, const char kind[])
 {
   const size_t length = kind ? strlen(kind) : 0;
@@ -62,8 +62,8 @@ static PetscErrorCode RowRead(SceneKeys keys, Scene scene, const SceneKey *row, 
   PetscFunctionReturn(0);
 }
 
-/* The rows that are of a kind, NULL: those that are of any. owner: of the entry, "<list>_<name>", "" at the top level.
-   listed: what is required may be missing. A text that is required is never NULL */
+/* Reads the rows that apply to `kind` (NULL: rows that apply to all). owner: prefix of the entry, "<list>_<name>",
+   or "" at the top level. listed: required keys may be missing. A required text is never NULL */
 PetscErrorCode SceneReadRows(SceneKeys keys, Scene scene, const char owner[], const SceneKey rows[], const char kind[],
   PetscBool listed, void *entry)
 {
@@ -82,7 +82,7 @@ PetscErrorCode SceneReadRows(SceneKeys keys, Scene scene, const char owner[], co
   PetscFunctionReturn(0);
 }
 
-/* Whether the file has a key of an entry */
+/* Whether the file has the given key of an entry */
 PetscErrorCode SceneHasKey(SceneKeys keys, const char owner[], const char name[], PetscBool *has)
 {
   const char *text;
@@ -93,7 +93,7 @@ PetscErrorCode SceneHasKey(SceneKeys keys, const char owner[], const char name[]
   PetscFunctionReturn(0);
 }
 
-/* Appends the entries of a list: each begins as the list says, and has its name first of all */
+/* Reads the entries of a list and appends them; each starts with the list's initial value and its name */
 PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list, PetscInt *n, void *entries)
 {
   PetscInt nnames;
@@ -128,7 +128,7 @@ static size_t RowSize(const SceneKey *row)
   }
 }
 
-/* What is as it began is not shown, unless it always is */
+/* A value equal to the initial one is not printed, unless the row says always */
 static PetscBool RowIsShown(const SceneKey *row, const void *entry, const void *initial)
 {
   const char *value = (const char *)entry + row->at;
@@ -177,7 +177,7 @@ static PetscErrorCode RowView(Scene scene, PetscViewer viewer, const SceneKey *r
   PetscFunctionReturn(0);
 }
 
-/* A line, if it is shown at all */
+/* Prints a row if it is to be shown */
 PetscErrorCode SceneViewRow(Scene scene, PetscViewer viewer, const SceneKey *row, const void *entry,
   const void *initial)
 {
@@ -191,7 +191,7 @@ PetscErrorCode SceneViewRow(Scene scene, PetscViewer viewer, const SceneKey *row
   PetscFunctionReturn(0);
 }
 
-/* Those of a kind */
+/* Prints the rows that apply to `kind` */
 PetscErrorCode SceneViewRows(Scene scene, PetscViewer viewer, const SceneKey rows[], const char kind[],
   const void *entry, const void *initial)
 {
@@ -220,7 +220,7 @@ static PetscErrorCode EntryView(Scene scene, PetscViewer viewer, const SceneList
   PetscFunctionReturn(0);
 }
 
-/* Those of the entries that are the list's own, under its name */
+/* Prints the entries that belong to the list, under its name */
 PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const SceneList *list, PetscInt n, const void *entries)
 {
   PetscBool any = PETSC_FALSE;
@@ -239,7 +239,7 @@ PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const SceneList
   PetscFunctionReturn(0);
 }
 
-/* The texts that rows have allocated; a name of its own, if the entry has one, too */
+/* Frees the texts that the rows have allocated, and an entry's name */
 PetscErrorCode SceneFreeRows(const SceneKey rows[], void *entry)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* Load programs by expressions and by tables of times and values */
+/* Load programs given by expressions, or by tables of times and values */
 #include "formatimpl.h"
 
 static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
@@ -16,7 +16,7 @@ static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const 
   PetscFunctionReturn(0);
 }
 
-/* Linear in between; before the first time and after the last the value there */
+/* Linear interpolation; constant before the first and after the last time */
 static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const PetscReal values[], PetscReal time)
 {
   PetscInt i = 0;
@@ -28,10 +28,11 @@ static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const Pet
 }
 
 static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char times[], const char values[],
-  PetscInt nsteps, PetscReal factor[])
+  Scene scene, SceneRamp *ramp)
 {
-  PetscInt   n = PETSC_DECIDE;
-  PetscReal *time, *value;
+  const PetscReal increment = SceneTimeStep(scene);
+  PetscInt        n         = PETSC_DECIDE;
+  PetscReal      *time, *value;
 
   PetscFunctionBegin;
   PetscCall(TableReadColumn(keys, owner, "times", times, &n, &time));
@@ -42,17 +43,19 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
       PetscCall(SceneKeysComplain(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i],
         (double)time[i - 1]));
   }
-  for (PetscInt k = 0; n && k < nsteps; ++k) factor[k] = TableInterpolate(n, time, value, (PetscReal)(k + 1));
+  if (n && SceneIsDynamic(scene)) ramp->start = TableInterpolate(n, time, value, 0.0);
+  for (PetscInt k = 0; n && k < scene->nsteps; ++k)
+    ramp->factor[k] = TableInterpolate(n, time, value, (PetscReal)(k + 1) * increment);
   PetscCall(PetscFree(time));
   PetscCall(PetscFree(value));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nsteps, PetscReal factor[],
-  PetscBool *found)
+PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], Scene scene, SceneRamp *ramp, PetscBool *found)
 {
-  const char *expression, *times, *values;
-  char        key[SCENE_KEY_LENGTH];
+  const PetscReal increment = SceneTimeStep(scene), end = (PetscReal)scene->nsteps * increment;
+  const char     *expression, *times, *values;
+  char            key[SCENE_KEY_LENGTH];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(key, sizeof(key), "%s_expression", owner));
@@ -65,8 +68,9 @@ PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], PetscInt nst
   else if (!times != !values)
     PetscCall(
       SceneKeysComplain(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
-  else if (times) PetscCall(TableRead(keys, owner, times, values, nsteps, factor));
-  for (PetscInt k = 0; expression && k < nsteps; ++k)
-    PetscCall(SceneEvaluate(keys, key, expression, (PetscReal)(k + 1), nsteps, &factor[k]));
+  else if (times) PetscCall(TableRead(keys, owner, times, values, scene, ramp));
+  if (expression && SceneIsDynamic(scene)) PetscCall(SceneEvaluate(keys, key, expression, 0.0, end, &ramp->start));
+  for (PetscInt k = 0; expression && k < scene->nsteps; ++k)
+    PetscCall(SceneEvaluate(keys, key, expression, (PetscReal)(k + 1) * increment, end, &ramp->factor[k]));
   PetscFunctionReturn(0);
 }

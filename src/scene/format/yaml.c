@@ -1,13 +1,13 @@
 /*
-   Checks that a scene is YAML that PETSc can read. YAML has anchors, &name, and aliases, *name. PETSc's reader
-   expands an alias in place: an anchor that holds its own alias never ends, and nested aliases exhaust any memory.
-   Anchored values of a scene must therefore hold no aliases.
+   Checks that a scene is YAML that PETSc can read. YAML has anchors, &name, and aliases, *name. PETSc's reader expands
+   aliases in place: an anchor that contains its own alias would never end, and nested aliases could exhaust memory.
+   Therefore anchored values must not contain aliases.
 */
 #include "repeated.h"
 #include <string.h>
 
-/* anchored: brackets and indentations open since the outermost anchor, this one's included; 0 outside of anchored
-   values */
+/* Whether the event is an alias inside an anchored value. anchored: number of brackets and indentations open since
+   the outermost anchor; 0 outside of anchored values */
 static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
 {
   const yaml_char_t *anchor = NULL;
@@ -26,7 +26,7 @@ static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
   return PETSC_FALSE;
 }
 
-/* What the parser has to say; text: the whole */
+/* Raises the parser's error; text: the whole text */
 static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
 {
   const size_t line = parser->problem_mark.line + 1;
@@ -66,12 +66,13 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
   PetscFunctionReturn(0);
 }
 
-/* lines: of every key. Errors: PETSC_ERR_USER_INPUT for keys that are names of nothing, or stand twice */
+/* Checks the text; lines: of every key. Errors (PETSC_ERR_USER_INPUT): keys that are not names, or repeated */
 PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *lines)
 {
   yaml_parser_t  parser;
   RepeatedKeys   keys = {0};
-  const size_t   mark = strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3; /* of UTF-8, which some editors begin files with */
+  const size_t   mark = strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3; /* length of the UTF-8 byte order mark, with which
+                                                                     some editors begin files */
   PetscErrorCode ierr;
 
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* bodies: shape, material and element of each */
+/* bodies: shape, material and element of each body */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -31,9 +31,12 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   if (body->material.type == MATERIAL_RIGID) {
     body->order = 1;
     PetscCall(SceneRefuseOfRigid(keys, owner, body));
+    PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
+    PetscCall(SceneFinishInertia(keys, scene, owner, body));
     PetscFunctionReturn(0);
   }
   PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
+  PetscCall(SceneFinishInertia(keys, scene, owner, body));
   PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order)
@@ -41,7 +44,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscFunctionReturn(0);
 }
 
-/* Gives a rigid body a stiffness, so that its rows of the matrix are as large as those of the others */
+/* Gives a rigid body a stiffness, so that its matrix rows have the size of other rows */
 PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;
@@ -65,6 +68,7 @@ static PetscErrorCode SceneViewBody(Scene scene, PetscViewer viewer, const Scene
   PetscCall(SceneViewConstants(&body->material, viewer));
   if (body->material.type != MATERIAL_RIGID)
     PetscCall(SceneViewRows(scene, viewer, list->rows, "elastic", body, list->initial));
+  PetscCall(SceneViewRows(scene, viewer, list->rows, NULL, body, list->initial));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);

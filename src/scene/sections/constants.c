@@ -1,27 +1,31 @@
-/* Constants of a material: which ones its law has, read, viewed, described and checked */
+/* Constants of a material law: reading, printing, description, checks */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 
-static PetscReal *MaterialConstantAt(const MaterialConstant *constant, Material *material)
+/* Its values in a material */
+static PetscInt MaterialConstantGet(const MaterialConstant *constant, const Material *material, const PetscReal **value)
 {
-  return (PetscReal *)((char *)material + constant->at);
+  const char *at = (const char *)material + constant->at;
+
+  *value = constant->n ? (const PetscReal *)at : ((const MaterialList *)at)->value;
+  return constant->n ? constant->n : ((const MaterialList *)at)->n;
 }
 
-static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, const PetscReal value[])
+static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, PetscInt n, const PetscReal value[])
 {
-  for (PetscInt i = 0; i < constant->n; ++i) {
+  for (PetscInt i = 0; i < n; ++i) {
     if (value[i] != 0) return PETSC_TRUE;
   }
   return constant->required;
 }
 
-/* A direction, which cannot be zero; zero stands for one that is not given */
+/* Whether the constant is a direction: must not be zero; zero means not given */
 static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
 {
   return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
 }
 
-/* An expansion for a law that has none: an error that names the laws that have one */
+/* Error if a thermal expansion is given for a law that has none; names the laws that have one */
 static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
 {
   const char *text;
@@ -36,6 +40,46 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
   PetscFunctionReturn(0);
 }
 
+/* As many numbers as there are */
+static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], const char text[], MaterialList *list)
+{
+  char **words;
+
+  PetscFunctionBegin;
+  list->n = PETSC_DECIDE;
+  PetscCall(SceneParseList(keys, key, text, &list->n, &words));
+  PetscCall(PetscStrToArrayDestroy((int)list->n, words));
+  if (list->n > MATERIAL_LIST) {
+    PetscCall(SceneKeysComplain(keys, "%s has %" PetscInt_FMT " numbers, which must be at most %d", key, list->n,
+      MATERIAL_LIST));
+    list->n = 0;
+  } else PetscCall(SceneParseReals(keys, key, text, list->n, list->value));
+  PetscFunctionReturn(0);
+}
+
+/* Of a law that yields, the hardening as a whole */
+static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Material *material)
+{
+  MaterialHardening *h = &material->hardening;
+  const char        *key;
+  char               why[128];
+  PetscBool          has;
+
+  PetscFunctionBegin;
+  if (material->type != MATERIAL_J2) PetscFunctionReturn(0);
+  if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
+    PetscCall(SceneKeysComplain(keys, "%s_yield = %g is not the first of %s_yield_stresses, %g: leave it out", owner,
+      (double)h->yield, owner, (double)h->stresses.value[0]));
+  if (h->stresses.n) h->yield = h->stresses.value[0];
+  PetscCall(SceneHasKey(keys, owner, "yield", &has));
+  if (!has && h->yield == 0.0)
+    PetscCall(SceneKeysComplain(keys,
+      "the key \"%s_yield\" is missing; a table of %s_plastic_strains and %s_yield_stresses may take its place", owner,
+      owner, owner));
+  if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysComplainOf(keys, owner, key, why));
+  PetscFunctionReturn(0);
+}
+
 /* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
@@ -46,60 +90,64 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
   PetscFunctionBegin;
   PetscCall(MaterialGetLaw(material, &law));
   for (const MaterialConstant *c = law->constants; c->name; ++c) {
-    PetscReal *value = MaterialConstantAt(c, material);
+    PetscReal *value = (PetscReal *)((char *)material + c->at);
 
     PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", owner, c->name));
     PetscCall(SceneKeysGet(keys, (PetscBool)(c->required && !listed), &text, "%s", key));
     if (text && c->n == 1) PetscCall(SceneParseReal(keys, key, text, value));
+    else if (text && !c->n) PetscCall(SceneReadConstantList(keys, key, text, (MaterialList *)value));
     else if (text) PetscCall(SceneParseReals(keys, key, text, c->n, value));
-    if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, value))
+    if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, c->n, value))
       PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
   }
   PetscCall(SceneReadNoExpansion(keys, owner, material));
+  PetscCall(SceneCheckHardening(keys, owner, material));
   PetscCall(MaterialSetScale(material));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ConstantView(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+static PetscErrorCode ConstantView(const MaterialConstant *constant, PetscInt n, const PetscReal value[],
+  PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", constant->name));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
   if (constant->n == 1) PetscCall(SceneViewReal(viewer, *value));
-  else PetscCall(SceneViewList(viewer, constant->n, value));
+  else PetscCall(SceneViewList(viewer, n, value));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, const PetscReal value[], PetscViewer viewer)
+static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, PetscInt n, const PetscReal value[],
+  PetscViewer viewer)
 {
   const char *name = constant->symbol ? constant->symbol : constant->name;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
-  for (PetscInt k = 0; k < constant->n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
+  for (PetscInt k = 0; k < n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
   PetscFunctionReturn(0);
 }
 
-/* Those that are required or not 0 */
+/* Shows the constants that are required or not 0 */
 static PetscErrorCode ConstantsShow(const Material *material,
-  PetscErrorCode (*show)(const MaterialConstant *, const PetscReal[], PetscViewer), PetscViewer viewer)
+  PetscErrorCode (*show)(const MaterialConstant *, PetscInt, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
   const MaterialLaw *law;
-  Material           copy = *material;
 
   PetscFunctionBegin;
   PetscCall(MaterialGetLaw(material, &law));
   for (const MaterialConstant *c = law->constants; c->name; ++c) {
-    const PetscReal *value = MaterialConstantAt(c, &copy);
+    const PetscReal *value;
+    const PetscInt   n = MaterialConstantGet(c, material, &value);
 
-    if (MaterialConstantIsSet(c, value)) PetscCall(show(c, value, viewer));
+    if (MaterialConstantIsSet(c, n, value)) PetscCall(show(c, n, value, viewer));
   }
   PetscFunctionReturn(0);
 }
 
-/* A line each, as it is read */
+/* Prints the constants as YAML, one per line */
 PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -107,7 +155,7 @@ PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* In words, within a line */
+/* Describes the constants within a line */
 PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -139,19 +187,19 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-/* Within the bounds that its law gives it */
+/* Checks a constant against its law's bounds */
 static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
   const MaterialConstant *c)
 {
-  Material         copy  = body->material;
-  const PetscReal *value = MaterialConstantAt(c, &copy);
+  const PetscReal *value;
+  const PetscInt   n     = MaterialConstantGet(c, &body->material, &value);
   const char      *label = c->label ? c->label : c->name;
   char             lower[32], upper[32];
 
   PetscFunctionBegin;
-  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's would print 0. */
+  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's formatting would print 0. */
   (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
-  for (PetscInt i = 0; i < c->n && c->lower < c->upper; ++i) {
+  for (PetscInt i = 0; i < n && c->lower < c->upper; ++i) {
     PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,
       "%s: body \"%s\" has %s %s = %g, which must be above %s", file, body->name, label, c->name, (double)value[i],
       lower);

@@ -1,8 +1,8 @@
-/* contact: what is said of a pair of faces beside single values */
+/* contact: keys of a contact pair that are not single values */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 
-/* true, false, or a length */
+/* Reads true, false, or a length */
 static PetscErrorCode InterferenceRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneContactPair *pair = entry;
@@ -38,7 +38,7 @@ static PetscErrorCode InterferenceView(Scene scene, PetscViewer viewer, const vo
 
 const SceneOwn SceneOwnInterference = {InterferenceRead, InterferenceIsShown, InterferenceView, 0};
 
-/* After friction and shear_limit, which are not for a face that sticks whatever the force */
+/* Reads `stick`; called after friction and shear_limit, which it excludes */
 static PetscErrorCode StickRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneContactPair *pair   = entry;
@@ -72,7 +72,7 @@ static PetscErrorCode StickView(Scene scene, PetscViewer viewer, const void *ent
 
 const SceneOwn SceneOwnStick = {StickRead, StickIsShown, StickView, 0};
 
-/* What follows a ramp is there; a limit of the shear alone is that of any force */
+/* Finishes a pair: its ramps must exist; a shear limit without a coefficient holds for any normal force */
 PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneContactPair *pair = entry;

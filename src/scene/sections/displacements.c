@@ -1,9 +1,9 @@
-/* displacements: of faces, of vertices at points and along edges, and of rigid bodies, which alone turn freely */
+/* displacements: of faces, of vertices at points and along edges, and of rigid bodies, which can also rotate freely */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Three of a kind, each a number or the word free */
+/* Reads three values, each a number or the word `free` */
 static PetscErrorCode ReadThree(SceneKeys keys, const char key[], const char text[], PetscReal value[3],
   PetscBool free[3])
 {
@@ -128,7 +128,8 @@ PetscBool SceneIsWholeBody(const char face[])
   return (PetscBool)(length > end && !strcmp(face + length - end, SCENE_WHOLE_BODY));
 }
 
-/* In place of a face all of the rigid body that is named, if one is; why: what is done on an elastic one */
+/* If a rigid body is named, sets the face's name to the whole body; why: reason for the error message if the body is
+   elastic */
 PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[], const char why[], PetscInt body,
   char **face)
 {
@@ -148,7 +149,7 @@ PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionReturn(0);
 }
 
-/* point, or from and to, of an elastic body: a name of its own stands for a face */
+/* Reads point, or from and to, on an elastic body; a generated name replaces that of a face */
 static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const char owner[], PetscBool point,
   SceneDisplacement *d)
 {
@@ -181,8 +182,8 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
   PetscFunctionReturn(0);
 }
 
-/* Which motions of a rigid body are free. A component is prescribed of all of its nodes where neither it nor a
-   rotation that changes it is free */
+/* Finds which motions of a rigid body are free. A component is prescribed at all of its nodes only if neither it nor
+   a rotation that changes it is free */
 static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* The faces that bodies have, and faces: a list of named ones that are cut out of them */
+/* Faces of bodies; and the list `faces` of parts that are cut out of them */
 #include "sectionsimpl.h"
 #include <mesh.h>
 #include <petscviewer.h>
@@ -39,7 +39,7 @@ const Material *SceneFaceMaterial(Scene scene, const char face[])
   return &scene->bodies[SceneFindBody(scene, face, &name)].material;
 }
 
-/* A bound, a number or infinite as people or YAML write it */
+/* Reads a bound: a number, or infinity in any common spelling */
 static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const char word[], PetscReal *bound)
 {
   static const char *const names[] = {"inf", ".inf", "-inf", "-.inf"};
@@ -58,7 +58,7 @@ static PetscErrorCode SceneReadBound(SceneKeys keys, const char key[], const cha
   PetscFunctionReturn(0);
 }
 
-/* Three bounds, of a corner at so many bytes of an entry */
+/* Reads three bounds of a corner */
 static PetscErrorCode BoundsRead(SceneKeys keys, const char key[], const char text[], PetscReal bounds[3])
 {
   char   **words;
@@ -71,13 +71,13 @@ static PetscErrorCode BoundsRead(SceneKeys keys, const char key[], const char te
   PetscFunctionReturn(0);
 }
 
-/* As BoundsRead() sets it: PETSC_INFINITY is a finite number in some releases */
+/* Whether a bound is infinite, as set by BoundsRead(): PETSC_INFINITY is a finite number in some releases */
 static PetscBool SceneBoundIsInfinite(PetscReal bound)
 {
   return PetscAbsReal(bound) >= PETSC_INFINITY ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* A bound that is infinite all over is not shown */
+/* A corner with three infinite bounds is not printed */
 static PetscBool BoundsAreShown(const PetscReal b[3])
 {
   return (PetscBool) !(SceneBoundIsInfinite(b[0]) && SceneBoundIsInfinite(b[1]) && SceneBoundIsInfinite(b[2]));
@@ -140,7 +140,7 @@ static PetscErrorCode UpperView(Scene scene, PetscViewer viewer, const void *ent
 const SceneOwn SceneOwnLower = {LowerRead, LowerIsShown, LowerView, 0};
 const SceneOwn SceneOwnUpper = {UpperRead, UpperIsShown, UpperView, 0};
 
-/* Each becomes one of its body's */
+/* Reads the list and adds each entry to its body */
 PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list)
 {
   PetscInt      n     = 0;
@@ -173,7 +173,7 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list
   PetscFunctionReturn(0);
 }
 
-/* With the names of their bodies */
+/* Prints the list with the names of the bodies */
 PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *list)
 {
   SceneSubface *faces;
@@ -197,7 +197,7 @@ PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *
   PetscFunctionReturn(0);
 }
 
-/* what and owner name the thing that refers to the face, as in: displacement "bottom" */
+/* Checks that a face exists; what and owner describe what refers to it, as in: displacement "bottom" */
 PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[],
   const char name[])
 {

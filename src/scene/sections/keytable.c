@@ -1,6 +1,6 @@
 /*
-   The table of keys: all that a scene file may say, list by list. Reading, the check of single values, showing,
-   freeing, -scene_keys and the tables of share/scenes/README.md follow it. What values must be to one another stands
+   The table of keys: everything that a scene file may contain, list by list. Reading, checks of single values,
+   printing, freeing, -scene_keys and the tables in share/scenes/README.md use it. Conditions between values are checked
    in the other files here, and in validate.c.
 */
 #include "sectionsimpl.h"
@@ -58,6 +58,7 @@ static const SceneKey top_rows[] = {
   SECTION("probes", "none", "list of points and lines at which results are wanted"),
   SECTION("load", "one step", "the load program, see [load program](#load-program)"),
   SECTION("ramps", "none", "list of further load programs"),
+  SECTION("dynamics", "none: a static analysis", "inertia and time steps, see [dynamics](#dynamics)"),
   INTS("refine", NULL, 1, struct _n_Scene, refine, SHOWN, "0", "uniform refinements of level 0"),
   NAMED("model", NULL, CHOICE, struct _n_Scene, model, SHOWN, StepModels, "`energy`",
     "what a load step minimizes. `energy`: the true energy, in equilibrium on exit. `quadratic`: its quadratic model "
@@ -75,13 +76,17 @@ static const SceneKey body_rows[] = {
     "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
-    "strain), `mooney_rivlin`, `orthotropic` (small strain), `rigid`; or a material by name. Its constants follow "
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or a material "
+    "by name. Its constants follow "
     "below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
     "(modes for bending)"),
   INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 of hexahedra, 2 of tetrahedra",
     "of the displacements in a cell, 1 or 2; 2: hexahedra of 27 and tetrahedra of 10 nodes, curved as the surface is"),
+  REALS("initial_velocity", NULL, 3, SceneBody, velocity, OPTIONAL, ANY, "L/T", "0", "in `dynamics`: at time 0"),
+  REALS("initial_spin", NULL, 3, SceneBody, spin, OPTIONAL, ANY, "1/T", "0",
+    "in `dynamics`: angular velocity at time 0 about the centre of mass [radians/T], added to `initial_velocity`"),
   {NULL}};
 
 static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMaterial, material.type, OPTIONAL,
@@ -224,6 +229,23 @@ static const SceneKey ramp_rows[] = {
   SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done"),
   SECTION("times", "", "ascending times of a table: load step k ends at time k"),
   SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
+
+static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynamics, time_step, REQUIRED, ANY, "T", "",
+                                           "above 0; it is made smaller where `end_time` is not a multiple of it"),
+  REALS("end_time", NULL, 1, SceneDynamics, end_time, REQUIRED, ANY, "T", "", "at least `time_step`"),
+  NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
+    "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
+    "high frequencies by choice"),
+  REALS("spectral_radius", NULL, 1, SceneDynamics, spectral_radius, SHOWN, ANY, "", "0.8",
+    "of `generalized_alpha`, from 0 to 1: what is left of the highest frequencies after a time step; 1: nothing is "
+    "lost"),
+  NAMED("mass", NULL, CHOICE, SceneDynamics, mass, SHOWN, MassTypes, "`redistributed`",
+    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces, which the other nodes of their "
+    "cells have; `lumped`; `consistent`"),
+  REALS("damping_mass", NULL, 1, SceneDynamics, damping_mass, OPTIONAL, ANY, "1/T", "0",
+    "Rayleigh damping: forces of this times mass times velocity"),
+  {NULL}};
+
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
@@ -235,12 +257,13 @@ static const SceneContactPair  contact_initial      = {.interference_ramp = PETS
         .smooth                                                           = PETSC_TRUE};
 static const SceneRefinement   refinement_initial   = {.body = PETSC_DECIDE, .levels = 1};
 static const SceneProbe        probe_initial        = {.body = PETSC_DECIDE, .n = 1};
+static const SceneDynamics     dynamics_initial     = {.scheme = SCHEME_IMPACT, .spectral_radius = 0.8};
 static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY, PETSC_NINFINITY, PETSC_NINFINITY},
                .upper                                         = {PETSC_INFINITY, PETSC_INFINITY, PETSC_INFINITY}};
 
 #define OF_SCENE(n, list) .count = offsetof(struct _n_Scene, n), .entries = offsetof(struct _n_Scene, list)
 
-/* As they are shown. Lists that others hold the entries of come after them */
+/* In the order of printing. Lists whose entries are shared come after the owners */
 const SceneList SceneLists[] = {
   {.name = "", .rows = top_rows},
   {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE,
@@ -270,10 +293,11 @@ const SceneList SceneLists[] = {
   {"materials", material_rows, sizeof(SceneMaterial), .finish = SceneFinishMaterial},
   {.name = "load", .rows = load_rows},
   {.name = "ramps", .rows = ramp_rows},
+  {.name = "dynamics", .rows = dynamics_rows, .initial = &dynamics_initial},
   {.name = NULL},
 };
 
-/* By its name; NULL: there is none */
+/* Finds a list by its name; NULL: none */
 const SceneList *SceneFindList(const char name[])
 {
   const SceneList *list = SceneLists;

@@ -1,9 +1,9 @@
-/* Materials by name: of the scene's own list, and of a library, a file with such a list and the units that its
-   numbers are in */
+/* Named materials: from the scene's own list, and from a library, which is a file with such a list and the units of
+   its numbers */
 #include "sectionsimpl.h"
 #include <options.h>
 
-/* No entry has the name of a law, or of another */
+/* Finishes a material: its name must not be that of a law or of another material */
 PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneMaterial *material = entry;
@@ -13,7 +13,7 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   (void)scene;
   if (material->material.type == MATERIAL_RIGID) {
     PetscCall(SceneKeysComplain(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
-    material->material.type = MATERIAL_LINEAR; /* its constants are not the fault */
+    material->material.type = MATERIAL_LINEAR; /* avoids a second error about its constants */
   }
   PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
   for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
@@ -23,7 +23,7 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   PetscFunctionReturn(0);
 }
 
-/* Appends those of a file, a library or the scene itself, to the scene's */
+/* Appends the materials of a file (a library, or the scene itself) to the scene's */
 static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, PetscBool library, SceneKeys scene)
 {
   SceneList      list  = *rows;
@@ -44,7 +44,7 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, P
   PetscFunctionReturn(0);
 }
 
-/* Its units are those of the scene, unless that says its own: they must be the same words then */
+/* Reads a library. The scene takes its units, or, if the scene states units, they must be the same text */
 static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows, const char name[], Scene scene)
 {
   SceneKeys   library;
@@ -73,7 +73,7 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscFunctionReturn(0);
 }
 
-/* Before the bodies */
+/* Reads all materials; must come before the bodies */
 PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *rows)
 {
   const char *text;
@@ -85,7 +85,8 @@ PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *
   PetscFunctionReturn(0);
 }
 
-/* A name that is neither a law nor a material: an error with the nearest name of both, and where materials come from */
+/* Error for a name that is neither a law nor a material: suggests the nearest name and says where materials may come
+   from */
 static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;
@@ -114,7 +115,7 @@ static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const 
   PetscFunctionReturn(0);
 }
 
-/* The material of a body by the name of a law, which leaves constants as they are, or of a material */
+/* Sets the material of a body by the name of a law (constants unchanged) or of a material */
 PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char name[], PetscBool *listed,
   Material *material)
 {

@@ -1,7 +1,7 @@
-/* What must hold of rigid motions: those of one face or body add up, and every rigid body has one */
+/* Checks of rigid motions: those of one face or body add up, and every rigid body has one */
 #include "sectionsimpl.h"
 
-/* Two displacements of one face or body: both rigid motions, about one center */
+/* Checks two displacements of the same face or body: both must be rigid motions about the same center */
 PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const SceneDisplacement *a,
   const SceneDisplacement *b)
 {
@@ -25,7 +25,7 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
   PetscFunctionReturn(0);
 }
 
-/* Every rigid body is moved as a whole, and nothing else prescribes its displacements */
+/* Checks that every rigid body is moved as a whole, and that nothing else prescribes its displacements */
 PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt nrigid = 0;

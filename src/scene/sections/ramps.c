@@ -1,7 +1,7 @@
-/* load and ramps: the program of the load itself and of what follows a program of its own */
+/* load and ramps: histories of the load, and of quantities with a ramp of their own */
 #include "sectionsimpl.h"
 
-/* Equal parts of a rise from 0 to 1 */
+/* Sets a linear rise from 0 to 1 */
 static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
 {
   PetscFunctionBegin;
@@ -10,7 +10,7 @@ static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
   PetscFunctionReturn(0);
 }
 
-/* The load itself is ramp 0, and sets the number of steps */
+/* Reads the load, which is ramp 0 and sets the number of steps */
 static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp)
 {
   const char *steps, *factors;
@@ -22,7 +22,15 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
   if (steps && factors) PetscCall(SceneKeysComplain(keys, "load_steps and load_factors exclude each other"));
-  if (factors) {
+  if ((steps || factors) && SceneIsDynamic(scene))
+    PetscCall(SceneKeysComplain(keys, "%s and dynamics exclude each other: time_step and end_time set the load steps",
+      steps ? "load_steps" : "load_factors"));
+  if (SceneIsDynamic(scene)) {
+    PetscCall(PetscMalloc1(scene->nsteps, &ramp->factor));
+    for (PetscInt i = 0; i < scene->nsteps; ++i) ramp->factor[i] = 1.0;
+    ramp->start = 1.0;
+    PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
+  } else if (factors) {
     scene->nsteps = PETSC_DECIDE;
     PetscCall(SceneParseList(keys, "load_factors", factors, &scene->nsteps, &words));
     PetscCall(PetscStrToArrayDestroy((int)scene->nsteps, words));
@@ -37,18 +45,19 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
-    PetscCall(SceneReadProgram(keys, "load", scene->nsteps, ramp->factor, &program));
+    PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
   }
   if (scene->nsteps < 1)
     PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *ramp)
+static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp)
 {
-  char        key[SCENE_KEY_LENGTH], owner[SCENE_KEY_LENGTH];
-  const char *text;
-  PetscBool   reserved, program;
+  const PetscInt nsteps = scene->nsteps;
+  char           key[SCENE_KEY_LENGTH], owner[SCENE_KEY_LENGTH];
+  const char    *text;
+  PetscBool      reserved, program;
 
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
@@ -59,7 +68,7 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, PetscInt nsteps, SceneRamp *
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
   PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
-  PetscCall(SceneReadProgram(keys, owner, nsteps, ramp->factor, &program));
+  PetscCall(SceneReadProgram(keys, owner, scene, ramp, &program));
   if (!text && !program)
     PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values",
       ramp->name));
@@ -82,13 +91,13 @@ PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
   PetscCall(SceneReadLoad(keys, scene, &scene->ramps[0]));
   for (PetscInt r = 0; r < n; ++r) {
     scene->ramps[1 + r].name = names[r];
-    PetscCall(SceneReadRamp(keys, scene->nsteps, &scene->ramps[1 + r]));
+    PetscCall(SceneReadRamp(keys, scene, &scene->ramps[1 + r]));
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }
 
-/* The same programs in so many steps of equal time. Displacement bounds begin no earlier than they did */
+/* Resamples all ramps at nsteps equal time steps. Displacement bounds start no earlier than before */
 PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
 {
   const PetscReal stretch = (PetscReal)nsteps / (PetscReal)scene->nsteps;
@@ -106,6 +115,7 @@ PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
   }
   if (scene->displacement_bounds)
     scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
+  scene->dynamics.time_step /= stretch;
   scene->nsteps = nsteps;
   PetscFunctionReturn(0);
 }

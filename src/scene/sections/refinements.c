@@ -1,11 +1,11 @@
-/* refinements: places where cells are refined more often than elsewhere, near faces or in a box */
+/* refinements: zones where cells are refined more, near faces or in a box */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
 #define REFINEMENT_MAX_LEVELS 20
 
-/* A contact pair, both of whose faces are meant, or a face */
+/* Reads the name of a face, or of a contact pair, which stands for both of its faces */
 static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneRefinement *refinement = entry;
@@ -30,7 +30,7 @@ static PetscBool NearIsShown(const void *entry)
   return (PetscBool)(((const SceneRefinement *)entry)->face[0] != NULL);
 }
 
-/* A face, or the contact pair that has both */
+/* Prints a face, or the contact pair that has both */
 static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entry)
 {
   char *const *face = ((const SceneRefinement *)entry)->face;
@@ -47,7 +47,7 @@ static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entr
 
 const SceneOwn SceneOwnNear = {NearRead, NearIsShown, NearView, 2};
 
-/* Of one that is near a face the box */
+/* Whether a key is not printed: the box of a zone that is near a face */
 PetscBool SceneRefinementHides(const void *entry, const char key[])
 {
   return (PetscBool)(NearIsShown(entry) && (!strcmp(key, "lower") || !strcmp(key, "upper") || !strcmp(key, "body")));

@@ -1,34 +1,38 @@
 /*
-   The sections of a scene file: each reads, views and describes one.
+   The sections of a scene file. Each file reads, prints and describes one section.
 */
 #ifndef SECTIONSIMPL_H
 #define SECTIONSIMPL_H
 
 #include "src/scene/format/formatimpl.h"
 
-/* keytable.c: all lists, the top level first, ended by a name of NULL; one of them; the constants of materials */
-PETSC_INTERN const SceneList  SceneLists[]; /* the first one is the top level; ends with a name of NULL */
+/* keytable.c: all lists of keys, top level first; lookup of a list; constants of materials */
+PETSC_INTERN const SceneList  SceneLists[]; /* the first is the top level; the last has the name NULL */
 PETSC_INTERN const SceneList *SceneFindList(const char name[]);
 
-/* ramps.c: the load and the other ramps; all of them in another number of steps */
+/* ramps.c: the load and the other ramps; resampling */
 #define SCENE_LOAD_RAMP "load" /* ramp 0: the load itself */
 #define SCENE_MAX_STEPS 1000000
 PETSC_INTERN PetscErrorCode SceneReadRamps(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
-/* constants.c: those of a material's law, below <owner>_: read, viewed, in words within a line, and checked */
+/* dynamics.c: time steps, before the ramps; whether a body has what they need */
+PETSC_INTERN PetscErrorCode SceneReadDynamics(SceneKeys, Scene, const SceneList *);
+PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owner[], const SceneBody *);
+
+/* constants.c: constants of a material's law, with keys <owner>_...: reading, printing, description, checks */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
 PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], const SceneBody *);
 
-/* materials.c: materials by name; that of a body, and whether it is one of them rather than a law */
+/* materials.c: named materials; the material of a body, and whether it was given by such a name */
 PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneFinishMaterial(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const char name[], PetscBool *listed,
   Material *);
 
-/* shapes.c: shape, level 0 and mesh file of a body */
+/* shapes.c: shape, level 0 mesh and mesh file of a body */
 PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer);
@@ -38,17 +42,16 @@ PETSC_INTERN PetscErrorCode SceneFinishBody(SceneKeys, Scene, const char owner[]
 PETSC_INTERN PetscErrorCode SceneScaleRigid(Scene);
 PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer, const SceneList *);
 
-/* faces.c: the body of a name <body>.<face>, PETSC_DECIDE if there is none, and the face; the faces cut out of others
- */
+/* faces.c: body and face of a name <body>.<face> (PETSC_DECIDE: no such body); parts of faces */
 PETSC_INTERN const SceneOwn SceneOwnLower, SceneOwnUpper;
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
 PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer, const SceneList *);
-/* Collective; what and owner name the thing that refers to the face, as in: displacement "bottom" */
+/* Collective; what and owner describe what refers to the face, as in: displacement "bottom" */
 PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[],
   const char name[]);
 
-/* displacements.c: of faces, at points and along edges, and rigid motions */
+/* displacements.c: of faces, at points, along edges, and rigid motions */
 PETSC_INTERN const SceneOwn SceneOwnComponents, SceneOwnRotation;
 PETSC_INTERN PetscBool      SceneRotates(const SceneDisplacement *);
 PETSC_INTERN PetscBool      SceneTurnsFreely(const SceneDisplacement *);
@@ -65,7 +68,7 @@ PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], co
   const SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);
 
-/* symmetry.c: after bodies and displacements */
+/* symmetry.c: read after bodies and displacements */
 PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
 
 /* loads.c: forces and temperatures */
@@ -92,7 +95,7 @@ PETSC_INTERN PetscErrorCode SceneValidateRefinements(MPI_Comm, const char file[]
 PETSC_INTERN PetscBool      SceneProbeHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishProbe(SceneKeys, Scene, const char owner[], void *entry);
 
-/* solver.c: the scene's PETSc options, in the options database while it lives */
+/* solver.c: the scene's PETSc options, which are in the options database while the scene exists */
 PETSC_INTERN PetscErrorCode SceneReadSolver(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneSetOptions(Scene);
 PETSC_INTERN PetscErrorCode SceneDestroyOptions(Scene);

@@ -1,5 +1,4 @@
-/* The keys of every shape: how they are read and shown. A key with an underscore may be written nested, as outer:
-   {radius: 1} */
+/* Reading and printing of the keys of all shapes. A key with an underscore may be nested, as outer: {radius: 1} */
 #include "sectionsimpl.h"
 #include "src/mesh/shapes/shapesimpl.h"
 #include <petscviewer.h>
@@ -11,10 +10,11 @@ static const char *const Directions[] = {"x", "y", "z", "-x", "-y", "-z", "Direc
 static const ShapeKey gmsh_keys[] = {
   SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
   SHAPE_KEY("volume", KEY_TEXT, 1, gmsh.volume, PETSC_TRUE),
+  SHAPE_KEY("scale", KEY_REALS, 1, gmsh.scale, PETSC_FALSE),
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-/* Of a body's shape */
+/* Gets the keys of a body's shape */
 static PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
 {
   const Shape *shape;
@@ -45,7 +45,7 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
   PetscFunctionReturn(0);
 }
 
-/* The key mesh without a shape says gmsh */
+/* Reads the shape's name; the key mesh without a shape means gmsh */
 static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
@@ -63,7 +63,7 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
     PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &mesh, &set));
     if (set) shape = SHAPE_GMSH;
   }
-  if (shape < 0) { /* or none that there is: which keys are known hangs on it */
+  if (shape < 0) { /* unknown shape: reported first, as the valid keys depend on it */
     if (text) keys->decides = PETSC_TRUE;
     shape = SHAPE_BOX;
   }
@@ -88,7 +88,8 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   PetscCall(SceneGetShapeKeys(body, &shape_keys));
   for (const ShapeKey *k = shape_keys; k->name; ++k) {
     PetscCall(SceneReadShapeKey(keys, k, body));
-    /* Spheres are around the center of the body unless they have their own, which comes later in the table */
+    /* Spheres are centred at the corner of the body unless they have their own center, which comes later in the
+       table */
     if (k->offset == offsetof(SceneBody, octant.corner)) {
       for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
     }
@@ -102,7 +103,7 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* Optional keys that were not given are 0 all over, or the default below */
+/* Whether an optional key was not given: all zeros, or equal to the default below */
 static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *body)
 {
   const void *value = (const char *)body + key->offset;
@@ -148,7 +149,7 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* As rows of a table of Markdown */
+/* Prints the keys of all shapes as rows of a Markdown table */
 PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
 {
   static const char *const types[] = {[KEY_REALS] = "numbers",

@@ -1,6 +1,6 @@
-/* solver: PETSc options, as a mapping. They are set while the scene exists, unless the command line or an options file
-   has set them. All options are not known beforehand, so a misspelt one is found at the end, because nothing has used
-   it. */
+/* solver: PETSc options as a mapping. They are set while the scene exists, unless the command line or an options
+   file has set them. Not all PETSc options are known in advance, so a misspelt one is reported at the end of the
+   run, as unused. */
 #include "sectionsimpl.h"
 
 #define SOLVER_PREFIX "solver_"

@@ -1,9 +1,9 @@
-/* springs and weak_springs: what is said of them beside single values */
+/* springs and weak_springs: keys that are not single values */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* true, false, or how stiff; a body that is held by more than a hundredth of its own stiffness is not held weakly */
+/* Reads true, false, or the relative stiffness, which must be at most 0.01: stiffer springs would not be weak */
 static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   PetscReal *stiffness = &scene->weak_springs;

@@ -1,7 +1,7 @@
 /*
-   symmetry: a list of plane faces whose normal displacement is prescribed 0. The face alone is enough where a
-   built-in shape tells its normal (xmin, y0, lmax); any other is named, as cut: {face: bracket.cut, normal: y}, or
-   with a vector as its normal. Symmetry planes become prescribed displacements, after those of the scene.
+   symmetry: a list of plane faces with zero normal displacement. The name of the face is sufficient if a built-in shape
+   determines its normal (xmin, y0, lmax). For other faces: cut: {face: bracket.cut, normal: y}, or with a vector as
+   normal. Symmetry planes become prescribed displacements, after those of the scene.
 */
 #include "sectionsimpl.h"
 #include <string.h>
@@ -13,7 +13,7 @@ static PetscBool SymmetryIsOneOf(const char name[], const char a[], const char b
   return !strcmp(name, a) || !strcmp(name, b) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* xmin, xmax, x0, ymin, ... */
+/* Axis of a face named xmin, xmax, x0, ymin, ... */
 static PetscInt SymmetryAxisOfBox(const char face[])
 {
   if (face[0] < 'x' || face[0] > 'z') return PETSC_DECIDE;
@@ -38,7 +38,7 @@ static PetscInt SymmetryAxisOfHalfEllipse(const SceneHalfEllipse *ellipse, const
   return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
 }
 
-/* Faces of arcs at other angles: normal to the circle, 0 where it is none of them */
+/* Normal of the start and end faces of a tube arc at any angle; 0 if it is another face */
 static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal normal[3])
 {
   const char         *name = NULL;
@@ -53,7 +53,7 @@ static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal no
   normal[(tube->axis + 2) % 3] = PetscCosReal(angle);
 }
 
-/* Along an axis it is a component that is prescribed */
+/* Sets a normal along an axis as a prescribed component */
 static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *displacement)
 {
   const PetscReal length = PetscSqrtReal(PetscSqr(normal[0]) + PetscSqr(normal[1]) + PetscSqr(normal[2]));
@@ -68,7 +68,7 @@ static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *disp
   else displacement->inclined = PETSC_TRUE;
 }
 
-/* The axis a plane face of a built-in shape is normal to; PETSC_DECIDE where its name does not say it */
+/* Axis normal to a plane face of a built-in shape; PETSC_DECIDE if its name does not determine it */
 static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
 {
   const char      *name;
@@ -82,8 +82,8 @@ static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
   return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);
 }
 
-/* A face alone: the displacement is named after it. It prescribes nothing, an error of SceneValidate(), if the axis
-   is unknown */
+/* Reads an entry that is only a face; the displacement is named after it. If the axis is unknown nothing is
+   prescribed, and SceneValidate() raises an error */
 static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
 {
   const PetscInt axis = SymmetryAxisOfFace(scene, face);
@@ -130,7 +130,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   PetscFunctionReturn(0);
 }
 
-/* After bodies and displacements */
+/* Reads the list; call after bodies and displacements */
 PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
 {
   const char *text;

@@ -1,4 +1,4 @@
-/* ties: what must hold of pairs of faces that are joined */
+/* ties: checks of pairs of faces that are joined */
 #include "sectionsimpl.h"
 #include <string.h>
 

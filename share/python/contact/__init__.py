@@ -1,0 +1,1 @@
+"""Runs contact, reads its results and its meshes"""

@@ -1,0 +1,70 @@
+"""contact-mesh IN OUT turns a mesh into a Gmsh file; contact-mesh IN -check says what is in it."""
+import argparse
+import os
+import sys
+
+import numpy as np
+
+from . import formats
+from .model import FACETS, KINDS, MeshError
+from .quality import cell_volumes, facet_areas, scaled_jacobian
+
+
+def report(path, mesh, left):
+    size = mesh.points.max(axis=0) - mesh.points.min(axis=0)
+    yield f"{path}: {len(mesh.points):,} nodes, {sum(len(cells) for _, cells in mesh.blocks):,} cells, {' x '.join(f'{length:.6g}' for length in size)}"
+    yield f"{'volume':<32} {'cells':>9} {'kind':<14} {'volume':>13}  worst scaled Jacobian"
+    for name, rows in mesh.volumes.items():
+        tables = [(mesh.blocks[block][0], mesh.blocks[block][1][these]) for block, these in rows.items()]
+        volume = sum(cell_volumes(kind, cells, mesh.points).sum() for kind, cells in tables)
+        worst = min(scaled_jacobian(kind, cells, mesh.points).min() for kind, cells in tables)
+        kinds = ", ".join(sorted({kind for kind, _ in tables}))
+        yield f"{name:<32} {sum(len(cells) for _, cells in tables):>9,} {kinds:<14} {volume:>13.6g}  {worst:.3f}" + ("  inverted or flat cells" if worst <= 0 else "")
+    yield f"{'face':<32} {'facets':>9} {'kind':<14} {'area':>13}"
+    for name, tables in mesh.faces.items():
+        area = sum(facet_areas(facets, FACETS[kind], mesh.points).sum() for kind, facets in tables)
+        yield f"{name:<32} {sum(len(facets) for _, facets in tables):>9,} {', '.join(kind for kind, _ in tables):<14} {area:>13.6g}"
+    if left:
+        yield "sets of nodes that hold no whole facet, left out: " + ", ".join(left)
+
+
+def check(mesh):
+    """What keeps a scene from using the mesh"""
+    for name in mesh.volumes:
+        kinds = mesh.kinds_of(name)
+        if len({KINDS[kind].ncorners for kind in kinds}) > 1:
+            raise MeshError(f"the volume \"{name}\" has cells of the kinds {' and '.join(kinds)}; make two volumes of it and tie them")
+    if not np.isfinite(mesh.points).all():
+        raise MeshError("a coordinate is not a number")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__, epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
+    parser.add_argument("input")
+    parser.add_argument("output", nargs="?")
+    parser.add_argument("-scale", "--scale", type=float, default=1.0, help="factor of all coordinates: 1e-3 takes mm to m")
+    parser.add_argument("-check", "--check", action="store_true", help="prints volumes, faces, sizes and the quality of the cells")
+    parser.add_argument("-quiet", "--quiet", action="store_true", help="prints nothing where all is well")
+    given = parser.parse_args()
+    if given.output is None and not given.check:
+        parser.error("an output file, or -check")
+    if not np.isfinite(given.scale) or given.scale <= 0:
+        sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
+    if given.output and os.path.splitext(given.output)[1].lower() not in formats.WRITTEN:
+        sys.exit(f"contact-mesh: error: {given.output}: its ending is none of {', '.join(formats.WRITTEN)}")
+    try:
+        mesh, left = formats.read(given.input)
+        mesh.points = given.scale * mesh.points
+        check(mesh)
+        if given.output:
+            partial = given.output + ".part" + os.path.splitext(given.output)[1]
+            formats.write(partial, mesh)
+            os.replace(partial, given.output)
+    except (MeshError, OSError) as error:
+        text = str(error)
+        sys.exit("contact-mesh: error: " + (text if text.startswith(given.input) else f"{given.input}: {text}"))
+    if not given.quiet:
+        print("\n".join(report(given.input, mesh, left)))
+
+
+main()

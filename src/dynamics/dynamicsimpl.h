@@ -1,0 +1,53 @@
+/*
+   Inertia. In a time step the energy of the bodies has the term
+
+     c/2 (u - centre)^T M (u - centre) + rest^T u
+
+   whose gradient is the force that mass and damping take; every file builds on those before it.
+*/
+#ifndef DYNAMICSIMPL_H
+#define DYNAMICSIMPL_H
+
+#include "src/constraints/constraintsimpl.h"
+
+typedef struct {
+  Mat       mass;                   /* NULL: a static analysis */
+  Vec       velocity, acceleration; /* at the last state [length/time], [length/time^2] */
+  Vec       auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
+  Vec       inert;                  /* 1 in rows with mass that move freely, else 0 */
+  Vec       rest;    /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
+  PetscReal inertia; /* c of the time step under way [1/time^2] */
+  Vec       centre;  /* of this step [length] */
+  PetscReal kinetic; /* energy at time 0 [force length] */
+  PetscReal damped;  /* work that damping has taken up [force length] */
+} Dynamics;
+
+static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
+{
+  return (PetscBool)(scene->time_step > 0.0 && scene->scheme == SCHEME_IMPACT);
+}
+
+/* Contact forces are this part of the multipliers of a time step */
+static inline PetscReal SchemeShare(const SceneDynamics *scene)
+{
+  return SchemeIsImpact(scene) ? 0.5 : 1.0;
+}
+
+/* mass.c */
+PETSC_INTERN PetscErrorCode MassCreate(const Constraints *, Dynamics *);
+PETSC_INTERN PetscErrorCode MassGetCentres(const Constraints *, const Dynamics *, PetscReal centres[][3]);
+PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, Vec u, PetscReal *kinetic,
+  PetscReal momentum[3], PetscReal spin[3]);
+
+/* start.c */
+PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Dynamics *);
+PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
+PETSC_INTERN PetscErrorCode DynamicsDestroy(Dynamics *);
+
+/* scheme.c: of a step of this length in time from the displacement u */
+PETSC_INTERN PetscErrorCode SchemeBegin(const SceneDynamics *, PetscReal dt, Vec u, Dynamics *);
+PETSC_INTERN PetscErrorCode SchemePredict(const Dynamics *, PetscReal dt, Vec u, Vec predicted);
+PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
+
+#endif

@@ -1,0 +1,137 @@
+/* The mass of the bodies, and what moves with it. */
+#include "dynamicsimpl.h"
+#include <mesh.h>
+
+/* 1 at the nodes of elastic bodies on the faces of contact pairs */
+static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
+{
+  Scene scene = c->bodies.scene;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(light));
+  for (PetscInt k = 0; k < 2 * scene->npairs; ++k) {
+    const char     *face = k % 2 ? scene->pairs[k / 2].mortar : scene->pairs[k / 2].nonmortar;
+    const PetscInt *rows;
+    PetscInt        n;
+    IS              is;
+
+    if (SceneFaceMaterial(scene, face)->type == MATERIAL_RIGID) continue;
+    PetscCall(MeshGetFaceDofs(c->bodies.dm, face, 0, &is));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &rows));
+    for (PetscInt i = 0; i < n; ++i) PetscCall(VecSetValue(light, rows[i], 1.0, INSERT_VALUES));
+    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCall(VecAssemblyBegin(light));
+  PetscCall(VecAssemblyEnd(light));
+  PetscFunctionReturn(0);
+}
+
+/* Rows whose velocity follows from equations of motion */
+static PetscErrorCode MassMarkInert(const Constraints *c, Dynamics *d)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(c->bodies.mass, &d->inert));
+  PetscCall(MatGetDiagonal(d->mass, d->inert));
+  PetscCall(VecGetLocalSize(d->inert, &n));
+  PetscCall(VecGetArray(d->inert, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(a[i]) > 0.0 ? 1.0 : 0.0;
+  PetscCall(VecRestoreArray(d->inert, &a));
+  PetscCall(PrescribedSet(c->prescribed, 0.0, d->inert));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
+{
+  Scene          scene = c->bodies.scene;
+  const MassType type  = scene->dynamics.mass;
+  PetscReal     *density;
+  Vec            light = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &density));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) density[b] = scene->bodies[b].material.density;
+  if (type == MASS_REDISTRIBUTED && scene->npairs) {
+    PetscCall(VecDuplicate(c->bodies.mass, &light));
+    PetscCall(MassMarkLight(c, light));
+  }
+  PetscCall(ElasticitySetMass(c->bodies.elasticity, density, (PetscBool)(type == MASS_CONSISTENT), light));
+  PetscCall(ElasticityCreateMass(c->bodies.elasticity, &d->mass));
+  PetscCall(VecDestroy(&light));
+  PetscCall(PetscFree(density));
+  PetscCall(MassMarkInert(c, d));
+  PetscFunctionReturn(0);
+}
+
+/* Of each body, undeformed */
+PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal centres[][3])
+{
+  const PetscInt     nbodies = c->bodies.scene->nbodies;
+  const PetscScalar *m;
+  PetscReal         *sums;
+  PetscInt           n;
+  Vec                ones, product;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(6 * nbodies, &sums));
+  PetscCall(VecDuplicate(c->bodies.places.x, &ones));
+  PetscCall(VecDuplicate(ones, &product));
+  PetscCall(VecGetLocalSize(ones, &n));
+  for (int k = 0; k < 2; ++k) {
+    if (k) PetscCall(MatMult(d->mass, c->bodies.places.x, product));
+    else {
+      PetscCall(VecSet(ones, 1.0));
+      PetscCall(MatMult(d->mass, ones, product));
+    }
+    PetscCall(VecGetArrayRead(product, &m));
+    for (PetscInt i = 0; i < n; ++i) sums[6 * c->bodies.places.body[i / 3] + 3 * k + i % 3] += PetscRealPart(m[i]);
+    PetscCall(VecRestoreArrayRead(product, &m));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(6 * nbodies), MPIU_REAL, MPIU_SUM, c->bodies.comm));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) centres[i / 3][i % 3] = sums[6 * (i / 3) + 3 + i % 3] / sums[6 * (i / 3)];
+  PetscCall(VecDestroy(&product));
+  PetscCall(VecDestroy(&ones));
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/* Of all bodies displaced by u: energy v^T M v/2, momentum sum M v, and its moment about the origin */
+PetscErrorCode MassMeasure(const Constraints *c, const Dynamics *d, Vec u, PetscReal *kinetic, PetscReal momentum[3],
+  PetscReal spin[3])
+{
+  const PetscScalar *p, *x, *a;
+  PetscReal          sums[6] = {0};
+  PetscScalar        twice;
+  PetscInt           n;
+  Vec                product;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &product));
+  PetscCall(MatMult(d->mass, d->velocity, product));
+  PetscCall(VecDot(product, d->velocity, &twice));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(product, &p));
+  PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  for (PetscInt i = 0; i < n; i += 3) {
+    for (PetscInt k = 0; k < 3; ++k) {
+      const PetscInt next = i + (k + 1) % 3, last = i + (k + 2) % 3;
+
+      sums[k] += PetscRealPart(p[i + k]);
+      sums[3 + k] += PetscRealPart((x[next] + a[next]) * p[last] - (x[last] + a[last]) * p[next]);
+    }
+  }
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecRestoreArrayRead(u, &a));
+  PetscCall(VecRestoreArrayRead(product, &p));
+  PetscCall(VecDestroy(&product));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPIU_REAL, MPIU_SUM, c->bodies.comm));
+  *kinetic = 0.5 * PetscRealPart(twice);
+  PetscCall(PetscArraycpy(momentum, sums, 3));
+  PetscCall(PetscArraycpy(spin, sums + 3, 3));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,156 @@
+/*
+   Schemes of time integration. Generalized-alpha (Chung and Hulbert 1993; in the form of Arnold and Bruels 2007, in
+   which forces are in balance at the end of a time step): with accelerations w and auxiliary ones a,
+
+     M w' + dE/du(u') = f' + contact,   (1 - am) a' + am a = (1 - af) w' + af w,
+     u' = u + dt v + dt^2 ((1/2 - beta) a + beta a'),   v' = v + dt ((1 - gamma) a + gamma a').
+
+   So M w' = c M (u' - centre). Damping in proportion to mass adds to c and moves the centre.
+
+   Impact (Kane, Repetto, Ortiz and Marsden 1999): the trapezoidal rule of all forces but those of contact, which are
+   those at the end of the step. Their work is never positive where a gap is linear.
+
+     M (v' - v)/dt + (r + r')/2 = contact,   r = dE/du - f,   u' = u + dt (v + v')/2.
+
+   Twice this is the same as generalized-alpha with am = af = 0, beta = 1/4, gamma = 1/2, a = 0 and r beside it. Contact
+   forces are half the multipliers then.
+*/
+#include "dynamicsimpl.h"
+
+typedef struct {
+  PetscReal am, af, beta, gamma;
+} SchemeNumbers;
+
+static SchemeNumbers SchemeGetNumbers(const SceneDynamics *scene)
+{
+  const PetscReal r  = scene->spectral_radius;
+  const PetscReal am = (2.0 * r - 1.0) / (r + 1.0), af = r / (r + 1.0);
+
+  if (scene->scheme == SCHEME_IMPACT) return (SchemeNumbers){0.0, 0.0, 0.25, 0.5};
+  return (SchemeNumbers){am, af, 0.25 * PetscSqr(1.0 - am + af), 0.5 - am + af};
+}
+
+/* u + dt v + dt^2 weight a */
+static PetscErrorCode SchemeContinue(PetscReal dt, PetscReal weight, Vec u, Vec v, Vec a, Vec continued)
+{
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(continued, dt, v, u));
+  PetscCall(VecAXPY(continued, dt * dt * weight, a));
+  PetscFunctionReturn(0);
+}
+
+/* Where a step goes whose acceleration stays */
+PetscErrorCode SchemePredict(const Dynamics *d, PetscReal dt, Vec u, Vec predicted)
+{
+  PetscFunctionBegin;
+  PetscCall(SchemeContinue(dt, 0.5, u, d->velocity, d->acceleration, predicted));
+  PetscFunctionReturn(0);
+}
+
+/* Sets c and the centre */
+PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dynamics *d)
+{
+  const SchemeNumbers s      = SchemeGetNumbers(scene);
+  const PetscReal     back   = s.beta * dt * dt / (1.0 - s.am);
+  const PetscReal     inert  = (1.0 - s.am) / ((1.0 - s.af) * s.beta * dt * dt);
+  const PetscReal     damped = scene->damping_mass * s.gamma / (s.beta * dt), way = s.beta * dt / s.gamma;
+
+  PetscFunctionBegin;
+  d->inertia = inert + damped;
+  PetscCall(SchemeContinue(dt, 0.5 - s.beta, u, d->velocity, d->auxiliary, d->centre));
+  PetscCall(VecAXPY(d->centre, inert / d->inertia * back * s.af, d->acceleration));
+  PetscCall(VecAXPY(d->centre, -inert / d->inertia * back * s.am, d->auxiliary));
+  PetscCall(VecAXPY(d->centre, -damped / d->inertia * way, d->velocity));
+  PetscCall(VecAXPY(d->centre, -damped / d->inertia * way * dt * (1.0 - s.gamma), d->auxiliary));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the term of this step at u; force may be NULL */
+PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
+{
+  PetscScalar work = 0.0;
+
+  PetscFunctionBegin;
+  if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
+  if (!d->rest) PetscFunctionReturn(0);
+  PetscCall(VecDot(d->rest, u, &work));
+  *energy += PetscRealPart(work);
+  if (force) PetscCall(VecAXPY(force, 1.0, d->rest));
+  PetscFunctionReturn(0);
+}
+
+/* (to - from)/dt */
+static PetscErrorCode SchemeGetRate(PetscReal dt, Vec from, Vec to, Vec rate)
+{
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(rate, -1.0, from, to));
+  PetscCall(VecScale(rate, 1.0 / dt));
+  PetscFunctionReturn(0);
+}
+
+/* x, but a mean rate in rows without equation of motion */
+static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Vec to, Vec x)
+{
+  Vec rate;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(x, &rate));
+  PetscCall(SchemeGetRate(dt, from, to, rate));
+  PetscCall(VecAXPY(x, -1.0, rate));
+  PetscCall(VecPointwiseMult(x, x, d->inert));
+  PetscCall(VecAXPY(x, 1.0, rate));
+  PetscCall(VecDestroy(&rate));
+  PetscFunctionReturn(0);
+}
+
+/* Work that damping takes up on the way to u, by the trapezoidal rule; v: velocity there */
+static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, Vec u, Vec v, Dynamics *d)
+{
+  PetscScalar product;
+  Vec         way, force;
+
+  PetscFunctionBegin;
+  if (scene->damping_mass == 0.0) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(VecWAXPY(way, 1.0, d->velocity, v));
+  PetscCall(MatMult(d->mass, way, force));
+  PetscCall(VecWAXPY(way, -1.0, before, u));
+  PetscCall(VecDot(force, way, &product));
+  d->damped += 0.5 * scene->damping_mass * PetscRealPart(product);
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&way));
+  PetscFunctionReturn(0);
+}
+
+/* Velocity and accelerations at the end of a step that has led to u */
+PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec before, Vec u, Dynamics *d)
+{
+  const SchemeNumbers s = SchemeGetNumbers(scene);
+  Vec                 a, v;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &a));
+  PetscCall(VecDuplicate(u, &v));
+  PetscCall(SchemeContinue(dt, 0.5 - s.beta, before, d->velocity, d->auxiliary, a));
+  PetscCall(VecAYPX(a, -1.0, u));
+  PetscCall(VecScale(a, 1.0 / (s.beta * dt * dt)));
+  PetscCall(VecWAXPY(v, dt * (1.0 - s.gamma), d->auxiliary, d->velocity));
+  PetscCall(VecAXPY(v, dt * s.gamma, a));
+  PetscCall(SchemeFollow(d, dt, before, u, v));
+  PetscCall(SchemeFollow(d, dt, d->velocity, v, a));
+  if (d->rest) PetscCall(VecZeroEntries(a));
+  else {
+    PetscCall(VecScale(d->acceleration, -s.af / (1.0 - s.af)));
+    PetscCall(VecAXPY(d->acceleration, (1.0 - s.am) / (1.0 - s.af), a));
+    PetscCall(VecAXPY(d->acceleration, s.am / (1.0 - s.af), d->auxiliary));
+  }
+  if (d->rest) PetscCall(SchemeGetRate(dt, d->velocity, v, d->acceleration));
+  else PetscCall(SchemeFollow(d, dt, d->velocity, v, d->acceleration));
+  PetscCall(SchemeAddDamping(scene, before, u, v, d));
+  PetscCall(VecDestroy(&d->velocity));
+  PetscCall(VecDestroy(&d->auxiliary));
+  d->velocity  = v;
+  d->auxiliary = a;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,169 @@
+/* What a time step needs before the first one. */
+#include "dynamicsimpl.h"
+
+/* v + w x (X - centre of mass), as supports and ties allow */
+static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
+{
+  Scene              scene = c->bodies.scene;
+  const PetscScalar *x;
+  PetscScalar       *v;
+  PetscReal(*centres)[3];
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &centres));
+  PetscCall(MassGetCentres(c, d, centres));
+  PetscCall(VecGetLocalSize(d->velocity, &n));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecGetArrayWrite(d->velocity, &v));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt   b = c->bodies.places.body[i / 3], k = i % 3, next = (k + 1) % 3, last = (k + 2) % 3;
+    const PetscReal *w = scene->bodies[b].spin;
+
+    v[i] = scene->bodies[b].velocity[k] + w[next] * (x[i - k + last] - centres[b][last]) -
+           w[last] * (x[i - k + next] - centres[b][next]);
+  }
+  PetscCall(VecRestoreArrayWrite(d->velocity, &v));
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
+  PetscCall(PetscFree(centres));
+  PetscCall(PrescribedSet(c->prescribed, 0.0, d->velocity));
+  if (c->ties->C) {
+    PetscCall(VecCopy(d->velocity, c->ties->work));
+    PetscCall(MatMult(c->ties->C, c->ties->work, d->velocity));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The mass of free rows, with 1 in the diagonal of the others */
+static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat *A)
+{
+  Mat          all;
+  Vec          diagonal;
+  PetscScalar *m;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  if (c->ties->C) {
+    PetscCall(MatConvert(d->mass, MATAIJ, MAT_INITIAL_MATRIX, &all));
+    PetscCall(MatPtAP(all, c->ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, A));
+    PetscCall(MatDestroy(&all));
+    PetscCall(MatShift(*A, 0.0)); /* a place for every diagonal entry */
+  } else PetscCall(MatDuplicate(d->mass, MAT_COPY_VALUES, A));
+  PetscCall(MatZeroRowsColumns(*A, c->prescribed->n, c->prescribed->rows, 1.0, NULL, NULL));
+  PetscCall(MatCreateVecs(*A, &diagonal, NULL));
+  PetscCall(MatGetDiagonal(*A, diagonal));
+  PetscCall(VecGetLocalSize(diagonal, &n));
+  PetscCall(VecGetArray(diagonal, &m));
+  for (PetscInt i = 0; i < n; ++i) m[i] = PetscRealPart(m[i]) > 0.0 ? 0.0 : 1.0;
+  PetscCall(VecRestoreArray(diagonal, &m));
+  PetscCall(MatDiagonalSet(*A, diagonal, ADD_VALUES));
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(0);
+}
+
+/* M a = f - dE/du at time 0; no acceleration where there is no mass */
+static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *loads, Dynamics *d)
+{
+  PetscReal size;
+  Vec       zero, force, load;
+  KSP       ksp;
+  PC        pc;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(d->acceleration));
+  PetscCall(VecDuplicate(d->velocity, &zero));
+  PetscCall(VecDuplicate(d->velocity, &force));
+  PetscCall(VecZeroEntries(zero));
+  PetscCall(ElasticityForce(c->bodies.elasticity, zero, force));
+  PetscCall(VecScale(force, -1.0));
+  PetscCall(DeadLoadsGet(loads, 0.0, &load));
+  if (load) PetscCall(VecAXPY(force, 1.0, load));
+  PetscCall(VecDestroy(&load));
+  PetscCall(VecPointwiseMult(force, force, d->inert));
+  PetscCall(TiesGather(c->ties, force));
+  PetscCall(PrescribedSet(c->prescribed, 0.0, force));
+  PetscCall(VecNorm(force, NORM_2, &size));
+  if (size > 0.0) {
+    PetscCall(StartGetMass(c, d, &A));
+    PetscCall(KSPCreate(c->bodies.comm, &ksp));
+    PetscCall(KSPSetType(ksp, KSPCG));
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(PCSetType(pc, PCJACOBI));
+    PetscCall(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    PetscCall(KSPSetErrorIfNotConverged(ksp, PETSC_TRUE));
+    PetscCall(KSPSetOperators(ksp, A, A));
+    PetscCall(KSPSolve(ksp, force, d->acceleration));
+    if (c->ties->C) {
+      PetscCall(VecCopy(d->acceleration, c->ties->work));
+      PetscCall(MatMult(c->ties->C, c->ties->work, d->acceleration));
+    }
+    PetscCall(KSPDestroy(&ksp));
+    PetscCall(MatDestroy(&A));
+  }
+  PetscCall(VecCopy(d->acceleration, d->auxiliary));
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&zero));
+  PetscFunctionReturn(0);
+}
+
+/* Internal, damping and dead forces at u, which is the state, at a time in load steps */
+PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, PetscReal time, Vec u, Dynamics *d)
+{
+  const PetscReal damping = c->bodies.scene->dynamics.damping_mass;
+  Vec             add;
+
+  PetscFunctionBegin;
+  if (!d->rest) PetscFunctionReturn(0);
+  PetscCall(ElasticityForce(c->bodies.elasticity, u, d->rest));
+  PetscCall(DeadLoadsGet(loads, time, &add));
+  if (add) PetscCall(VecAXPY(d->rest, -1.0, add));
+  PetscCall(VecDestroy(&add));
+  PetscCall(VecDuplicate(u, &add));
+  PetscCall(MatMult(d->mass, d->velocity, add));
+  PetscCall(VecAXPY(d->rest, damping, add));
+  PetscCall(VecDestroy(&add));
+  PetscFunctionReturn(0);
+}
+
+/* After the ties, before the stiffness, which has the mass of the first time step then */
+PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dynamics *d)
+{
+  const SceneDynamics *scene = &c->bodies.scene->dynamics;
+  PetscReal            momentum[3], spin[3];
+  PetscBool            changed;
+  Vec                  u;
+
+  PetscFunctionBegin;
+  if (!SceneIsDynamic(c->bodies.scene)) PetscFunctionReturn(0);
+  PetscCall(MassCreate(c, d));
+  PetscCall(VecDuplicate(c->bodies.mass, &d->velocity));
+  PetscCall(VecDuplicate(c->bodies.mass, &d->acceleration));
+  PetscCall(VecDuplicate(c->bodies.mass, &d->auxiliary));
+  PetscCall(VecDuplicate(c->bodies.mass, &d->centre));
+  if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->rest));
+  PetscCall(StartVelocity(c, d));
+  PetscCall(StartAcceleration(c, loads, d));
+  if (d->rest) PetscCall(VecZeroEntries(d->auxiliary));
+  PetscCall(VecDuplicate(c->bodies.mass, &u));
+  PetscCall(VecZeroEntries(u));
+  PetscCall(MassMeasure(c, d, u, &d->kinetic, momentum, spin));
+  PetscCall(SchemeBegin(scene, scene->time_step, u, d));
+  PetscCall(ElasticitySetInertia(c->bodies.elasticity, d->inertia, 0.0, &changed));
+  PetscCall(DynamicsSetRest(c, loads, 0.0, u, d));
+  PetscCall(VecDestroy(&u));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode DynamicsDestroy(Dynamics *d)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&d->mass));
+  PetscCall(VecDestroy(&d->velocity));
+  PetscCall(VecDestroy(&d->acceleration));
+  PetscCall(VecDestroy(&d->auxiliary));
+  PetscCall(VecDestroy(&d->inert));
+  PetscCall(VecDestroy(&d->centre));
+  PetscCall(VecDestroy(&d->rest));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,230 @@
+/* Plastic strain at the quadrature points, kept from one state of equilibrium to the next */
+#include "elasticityimpl.h"
+
+PetscErrorCode ElasticitySetUpHistory(Elasticity e)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < e->nbodies; ++b) e->yields = (PetscBool)(e->yields || e->bodies[b].material.law->advance);
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(e->ncells, &e->firstpoint));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    const Body *body = &e->bodies[e->cellbody[c]];
+
+    e->firstpoint[c] = body->material.law->advance ? e->npoints : PETSC_DECIDE;
+    if (body->material.law->advance) e->npoints += body->basis->npoints;
+  }
+  PetscCall(PetscCalloc1(MATERIAL_HISTORY * e->npoints, &e->history));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityCommit - Makes the plastic strains at a displacement those from which the next step goes on
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement, global, 3 components a node; a state of equilibrium [length]
+
+  Level: developer
+
+  Notes:
+  Energy, force and stress at u stay the same. Without a law that has a history nothing is done.
+
+.seealso: `ElasticityEnergy()`, `ElasticityPlasticWork()`
+@*/
+PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+
+  PetscFunctionBegin;
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal      w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS];
+    CellState      cell;
+    MaterialModuli own;
+
+    if (e->firstpoint[c] < 0) continue;
+    ElasticityGetCell(e, c, x, ul, &cell);
+    cell.body->element->strains(cell.body->basis, cell.material, cell.X, cell.U, w, H);
+    for (PetscInt q = 0; q < cell.body->basis->npoints; ++q)
+      (void)cell.material->law->advance(CellModuli(&cell.material->moduli, q, &own), H[q],
+        e->history + MATERIAL_HISTORY * (e->firstpoint[c] + q));
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityHasYielded - Whether any point has a plastic strain
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameter:
+. yielded - the same on every rank
+
+  Level: developer
+
+.seealso: `ElasticityCommit()`
+@*/
+PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
+{
+  PetscFunctionBegin;
+  *yielded = PETSC_FALSE;
+  if (!e->yields) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < e->npoints && !*yielded; ++i)
+    *yielded = (PetscBool)(e->history[MATERIAL_HISTORY * (i + 1) - 1] > 0);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yielded, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
+  PetscFunctionReturn(0);
+}
+
+/* Gets a cell, and the volumes of its points; returns whether its law has a history */
+static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[], CellState *cell, PetscReal w[])
+{
+  PetscReal G[3][CELL_MAX_NODES];
+
+  if (e->firstpoint[c] < 0) return PETSC_FALSE;
+  ElasticityGetCell(e, c, x, x, cell);
+  for (PetscInt q = 0; q < cell->body->basis->npoints; ++q)
+    w[q] = CELL_CALL(CellGradients, cell->body->basis, q, cell->X, G);
+  return PETSC_TRUE;
+}
+
+/*@
+  ElasticityPlasticWork - Computes the plastic work up to the last state of equilibrium, a part of the energy
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameters:
++ work    - integral of the stress over the plastic strain, of all bodies [force length]
+- largest - equivalent plastic strain of each body, nbodies values; 0 without plasticity
+
+  Level: intermediate
+
+.seealso: `ElasticityCommit()`, `ElasticityEnergy()`
+@*/
+PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal largest[])
+{
+  Vec                local;
+  const PetscScalar *zero, *x;
+
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(PetscArrayzero(largest, e->nbodies));
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal w[CELL_MAX_POINTS];
+    CellState cell;
+
+    if (!HistoryGetCell(e, c, x, &cell, w)) continue;
+    for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) {
+      const PetscReal *history = cell.material->moduli.history + MATERIAL_HISTORY * q;
+
+      *work += w[q] * cell.material->law->work(&cell.material->moduli, history);
+      largest[e->cellbody[c]] = PetscMax(largest[e->cellbody[c]], history[MATERIAL_HISTORY - 1]);
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &zero, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)e->dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_MAX,
+    PetscObjectComm((PetscObject)e->dm)));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ElasticityCellPlastic - Gets the plastic strain of the cells at the last state of equilibrium
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameter:
+. strain - means over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
+           equivalent, MATERIAL_HISTORY values; free with `PetscFree()`. `NULL` on every rank if no law yields
+
+  Level: intermediate
+
+.seealso: `ElasticityCommit()`, `ElasticityPlasticWork()`
+@*/
+PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
+{
+  Vec                local;
+  const PetscScalar *zero, *x;
+
+  PetscFunctionBegin;
+  *strain = NULL;
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
+  PetscCall(PetscCalloc1(MATERIAL_HISTORY * e->ncells + 1, strain));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal w[CELL_MAX_POINTS], volume = 0;
+    CellState cell;
+
+    if (!HistoryGetCell(e, c, x, &cell, w)) continue;
+    for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) volume += w[q];
+    for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) {
+      for (int k = 0; k < MATERIAL_HISTORY; ++k)
+        (*strain)[MATERIAL_HISTORY * c + k] += w[q] / volume * cell.material->moduli.history[MATERIAL_HISTORY * q + k];
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &zero, &x));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  ElasticityGetHistory - Gets the points of laws with a history, for checkpoints
+
+  Collective
+
+  Input Parameter:
+. elasticity - the context
+
+  Output Parameters:
++ npoints - number of such points of this rank
+. places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`.
+            `NULL` on every rank if no law has a history
+- history - MATERIAL_HISTORY values a point, borrowed: they may be written
+
+  Level: developer
+
+.seealso: `ElasticityCommit()`
+@*/
+PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *places[], PetscReal *history[])
+{
+  Vec                local;
+  const PetscScalar *zero, *x;
+
+  PetscFunctionBegin;
+  *npoints = e->npoints;
+  *history = e->history;
+  *places  = NULL;
+  if (!e->yields) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(4 * e->npoints + 1, places));
+  PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal w[CELL_MAX_POINTS];
+    CellState cell;
+
+    if (!HistoryGetCell(e, c, x, &cell, w)) continue;
+    for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) {
+      PetscReal *place = *places + 4 * (e->firstpoint[c] + q);
+
+      place[3] = (PetscReal)e->cellbody[c];
+      for (int a = 0; a < cell.n; ++a) {
+        for (int d = 0; d < 3; ++d) place[d] += cell.body->basis->N[q][a] * cell.X[d][a];
+      }
+    }
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &zero, &x));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,25 @@
+/* Energies and momentum in dynamics. */
+#include "measureimpl.h"
+
+/*
+   With the velocity at u, after the work of the way to it. What the loads have done, and the kinetic energy at the
+   start, is kinetic or stored energy, work of the contacts or of damping, or is lost to the time integration
+*/
+PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  const Dynamics   *d           = &sim->dynamics;
+  MotionReport     *motion;
+
+  PetscFunctionBegin;
+  if (!report->motions) PetscCall(PetscCalloc1(1, &report->motions));
+  report->nmotions = 1;
+  motion           = report->motions;
+  motion->name     = "dynamics";
+  PetscCall(MassMeasure(&constraints, d, u, &motion->kinetic_energy, motion->momentum, motion->angular_momentum));
+  motion->total_energy          = motion->kinetic_energy + report->energy;
+  motion->damping_work          = d->damped;
+  motion->numerical_dissipation = d->kinetic + report->work - motion->total_energy - report->contact_work -
+                                  motion->damping_work - report->plastic_work;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,82 @@
+/* dynamics: time steps, and what they need of bodies */
+#include "sectionsimpl.h"
+
+/* A complaint with the line of its key, unless something else was complained of before */
+#define DynamicsRequire(condition, keys, key, ...) \
+  do { \
+    if (!(condition) && !(keys)->complaint[0]) { \
+      PetscCall(SceneKeysComplain(keys, __VA_ARGS__)); \
+      PetscCall(SceneKeysAddLine(keys, key)); \
+    } \
+  } while (0)
+
+/* Each value, and that the steps are not too many */
+static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
+{
+  PetscFunctionBegin;
+  DynamicsRequire(d->time_step > 0.0, keys, "dynamics_time_step", "dynamics_time_step is %g, which must be above 0",
+    (double)d->time_step);
+  DynamicsRequire(d->end_time >= d->time_step, keys, "dynamics_end_time",
+    "dynamics_end_time is %g, which must be at least dynamics_time_step, %g", (double)d->end_time,
+    (double)d->time_step);
+  DynamicsRequire(d->end_time <= (PetscReal)SCENE_MAX_STEPS * d->time_step, keys, "dynamics_time_step",
+    "dynamics_time_step is %g, which makes more than %d steps up to dynamics_end_time, %g", (double)d->time_step,
+    SCENE_MAX_STEPS, (double)d->end_time);
+  DynamicsRequire(d->spectral_radius >= 0.0 && d->spectral_radius <= 1.0, keys, "dynamics_spectral_radius",
+    "dynamics_spectral_radius is %g, which must lie between 0 and 1", (double)d->spectral_radius);
+  DynamicsRequire(d->damping_mass >= 0.0, keys, "dynamics_damping_mass",
+    "dynamics_damping_mass is %g, which must not be negative", (double)d->damping_mass);
+  PetscFunctionReturn(0);
+}
+
+/* Time steps of equal size, none larger than asked for */
+PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *list)
+{
+  SceneDynamics *d   = &scene->dynamics;
+  PetscBool      any = PETSC_FALSE, has;
+
+  PetscFunctionBegin;
+  for (const SceneKey *row = list->rows; row->name && !any; ++row) {
+    PetscCall(SceneHasKey(keys, list->name, row->name, &has));
+    any = has;
+  }
+  if (!any) PetscFunctionReturn(0);
+  *d = *(const SceneDynamics *)list->initial;
+  PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, PETSC_FALSE, d));
+  for (const SceneKey *row = list->rows; row->name && keys->complaint[0]; ++row) {
+    char *named;
+    char  key[SCENE_KEY_LENGTH];
+
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", list->name, row->name));
+    PetscCall(PetscStrstr(keys->complaint, key, &named));
+    if (named == keys->complaint) PetscCall(SceneKeysAddLine(keys, key));
+  }
+  PetscCall(DynamicsCheck(keys, d));
+  if (keys->complaint[0]) d->time_step = d->end_time = 1.0; /* nothing is simulated */
+  scene->nsteps = PetscMax(1, (PetscInt)PetscCeilReal(d->end_time / d->time_step * (1.0 - PETSC_SQRT_MACHINE_EPSILON)));
+  d->time_step  = d->end_time / (PetscReal)scene->nsteps;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const char owner[], const SceneBody *body)
+{
+  const PetscReal *v = body->velocity, *w = body->spin;
+  char             key[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_density", owner));
+  DynamicsRequire(body->material.density >= 0.0, keys, key, "body \"%s\" has density %g, which must be above 0",
+    body->name, (double)body->material.density);
+  if (SceneIsDynamic(scene)) {
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
+    DynamicsRequire(body->material.density > 0.0, keys, key,
+      "body \"%s\" has no density, which dynamics needs: the key \"%s_density\" is missing, or 0", body->name, owner);
+  } else {
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_initial_velocity", owner));
+    DynamicsRequire(!(v[0] || v[1] || v[2] || w[0] || w[1] || w[2]), keys, key,
+      "body \"%s\" has an initial velocity, and the scene has no dynamics: add dynamics: {time_step: ..., end_time: "
+      "...}",
+      body->name);
+  }
+  PetscFunctionReturn(0);
+}
