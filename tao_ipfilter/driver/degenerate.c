@@ -2,7 +2,7 @@
    meaningless there. */
 #include "driverimpl.h"
 
-/* Forces of the multipliers with the constraints' gradients of the starting point */
+/* Largest force of the present multipliers with the constraint gradients of the starting point */
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

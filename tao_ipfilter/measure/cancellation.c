@@ -31,7 +31,7 @@ static PetscErrorCode CancellationAddForces(Tao tao, IPSpace space, Mat J, Vec m
   PetscFunctionReturn(0);
 }
 
-/* Largest sum of the sizes of the constraints' forces at an unknown */
+/* Largest sum over the constraints of the magnitudes of their forces on one unknown */
 static PetscErrorCode CancellationForce(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -56,9 +56,9 @@ static PetscErrorCode CancellationForce(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Ratio of the sizes of the constraints' forces to the gradient that they balance together. If it is large, the forces
-   cancel one another: no bounded multipliers need exist, and errors measured by multipliers mean nothing. 0 without a
-   gradient. */
+/* times: ratio of the magnitudes of the constraints' forces to the gradient that they balance together. If it is
+   large, the forces cancel each other: bounded multipliers may not exist, and errors measured with multipliers are
+   meaningless. 0 without a gradient. */
 PetscErrorCode IPCancellation(Tao tao, PetscReal *times)
 {
   const PetscReal vanishing = 1e-3; /* of the first gradient */

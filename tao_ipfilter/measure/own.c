@@ -36,9 +36,9 @@ PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
   PetscFunctionReturn(0);
 }
 
-/* Largest violation over the terms of its row: those of the unknowns and the rest of c. Rows all of whose terms vanish
-   have no less than a trace of what the largest unknown would make there, and than what rounding left of the first
-   ones */
+/* own: largest violation relative to the terms of its row (those of the unknowns, and the constant). If all terms of
+   a row vanish, they are replaced by the fraction `trace` of what the largest unknown would contribute, at least
+   rounding of the first terms. */
 static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal trace, PetscReal first,
   PetscReal *own)
 {
@@ -67,8 +67,8 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscFunctionReturn(0);
 }
 
-/* Largest violation of all constraints, over their own terms. What was relaxed has its violation without that, too, over
-   no less than what the largest unknown would make: the rows that have no interior are those whose terms vanish. */
+/* own: largest violation of all (relaxed) constraints, relative to their own terms; and of what was relaxed, without the
+   relaxation, relative to no less than what the largest unknown would contribute: such rows have terms that vanish */
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;

@@ -3,10 +3,10 @@
 
 #define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
 #define IP_AMPLE \
-  30.0                   /* a gradient is small if it moves the unknowns by no more than this multiple of the
-                              tolerance */
+  30.0                   /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
+                            the tolerance */
 #define IP_STEEP   0.1   /* constraints that have become flatter than that started where they were steep */
-#define IP_RUNAWAY 100.0 /* largest ratio of an iterate's size to its first size */
+#define IP_RUNAWAY 100.0 /* limit of an iterate's size relative to its first size */
 
 /* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small */
 static PetscReal Within(PetscReal size, PetscReal limit)

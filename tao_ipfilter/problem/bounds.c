@@ -8,14 +8,14 @@ static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
   return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
 }
 
-/* x - b, or b - x, from a bound that is moved by relax, that rounding has not made zero or negative */
+/* x - b (sign 1) or b - x (sign -1) plus the bound's relaxation, kept positive if rounding made it zero or negative */
 static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign, PetscReal relax)
 {
   return PetscMax(sign * (x - b) + relax,
     PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
 }
 
-/* t = x - x_l (sign +1) or x_u - x (sign -1), PETSC_INFINITY where the bound is absent */
+/* t = x - x_l (sign +1) or x_u - x (sign -1); PETSC_INFINITY if the bound is absent */
 static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, PetscReal relax, Vec t)
 {
   const PetscScalar *xa, *ba, *oa = NULL;

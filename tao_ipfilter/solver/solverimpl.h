@@ -127,8 +127,8 @@ typedef struct {
   PetscReal reach;             /* expected change of the unknowns (reach.c); 0: unknown */
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
-  PetscReal energy;            /* of the terms that make up the objective */
-  PetscReal pressure; /* multiplier of all rows alike that balances the gradient where this is large; 0: not known */
+  PetscReal energy;            /* magnitude of the objective's terms */
+  PetscReal pressure;          /* equal multiplier of all rows that balances the gradient; 0: unknown */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */
@@ -308,14 +308,14 @@ typedef struct {
 
 /* relax.c: relaxation of constraints without an interior */
 typedef struct {
-  PetscReal by;          /* what c_I is raised by, */
-  PetscReal size;        /* the size of the constraints that it is a fraction of, */
-  PetscReal unknowns;    /* what bounds are moved by, */
-  PetscReal told;        /* the larger of both in the caller's units, */
-  PetscInt  times;       /* and how often that was */
-  PetscReal least_slack; /* that the last step left, */
-  PetscReal least_bound; /* and the least distance from a bound */
-  PetscInt  nvanished;   /* iterates in a row that have a slack of next to nothing */
+  PetscReal by;          /* amount that is added to c_I, */
+  PetscReal size;        /* size of the constraints, of which it is a fraction, */
+  PetscReal unknowns;    /* amount by which bounds are moved, */
+  PetscReal told;        /* larger of both in the caller's units, */
+  PetscInt  times;       /* and number of relaxations */
+  PetscReal least_slack; /* smallest slack after the last step, */
+  PetscReal least_bound; /* and smallest distance from a bound */
+  PetscInt  nvanished;   /* consecutive iterates with a vanishing slack */
 } IPRelaxation;
 
 /* Feasibility restoration */
@@ -437,20 +437,20 @@ typedef struct {
   PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
   PetscInt             nsystems, nfiltered; /* condensed matrices, and those preconditioned with the filter */
   TaoIPFilterFallbacks fallbacks;
-  PetscInt  nregularized, nretried; /* steps taken with a shifted Hessian, and systems solved to find the shift */
-  PetscReal delta_largest;          /* largest shift a step was taken with */
-  PetscInt  nrestored;              /* restorations */
-  PetscInt  nsaddles;               /* stationary points that were no minima */
-  PetscInt  ntiny;                  /* steps in a row that are as small as rounding */
-  PetscInt  nacceptable;            /* iterates in a row within the acceptable tolerance */
-  PetscInt  nstraight;              /* successive full steps with a shift along which the objective fell linearly, */
-  PetscReal last_f;                 /* and the objective before the next one */
-  PetscInt  napplications;          /* applications of the preconditioner in the filtered subspace method, */
-  PetscInt  nreduced, npivots;      /* its reduced problems, and the active sets that they took */
-  PetscInt  ndirections;            /* iterations that were a direction of the subspace method, not a Newton step */
-  PetscReal best_error;             /* KKT error of the best iterate, */
-  PetscReal best_violation;         /* and its violation */
-  char      reason[256];
+  PetscInt             nregularized, nretried; /* steps with a shifted Hessian; systems solved to find the shifts */
+  PetscReal            delta_largest;          /* largest shift in a step taken */
+  PetscInt             nrestored;              /* restorations */
+  PetscInt             nsaddles;               /* stationary points that were not minima */
+  PetscInt             ntiny;                  /* consecutive steps as small as rounding */
+  PetscInt             nacceptable;            /* consecutive acceptable iterates */
+  PetscInt             nstraight;     /* consecutive full steps with a shift along which the objective fell linearly, */
+  PetscReal            last_f;        /* objective before the next of these */
+  PetscInt             napplications; /* filtered subspace method: applications of the preconditioner, */
+  PetscInt             nreduced, npivots; /* reduced problems, and active sets tried in them */
+  PetscInt             ndirections;       /* iterations that added a direction, not Newton steps */
+  PetscReal            best_error;        /* KKT error of the best iterate, */
+  PetscReal            best_violation;    /* and its violation */
+  char                 reason[256];
 } IPRecord;
 
 /* The solver */

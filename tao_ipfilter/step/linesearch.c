@@ -339,7 +339,7 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
     PetscCall(VecScale(ip->dir.x, -1.0));
     PetscCall(SearchFollow(tao));
   }
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, ip->opt.tau_min, &alpha, NULL));
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &alpha, NULL));
   for (; alpha > least && !*left; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE;
@@ -377,7 +377,7 @@ PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
   PetscCall(IPMeritMeasure(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
   most = part * PetscMax(size, ip->first.x) / ip->dir.norm;
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, ip->opt.tau_min, &most, NULL));
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
   last  = ip->search.phi + ip->search.rounding;
   falls = (PetscBool)(most >= 1.0);
   for (PetscReal alpha = PetscMin(2.0, most); falls && !*left; alpha = PetscMin(far * alpha, most)) {

@@ -161,9 +161,9 @@ static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
   PetscFunctionReturn(0);
 }
 
-/* s and z from the constraints' values after the penalty step, centred, with mu a fraction of length x pressure
-   there. Constraints that all happen to be active there say nothing: pairs start with a gap that is worth something
-   beside the objective. */
+/* Predicted start: s and z from the constraints' values after the penalty step, moved to the central path; mu is a
+   fraction of length x pressure there. If all constraints happen to be active this gives nothing; pairs then start
+   with a gap that is noticeable relative to the objective. */
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -185,13 +185,12 @@ static PetscErrorCode StartPredicted(Tao tao)
     pressure = ip->first.pressure;
   }
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
-  ip->mu =
-    moved ? ip->opt.mu_start * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
+  ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
   PetscCall(BoundsErrorBound(tao, &worth));
-  if (ip->mu < ip->opt.mu_start * worth) {
-    ip->mu = ip->opt.mu_start * worth;
+  if (ip->mu < IP_PREDICT_MU * worth) {
+    ip->mu = IP_PREDICT_MU * worth;
     PetscCall(StiffenForBarrier(tao, length));
   }
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
@@ -328,7 +327,7 @@ static PetscErrorCode StartCurvature(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Fills slacks, multipliers and mu. The Hessian at x is needed for the stiffness of the constraints. */
+/* Sets initial slacks, multipliers and mu. Needs the Hessian at x for the stiffness of the constraints. */
 PetscErrorCode IPStartPoint(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
