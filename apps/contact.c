@@ -428,7 +428,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   PetscCall(AppCreateSimulation(app, scene, accuracy, marks, forecast, &sim));
   PetscCall(AppRestart(app, scene, sim, &first, &same));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
-  if (output && first) PetscCall(OutputContinue(output, first, same));
+  if (output && first) PetscCall(OutputContinue(output, first, SceneTimeStep(scene), same));
   if (app->contact_free) PetscCall(SimulationContactFree(sim));
   PetscCall(AppCreateWriter(app, scene, sim, &writer));
   PetscCall(AppSimulateSteps(app, scene, sim, first, output, writer, &converged));

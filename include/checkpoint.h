@@ -20,6 +20,7 @@ typedef struct _n_Checkpoint {
   PetscReal        largest_increment; /* of any displacement so far [length] */
   PetscReal        work;              /* work of the external forces [force length] */
   PetscReal        contact_work;      /* work taken up by contact pairs with friction [force length] */
+  PetscReal        damping_work;      /* in dynamics: work taken up by damping [force length] */
   PetscInt         nfields;
   CheckpointField *fields;
 } * Checkpoint;

@@ -43,8 +43,12 @@ PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, Petsc
 /* Collective. Largest penetration of vertices of either face of each pair at a displacement, and its accuracy
    [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
-/* Collective. Error if undeformed bodies overlap deeper than the contact search reaches; takes a contact update at
-   zero displacement */
+/* Collective. How deep vertices of a pair are that went through the other face from u0 to u1, and how deep contact is
+   searched for [length] */
+PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
+  PetscReal *reach);
+/* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
+   search reaches */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* For each node of a nonmortar face, the weights of the mortar face's nodes that it is tied to */

@@ -86,6 +86,8 @@ PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal
 PETSC_EXTERN PetscErrorCode ElasticityCommit(Elasticity, Vec u);
 PETSC_EXTERN PetscErrorCode ElasticityHasYielded(Elasticity, PetscBool *);
 PETSC_EXTERN PetscErrorCode ElasticityPlasticWork(Elasticity, PetscReal *work, PetscReal largest[]);
+PETSC_EXTERN PetscErrorCode ElasticityPlasticFlow(Elasticity, Vec u, PetscReal *stored, PetscReal *work,
+  PetscInt *body);
 PETSC_EXTERN PetscErrorCode ElasticityCellPlastic(Elasticity, PetscReal *strain[]);
 PETSC_EXTERN PetscErrorCode ElasticityGetHistory(Elasticity, PetscInt *npoints, PetscReal *places[],
   PetscReal *history[]);

@@ -44,7 +44,7 @@ def shares(time):
     amg = time["amg_setup"] + time["amg_apply"]
     if not amg:
         return {}
-    own = sum(time[phase] for phase in ("mesh", "assembly", "contact", "error_estimate", "other"))
+    own = time["total"] - amg - time["filter_setup"] - time["filter_apply"]
     return {"amg_share": amg / time["total"], "own_share": own / time["total"]}
 
 

@@ -13,9 +13,10 @@ import sys
 
 import numpy as np
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from run_files import Run, stop
-from screen import open_screen
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from contact.files import ContactError, Files
+from screen import open_screen, stop
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -460,8 +461,10 @@ def scene_of(args, run):
 
 def draw(words=None):
     args = arguments(words)
-    run = Run(args.base)
-    renderers, pixels = scene_of(args, run)
+    try:
+        renderers, pixels = scene_of(args, Files(args.base))
+    except ContactError as error:
+        stop(str(error))
     open_screen()
     write(renderers, pixels, args.picture)
 

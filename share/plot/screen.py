@@ -4,11 +4,15 @@ import os
 import random
 import shutil
 import subprocess
-
-from run_files import stop
+import sys
 
 TRIES = 20
 started = False
+
+
+def stop(text):
+    """Ends the program with one sentence"""
+    sys.exit(os.path.basename(sys.argv[0]) + ": " + text)
 
 
 def open_screen():

@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
@@ -49,6 +50,10 @@ def command(problem, mesh, way):
     return ["bin/contact", f"share/scenes/{scene}.yaml", "-refine", str(first + mesh - 1), *options]
 
 
+def kept(problem, mesh, way):
+    return os.path.exists(os.path.join(FOLDER, f"{problem}_{mesh}_{way}.run.json"))
+
+
 def run(problem, mesh, way, quick):
     """The summary of a run, with the weights' ratios, how it was cut short and its command; kept on disk"""
     base = os.path.join(FOLDER, f"{problem}_{mesh}_{way}")
@@ -85,7 +90,7 @@ def row(problem, mesh, record):
     bound = record.get("contact_free", {}).get("bound")
     return {
         "n": record.get("dofs"),
-        "n_c_max": max((step["filter_dofs"] for step in done), default=None),
+        "n_c_max": max((step["filter_dofs"] for step in record["steps"]), default=None),
         "m_max": max((step["constraints"] for step in done), default=None),
         "ip_iterations_avg": mean(step["ip_iterations"] for step in done),
         "amgf_pcg_iterations_avg": mean(systems),
@@ -222,11 +227,16 @@ def commit():
 
 def cut_runs(records):
     for (problem, mesh, way), record in records.items():
-        if record["cut"] or not steps(record):
-            yield f"- {TITLES[problem]}, mesh {mesh}, {way}: {len(steps(record))} load steps done when the limit of {record['limit']} s ended it" if record["cut"] else f"- {TITLES[problem]}, mesh {mesh}, {way}: {record['words']}"
+        what = f"- {TITLES[problem]}, mesh {mesh}, {way}: "
+        if record["cut"]:
+            yield what + f"{len(steps(record))} load steps done when the limit of {record['limit']} s ended it"
+        elif record["code"] == 5:
+            yield what + f"{len(steps(record))} load steps done when it was ended by hand"
+        elif not steps(record):
+            yield what + record["words"]
 
 
-def page(cases, records, omitted):
+def page(cases, records, omitted, clock):
     reference = published()
     with open(EXPLANATIONS) as file:
         explanations = json.load(file)
@@ -234,7 +244,7 @@ def page(cases, records, omitted):
     yield "# The published results, reproduced\n"
     yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows ours / theirs. A star marks a deviation above 10 %."
     yield "`make published` makes this page, `make published-quick` that of mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". Commit {commit()}, {datetime.date.today()}.\n"
+    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". Commit {commit()}, {datetime.date.today()}. Times: {clock}.\n"
     yield "## Iterations and sizes\n"
     yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
     yield "The bound is that of the condition number, from the contact-free problem: PCG iterations of AMG on K times sqrt(2 (beta + 3) / beta).\n"
@@ -262,24 +272,34 @@ def page(cases, records, omitted):
     yield from omitted
 
 
+def wrapped(text):
+    """Paragraphs of at most 100 columns; tables and commands as they are"""
+    free = text.lstrip("\n")[:1] not in ("|", " ", "#", "!", "")
+    return "\n".join(textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False) for line in text.split("\n")) if free else text
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="mesh 1 alone, ten minutes")
     parser.add_argument("--meshes", type=int, default=3, help="meshes of every problem")
     parser.add_argument("--only", default="", help="problems whose name has this")
+    parser.add_argument("--clock", default="elapsed seconds", help="what the page says of the times")
+    parser.add_argument("--kept", action="store_true", help="makes the page of the runs that are there, and starts none")
     parsed = parser.parse_args()
     os.makedirs(FOLDER, exist_ok=True)
     meshes = range(1, 2 if parsed.quick else parsed.meshes + 1)
     cases = [(problem, mesh) for problem in PROBLEMS if parsed.only in problem for mesh in meshes]
+    if parsed.kept:
+        cases = [(problem, mesh) for problem, mesh in cases if kept(problem, mesh, "AMGF")]
     records = {}
     for problem, mesh in cases:
         for way in WAYS:
-            if way != "AMG" or mesh == 1:
+            if (way != "AMG" or mesh == 1) and (not parsed.kept or kept(problem, mesh, way)):
                 records[problem, mesh, way] = run(problem, mesh, way, parsed.quick)
     curves(cases, records)
-    omitted = [f"- Meshes above {max(meshes)}: beyond the time of this run.", "- AMG alone on meshes above 1: 5,000 iterations a system take hours."]
+    omitted = ["- Other meshes: beyond the time of this run.", "- AMG alone on meshes above 1: 5,000 iterations a system take hours."]
     with open(os.path.join(FOLDER, "README.md"), "w") as file:
-        file.write("\n".join(page(cases, records, omitted)) + "\n")
+        file.write("\n".join(map(wrapped, page(cases, records, omitted, parsed.clock))) + "\n")
     print(os.path.join(FOLDER, "README.md"))
 
 

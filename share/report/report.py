@@ -137,22 +137,26 @@ def forces(step):
         yield table(heading, [[pair["name"], *(pair[key] for key in keys)] for pair in step["pairs"]])
     keys = ["name", "reaction", "moment"]
     yield table(["face", "reaction (x, y, z)", "moment"], [[face[key] for key in keys] for face in step["faces"]])
+    if step["rigid_bodies"]:
+        keys = ["name", "position", "rotation"]
+        yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"], [[body[key] for key in keys] for body in step["rigid_bodies"]])
     keys = ["name", "contact", "reaction", "load", "balance"]
-    heading = ["body", "contact", "reaction", "load", "residual / forces"]
+    heading = ["body", "contact", "reaction", "load", "residual of the forces over the sum of their sizes"]
     yield table(heading, [[body[key] for key in keys] for body in step["bodies"]])
 
 
 def accuracy(run, step):
     mesh = step["error_estimate"]
     rows = [["mesh (stress recovery)", None if mesh is None else mesh**2], ["solver", step["algebraic_error"]]]
-    yield table(["source", "estimated relative error in energy"], rows)
+    yield table(["source", "estimated error in energy over the energy"], rows)
     if mesh is not None:
-        yield table(["body", "part of the mesh's error, energy norm"], list(step["body_errors"].items()))
+        yield table(["body", "part of the mesh's error in the energy norm, over that of the displacement"], list(step["body_errors"].items()))
     if run.get("accuracy"):
         asked = run["accuracy"]
         yield f"<p>Requested: {text(asked['target'])}. {html.escape(str(asked['end']))}</p>\n"
         keys = [key for key in asked["levels"][0] if not isinstance(asked["levels"][0][key], (list, dict))]
         yield table(keys, [[level[key] for key in keys] for level in asked["levels"]])
+        yield "<p>Errors of the meshes are over the energy, or over a pair's force where that is larger.</p>\n"
 
 
 def steps(run):

@@ -139,6 +139,7 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
     {"largest_increment", checkpoint->largest_increment, 0},
     {"work", checkpoint->work, PETSC_NINFINITY},
     {"contact_work", checkpoint->contact_work, PETSC_NINFINITY},
+    {"damping_work", checkpoint->damping_work, PETSC_NINFINITY},
   };
 
   PetscFunctionBegin;

@@ -12,6 +12,7 @@ const CheckpointNumberField CheckpointNumbers[] = {
   {"largest_increment", offsetof(struct _n_Checkpoint, largest_increment)},
   {"work", offsetof(struct _n_Checkpoint, work)},
   {"contact_work", offsetof(struct _n_Checkpoint, contact_work)},
+  {"damping_work", offsetof(struct _n_Checkpoint, damping_work)},
   {NULL, 0},
 };
 
@@ -336,7 +337,13 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
-  if (rubs) PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
+  if (rubs || (r->scene->npairs && SceneIsDynamic(r->scene)))
+    PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
+  if (SceneIsDynamic(r->scene)) {
+    PetscCall(RestartReadField(r, "velocity", 3, PETSC_FALSE, checkpoint));
+    PetscCall(RestartReadField(r, "acceleration", 3, PETSC_FALSE, checkpoint));
+    PetscCall(RestartReadField(r, "auxiliary_acceleration", 3, PETSC_FALSE, checkpoint));
+  }
   for (PetscInt p = 0; p < r->scene->npairs; ++p) {
     for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
       char      name[128];

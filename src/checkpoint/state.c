@@ -42,6 +42,22 @@ static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[
   PetscFunctionReturn(0);
 }
 
+/* At path.u and path.time, which are set before. Temperatures of that time are part of the forces */
+static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  Dynamics         *d           = &sim->dynamics;
+
+  PetscFunctionBegin;
+  d->damped = checkpoint->damping_work;
+  PetscCall(CheckpointGetVec(checkpoint, "velocity", d->velocity));
+  PetscCall(CheckpointGetVec(checkpoint, "acceleration", d->acceleration));
+  PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
+  PetscCall(TemperaturesApply(&sim->temperatures, sim->path.time));
+  PetscCall(DynamicsSetRest(&constraints, &sim->loads, sim->path.time, sim->path.u, d));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
 {
   const PetscInt   nvertices                      = sim->history.nowned;
@@ -109,7 +125,14 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
-  if (sim->history.shear) PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
+  if (sim->history.shear || (sim->contact && SimulationIsDynamic(sim)))
+    PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
+  if (SimulationIsDynamic(sim)) {
+    (*checkpoint)->damping_work = sim->dynamics.damped;
+    PetscCall(CheckpointAddVec(*checkpoint, "velocity", n / 3, sim->dynamics.velocity));
+    PetscCall(CheckpointAddVec(*checkpoint, "acceleration", n / 3, sim->dynamics.acceleration));
+    PetscCall(CheckpointAddVec(*checkpoint, "auxiliary_acceleration", n / 3, sim->dynamics.auxiliary));
+  }
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
   PetscCall(CheckpointAddPlastic(sim->elasticity, *checkpoint));
   PetscFunctionReturn(0);
@@ -155,7 +178,9 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
-  if (sim->history.shear) PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
+  if (sim->history.shear || (sim->contact && SimulationIsDynamic(sim)))
+    PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
+  if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetPlastic(sim->comm, sim->elasticity, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));

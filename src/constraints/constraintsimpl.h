@@ -18,6 +18,22 @@ typedef struct {
 PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
 PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
 PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
+PETSC_INTERN void      MotionRotate(const PetscReal r[3], PetscReal turn[3][3]);
+
+/* poses.c: the rigid motion nearest to that of a body */
+typedef struct {
+  PetscReal from[3], to[3]; /* means of the places before and after [length] */
+  PetscReal Q[3][3];        /* rotation */
+} BodyPose;
+
+PETSC_INTERN void             PoseGetVector(const PetscReal Q[3][3], PetscReal r[3]);
+PETSC_INTERN const PetscReal *PoseFindCenter(Scene, PetscInt body);
+PETSC_INTERN void             PosePlace(const BodyPose *, const PetscReal x0[3], PetscReal x1[3]);
+PETSC_INTERN PetscErrorCode   PosesFind(const Bodies *, Vec u0, Vec u1, BodyPose poses[]);
+
+/* arcs.c */
+PETSC_INTERN PetscErrorCode ArcsGetExcess(const Bodies *, Vec u0, Vec u1, Vec excess, PetscBool *any);
+PETSC_INTERN PetscErrorCode ArcsGetWays(const Bodies *, Vec u0, Vec u1, Vec way[2]);
 
 /* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1,
    and their ramps */
@@ -41,23 +57,32 @@ PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, V
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
 
-/* rigid.c: a rigid body with free motions */
+/* Of rigid.c: a rigid body some of whose motions are free. Free rotations are finite. Its nodes are linearized about
+   a place and an angle, which is counted from the last state: x = place + exp(angle) last (X - center) */
 typedef struct {
-  PetscInt  leader;        /* number of its displacement in the scene */
-  PetscInt  n, motion[6];  /* free motions: translations along, and rotations about, the axes */
-  PetscInt  row[6];        /* global rows whose displacements carry the motions */
-  PetscReal inverse[6][6]; /* motions in terms of the displacements of these rows; rotations are angle x body size */
+  PetscInt  leader;        /* displacement of the scene */
+  PetscInt  body;          /* of the scene */
+  PetscBool turns;         /* free rotations are finite: no body of small strain is tied to it */
+  PetscReal place[3];      /* of the center [length] */
+  PetscReal angle[3];      /* rotation vector since the last state [rad] */
+  PetscReal last[3][3];    /* rotation up to there */
+  PetscReal axis[3][3];    /* what the rotation changes by when an angle about an axis does */
+  PetscInt  n, motion[6];  /* those that are free: along, and about, the axes */
+  PetscInt  row[6];        /* global rows whose displacements carry them */
+  PetscReal inverse[6][6]; /* motions by the displacements of these rows; angles times size */
   PetscReal size;          /* [length] */
 } RigidBody;
 
 typedef struct {
   PetscInt   n;
   RigidBody *bodies;
-  Mat        R;       /* displacements of dependent rows in terms of the carrying rows; NULL: no motion is free */
-  Vec        elastic; /* 0 in the rows of these bodies, 1 elsewhere */
-  Vec        given;   /* displacement of their rows by prescribed motions, except in rows that are prescribed themselves
+  PetscBool  turns;   /* any of them */
+  Vec        x;       /* places where the bodies are linearized, of elastic ones undeformed [length] */
+  Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
+  Vec        elastic; /* 0 in the rows of these bodies, else 1 */
+  Vec given; /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows
                 [length] */
-  Vec        held;    /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
+  Vec held;  /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
 } RigidBodies;
 
 /* ties.c: displacements of dependent rows in terms of the others; C NULL: no dependent rows */
@@ -87,10 +112,18 @@ PETSC_INTERN PetscErrorCode PlanesCreate(const Constraints *, const PetscBool pr
 
 /* rigid.c */
 PETSC_INTERN PetscErrorCode RigidCreate(const Constraints *, const PetscBool prescribed[], PetscBool follows[]);
+PETSC_INTERN PetscErrorCode RigidMakeRows(const Constraints *, const PetscBool prescribed[], PetscBool follows[],
+  PetscBool *anew);
+PETSC_INTERN void           RigidGetRotation(const RigidBody *, PetscReal Q[3][3]);
+PETSC_INTERN PetscErrorCode RigidTurn(const Constraints *, PetscReal time, Vec u_last, Vec u);
+PETSC_INTERN PetscErrorCode RigidStraighten(const Constraints *, Vec u, PetscReal *change);
 PETSC_INTERN PetscErrorCode RigidMove(const Constraints *, PetscReal time, Vec o);
 PETSC_INTERN PetscErrorCode RigidAddStiffness(const Constraints *, Mat C, Vec diagonal, Mat stiffness);
-PETSC_INTERN PetscErrorCode RigidTest(const Constraints *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidTest(const Constraints *, PetscBool finite, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
+
+/* rigid_loads.c */
+PETSC_INTERN PetscErrorCode RigidTurnLoads(const Constraints *, PetscReal sign, PetscReal time, Vec load);
 
 /* joints.c */
 PETSC_INTERN PetscErrorCode JointsExpand(const Constraints *, Mat all, const PetscInt tied[],
@@ -101,6 +134,8 @@ PETSC_INTERN PetscErrorCode JointsCreate(const Constraints *, const PetscBool pr
 /* ties.c */
 PETSC_INTERN PetscErrorCode TiesCreate(const Constraints *);
 PETSC_INTERN PetscErrorCode TiesMove(const Constraints *, PetscReal time);
+PETSC_INTERN PetscErrorCode TiesTurn(const Constraints *, PetscReal time, Vec u_last, Vec u, PetscBool *anew);
+PETSC_INTERN PetscErrorCode TiesStraighten(const Constraints *, Vec u, PetscReal *change);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(const Constraints *, Mat *);
 PETSC_INTERN PetscErrorCode TiesTangent(const Constraints *, Vec u, Mat);
 PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);

@@ -14,13 +14,12 @@ PetscInt MotionFindLeader(Scene scene, PetscInt d)
   return leader;
 }
 
-/* R - 1 by Rodrigues' formula with r = |rotation|, n = rotation / r: sin r [n] + (1 - cos r) [n]^2; accurate for
-   small angles */
-static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
+/* R - 1 by Rodrigues' formula of a rotation vector r = |r| n [rad]: sin r [n] + (1 - cos r) [n]^2, in which small
+   angles keep their digits */
+void MotionRotate(const PetscReal r[3], PetscReal turn[3][3])
 {
-  PetscReal r[3], angle = 0.0, sine, versine;
+  PetscReal angle = 0.0, sine, versine;
 
-  for (PetscInt i = 0; i < 3; ++i) r[i] = degrees[i] * PETSC_PI / 180.0;
   for (PetscInt i = 0; i < 3; ++i) angle += r[i] * r[i];
   angle   = PetscSqrtReal(angle);
   sine    = angle > 0.0 ? PetscSinReal(angle) / angle : 1.0;
@@ -37,7 +36,7 @@ static void MotionRotate(const PetscReal degrees[3], PetscReal turn[3][3])
 /* Computes the motion; factor: of each ramp */
 void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMotion *motion)
 {
-  PetscReal degrees[3] = {0.0, 0.0, 0.0};
+  PetscReal r[3] = {0.0, 0.0, 0.0};
 
   *motion = (RigidMotion){.t = {0.0, 0.0, 0.0}};
   for (PetscInt d = leader; d < scene->ndisplacements; ++d) {
@@ -46,12 +45,13 @@ void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMoti
     if (strcmp(entry->face, scene->displacements[leader].face)) continue;
     for (PetscInt i = 0; i < 3; ++i) {
       motion->t[i] += factor[entry->ramp] * entry->value[i];
-      degrees[i] += factor[entry->ramp] * entry->rotation[i];
+      r[i] += factor[entry->ramp] * entry->rotation[i];
       if (entry->rotation[0] != 0.0 || entry->rotation[1] != 0.0 || entry->rotation[2] != 0.0)
         motion->center[i] = entry->center[i];
     }
   }
-  MotionRotate(degrees, motion->turn);
+  for (PetscInt i = 0; i < 3; ++i) r[i] *= PETSC_PI / 180.0;
+  MotionRotate(r, motion->turn);
 }
 
 PetscReal MotionDisplace(const RigidMotion *motion, const PetscScalar x[3], PetscInt i)

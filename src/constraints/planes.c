@@ -2,6 +2,7 @@
    planes depend on the others, by Gauss-Jordan elimination. Those with the largest coefficients are chosen, and none
    that is prescribed. */
 #include "constraintsimpl.h"
+#include <vector3.h>
 
 typedef struct {
   PetscInt  n; /* number of planes through the node */
@@ -16,7 +17,7 @@ static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rst
     IS                       is;
     const PetscInt          *rows;
     const PetscReal         *m      = plane->normal;
-    const PetscReal          length = PetscSqrtReal(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    const PetscReal          length = VectorNorm(m);
     PetscInt                 n;
 
     if (!plane->inclined) continue;

@@ -1,11 +1,14 @@
 /*
-   Rigid bodies driven by forces. The displacements of all nodes depend on those of as many rows as there are free
-   motions: u = R x + o, where o comes from the prescribed motions. Free rotations are small, u = r x (X - center).
+   Rigid bodies driven by forces. If a motion is free, the displacements of all nodes follow those of as many rows as
+   there are free motions: u = R x + o, where o comes from the prescribed motions. Free rotations are finite: u = place
+   + exp(angle) last (X - center) - X, and R and o are linearized about one place and one angle. A body that one of
+   small strain is tied to has small rotations, as that one's law has: R and o are those of the undeformed body.
 */
 #include "constraintsimpl.h"
+#include <string.h>
 
-/* angle at which small rotations have a relative error of 6e-4 */
-static const PetscReal largest_angle = 2.0; /* [degrees] */
+/* Between two states. Where the gap is linearized once, so are rotations, with an error of 6e-4 of the arm then */
+static const PetscReal largest_angle = 45.0, largest_linearized = 2.0; /* [degrees] */
 
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
 {
@@ -15,16 +18,20 @@ static PetscBool RigidIsReleased(const SceneDisplacement *d)
   return released;
 }
 
-/* row: component c of the body's free motions at X; rotations are angle x body size */
-static void RigidGetRow(const SceneDisplacement *d, const RigidBody *body, const PetscScalar X[3], PetscInt c,
-  PetscReal row[6])
+/* Component c at the place x of the body's free motions; angles times the body's size */
+static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt c, PetscReal row[6])
 {
+  const PetscInt next = (c + 1) % 3, last = (c + 2) % 3;
+
   for (PetscInt k = 0; k < body->n; ++k) {
-    const PetscInt m = body->motion[k], next = (m + 1) % 3, last = (m + 2) % 3;
+    const PetscInt   m    = body->motion[k];
+    const PetscReal *axis = body->axis[m % 3];
 
     row[k] = m == c ? 1.0 : 0.0;
-    if (m >= 3 && c == next) row[k] = -(PetscRealPart(X[last]) - d->center[last]) / body->size;
-    if (m >= 3 && c == last) row[k] = (PetscRealPart(X[next]) - d->center[next]) / body->size;
+    if (m >= 3)
+      row[k] = (axis[next] * (PetscRealPart(x[last]) - body->place[last]) -
+                 axis[last] * (PetscRealPart(x[next]) - body->place[next])) /
+               body->size;
   }
 }
 
@@ -65,7 +72,7 @@ static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, co
   for (PetscInt i = 0; i < 3 * n; ++i) {
     PetscReal square = 0.0;
 
-    RigidGetRow(&c->bodies.scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, row);
+    RigidGetRow(body, &x[nodes[i / 3] - rstart], i % 3, row);
     PetscCall(PetscArraycpy(across, row, 6));
     for (PetscInt k = 0; k < 2 * found; ++k) {
       PetscReal dot = 0.0;
@@ -138,7 +145,7 @@ static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, 
     for (PetscInt k = 0; k < body->n; ++k) carries = (PetscBool)(carries || body->row[k] == row);
     if (carries) continue;
     follows[local] = PETSC_TRUE;
-    RigidGetRow(&c->bodies.scene->displacements[body->leader], body, &x[nodes[i / 3] - rstart], i % 3, motion);
+    RigidGetRow(body, &x[nodes[i / 3] - rstart], i % 3, motion);
     for (PetscInt k = 0; k < body->n; ++k) {
       PetscReal share = 0.0;
 
@@ -149,64 +156,104 @@ static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, const PetscBool prescribed[],
-  PetscBool mine[], PetscBool follows[], RigidBody *body)
+/* Whether a tie joins a body to one of a law of small strain */
+static PetscBool RigidIsTiedToSmallStrain(Scene scene, PetscInt body)
+{
+  PetscBool small = PETSC_FALSE;
+
+  for (PetscInt t = 0; t < scene->nties; ++t) {
+    const Material *mortar = SceneFaceMaterial(scene, scene->ties[t].mortar),
+                   *other = SceneFaceMaterial(scene, scene->ties[t].nonmortar), *own = &scene->bodies[body].material;
+
+    if (mortar != own && other != own) continue;
+    if (mortar == own) mortar = other;
+    small = (PetscBool)(small || (mortar->type != MATERIAL_RIGID && !MaterialIsFinite(mortar)));
+  }
+  return small;
+}
+
+/* Undeformed */
+static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, RigidBody *body)
 {
   const SceneDisplacement *d = &c->bodies.scene->displacements[leader];
   IS                       is;
   const PetscInt          *nodes;
   const PetscScalar       *x;
   PetscInt                 n, rstart;
-  PetscReal                unit[6][6], carriers[6][6];
 
   PetscFunctionBegin;
-  body->leader = leader;
-  body->n      = 0;
+  *body = (RigidBody){.leader = leader};
   for (PetscInt m = 0; m < 6; ++m) {
     if (d->released[m]) body->motion[body->n++] = m;
+    if (m >= 3) body->turns = (PetscBool)(body->turns || d->released[m]);
   }
+  for (PetscInt i = 0; i < 3; ++i) {
+    body->place[i]   = d->center[i];
+    body->axis[i][i] = body->last[i][i] = 1.0;
+  }
+  while (strncmp(d->face, c->bodies.scene->bodies[body->body].name, strlen(d->face) - strlen(SCENE_WHOLE_BODY)) ||
+         strlen(c->bodies.scene->bodies[body->body].name) + strlen(SCENE_WHOLE_BODY) != strlen(d->face))
+    ++body->body;
+  body->turns = (PetscBool)(body->turns && !RigidIsTiedToSmallStrain(c->bodies.scene, body->body));
   PetscCall(RigidGetNodes(c, body, &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &nodes));
-  PetscCall(VecGetOwnershipRange(c->bodies.places.x, &rstart, NULL));
-  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecGetOwnershipRange(c->rigid->x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(c->rigid->x, &x));
   PetscCall(RigidMeasure(c, rstart, x, n, nodes, body));
-  for (PetscInt k = 0; k < body->n; ++k) PetscCall(RigidFindCarrier(c, rstart, x, n, nodes, k, unit, carriers, body));
-  RigidInvert(body->n, carriers, body->inverse);
-  PetscCall(RigidSetRows(c, body, rstart, x, n, nodes, prescribed, mine, follows));
-  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecRestoreArrayRead(c->rigid->x, &x));
   PetscCall(ISRestoreIndices(is, &nodes));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
 
-/* Sets up rigid bodies driven by forces; call after the prescribed rows. prescribed and follows: of this rank's
-   rows. Without such bodies nothing is created */
-PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
+/* The rows of one body; anew: other ones carry its motions than did before */
+static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool prescribed[], PetscBool mine[],
+  PetscBool follows[], RigidBody *body, PetscBool *anew)
+{
+  IS                 is;
+  const PetscInt    *nodes;
+  const PetscScalar *x;
+  PetscInt           n, rstart;
+  PetscReal          unit[6][6], carriers[6][6];
+
+  PetscFunctionBegin;
+  PetscCall(RigidGetNodes(c, body, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &nodes));
+  PetscCall(VecGetOwnershipRange(c->rigid->x, &rstart, NULL));
+  PetscCall(VecGetArrayRead(c->rigid->x, &x));
+  for (PetscInt k = 0; k < body->n; ++k) {
+    const PetscInt before = body->row[k];
+
+    PetscCall(RigidFindCarrier(c, rstart, x, n, nodes, k, unit, carriers, body));
+    *anew = (PetscBool)(*anew || body->row[k] != before);
+  }
+  RigidInvert(body->n, carriers, body->inverse);
+  PetscCall(RigidSetRows(c, body, rstart, x, n, nodes, prescribed, mine, follows));
+  PetscCall(VecRestoreArrayRead(c->rigid->x, &x));
+  PetscCall(ISRestoreIndices(is, &nodes));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* R where the bodies are linearized. prescribed and follows: of this rank's rows */
+PetscErrorCode RigidMakeRows(const Constraints *c, const PetscBool prescribed[], PetscBool follows[], PetscBool *anew)
 {
   RigidBodies *rigid = c->rigid;
-  Scene        scene = c->bodies.scene;
   PetscInt     n, rstart;
   PetscBool   *mine;
   PetscScalar *elastic;
 
   PetscFunctionBegin;
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
-    rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
-  if (!rigid->n) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
-  PetscCall(VecDuplicate(c->bodies.mass, &rigid->elastic));
-  PetscCall(VecDuplicate(c->bodies.mass, &rigid->given));
-  PetscCall(VecDuplicate(c->bodies.mass, &rigid->held));
+  *anew = PETSC_FALSE;
   PetscCall(VecGetLocalSize(c->bodies.mass, &n));
   PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(PetscCalloc1(n, &mine));
+  PetscCall(MatDestroy(&rigid->R));
   PetscCall(MatCreateAIJ(c->bodies.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 6, NULL, 6, NULL, &rigid->R));
-  rigid->n = 0;
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    if (RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d)
-      PetscCall(RigidCreateBody(c, d, prescribed, mine, follows, &rigid->bodies[rigid->n++]));
-  }
+  for (PetscInt b = 0; b < rigid->n; ++b)
+    PetscCall(RigidMakeBodyRows(c, prescribed, mine, follows, &rigid->bodies[b], anew));
   PetscCall(VecGetArrayWrite(rigid->elastic, &elastic));
   for (PetscInt i = 0; i < n; ++i) {
     elastic[i] = mine[i] ? 0.0 : 1.0;
@@ -219,7 +266,199 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscFunctionReturn(0);
 }
 
-/* o: displacements of dependent rows by prescribed motions */
+/* After the prescribed rows; without such bodies nothing is created */
+PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
+{
+  RigidBodies *rigid = c->rigid;
+  Scene        scene = c->bodies.scene;
+  PetscBool    anew;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
+  if (!rigid->n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->elastic));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->given));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->held));
+  PetscCall(VecDuplicate(c->bodies.places.x, &rigid->x));
+  PetscCall(VecCopy(c->bodies.places.x, rigid->x));
+  rigid->n = 0;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    if (!RigidIsReleased(&scene->displacements[d]) || MotionFindLeader(scene, d) != d) continue;
+    PetscCall(RigidCreateBody(c, d, &rigid->bodies[rigid->n]));
+    rigid->turns = (PetscBool)(rigid->turns || rigid->bodies[rigid->n++].turns);
+  }
+  PetscCall(RigidMakeRows(c, prescribed, follows, &anew));
+  PetscFunctionReturn(0);
+}
+
+/* d exp(angle) / d angle exp(-angle), by columns: the rotation that one more angle about each axis adds */
+static void RigidGetAxes(const PetscReal r[3], PetscReal axis[3][3])
+{
+  const PetscReal square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], angle = PetscSqrtReal(square), small = 1e-3;
+  const PetscReal first = angle > small ? (1.0 - PetscCosReal(angle)) / square : 0.5 - square / 24.0;
+  const PetscReal second =
+    angle > small ? (angle - PetscSinReal(angle)) / (square * angle) : 1.0 / 6.0 - square / 120.0;
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
+
+    axis[i][i] = 1.0 - second * (r[j] * r[j] + r[k] * r[k]);
+    axis[i][j] = first * r[k] + second * r[i] * r[j];
+    axis[i][k] = -first * r[j] + second * r[i] * r[k];
+  }
+}
+
+/* exp(angle) last */
+void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
+{
+  PetscReal turn[3][3];
+
+  MotionRotate(body->angle, turn);
+  for (PetscInt i = 0; i < 9; ++i) {
+    Q[i / 3][i % 3] = body->last[i / 3][i % 3];
+    for (PetscInt k = 0; k < 3; ++k) Q[i / 3][i % 3] += turn[i / 3][k] * body->last[k][i % 3];
+  }
+}
+
+/* The body's nodes go to its place and angle, in a displacement u */
+static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Vec u)
+{
+  const PetscReal   *center = c->bodies.scene->displacements[body->leader].center;
+  const PetscScalar *x;
+  PetscScalar       *a;
+  PetscInt           n, rstart;
+  PetscReal          Q[3][3];
+  const PetscInt    *nodes;
+  IS                 is;
+
+  PetscFunctionBegin;
+  RigidGetRotation(body, Q);
+  PetscCall(RigidGetNodes(c, body, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &nodes));
+  PetscCall(VecGetOwnershipRange(u, &rstart, NULL));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecGetArray(u, &a));
+  for (PetscInt i = 0; i < 3 * n; ++i) {
+    const PetscInt node = nodes[i / 3] - rstart, d = i % 3;
+    PetscReal      moved = body->place[d] - center[d];
+
+    for (PetscInt k = 0; k < 3; ++k)
+      moved += (Q[d][k] - (d == k ? 1.0 : 0.0)) * (PetscRealPart(x[node + k]) - center[k]);
+    a[node + d] = moved;
+  }
+  PetscCall(VecRestoreArray(u, &a));
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
+  PetscCall(ISRestoreIndices(is, &nodes));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* Place and angle of a body where the nodes are, as far as they are free, and at what is prescribed else */
+static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, const BodyPose *last, const BodyPose *now,
+  RigidBody *body)
+{
+  PetscReal turn[3][3];
+
+  PosePlace(now, d->center, body->place);
+  for (PetscInt i = 0; i < 9; ++i) {
+    body->last[i / 3][i % 3] = last->Q[i / 3][i % 3];
+    turn[i / 3][i % 3]       = 0.0;
+    for (PetscInt k = 0; k < 3; ++k) turn[i / 3][i % 3] += now->Q[i / 3][k] * last->Q[i % 3][k];
+  }
+  PoseGetVector((const PetscReal(*)[3])turn, body->angle);
+  for (PetscInt m = 0; m < 3; ++m) {
+    if (!d->released[m]) body->place[m] = d->center[m] + given->t[m];
+    if (!d->released[3 + m]) body->angle[m] = 0.0;
+  }
+  RigidGetAxes(body->angle, body->axis);
+}
+
+/* Bodies that turn freely are linearized about a displacement u, at what a time prescribes; u_last: of the last state.
+   rigid->given becomes that of these bodies */
+PetscErrorCode RigidTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u)
+{
+  RigidBodies *rigid = c->rigid;
+  Scene        scene = c->bodies.scene;
+  BodyPose    *last, *now;
+  PetscReal   *factor;
+  RigidMotion  given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(scene->nbodies, &last, scene->nbodies, &now, scene->nramps, &factor));
+  for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(SceneGetFactor(scene, r, time, &factor[r]));
+  PetscCall(PosesFind(&c->bodies, NULL, u_last, last));
+  PetscCall(PosesFind(&c->bodies, NULL, u, now));
+  PetscCall(VecZeroEntries(rigid->given));
+  for (PetscInt b = 0; b < rigid->n; ++b) {
+    RigidBody *body = &rigid->bodies[b];
+
+    if (!body->turns) continue;
+    MotionGet(scene, body->leader, factor, &given);
+    RigidLocate(&scene->displacements[body->leader], &given, &last[body->body], &now[body->body], body);
+    PetscCall(RigidPlace(c, body, rigid->given));
+  }
+  PetscCall(VecWAXPY(rigid->x, 1.0, c->bodies.places.x, rigid->given));
+  PetscCall(PetscFree3(last, now, factor));
+  PetscFunctionReturn(0);
+}
+
+/* What the free motions of a body are in a displacement u, beside where it is linearized; angles times its size */
+static PetscErrorCode RigidGetMotion(const Constraints *c, const RigidBody *body, Vec u, PetscReal motion[6])
+{
+  PetscReal          moved[6] = {0.0};
+  const PetscScalar *a, *given;
+  PetscInt           first, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(u, &first, &end));
+  PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArrayRead(c->rigid->given, &given));
+  for (PetscInt k = 0; k < body->n; ++k) {
+    if (body->row[k] >= first && body->row[k] < end)
+      moved[k] = PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first]);
+  }
+  PetscCall(VecRestoreArrayRead(c->rigid->given, &given));
+  PetscCall(VecRestoreArrayRead(u, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, c->bodies.comm));
+  for (PetscInt k = 0; k < body->n; ++k) {
+    motion[k] = 0.0;
+    for (PetscInt m = 0; m < body->n; ++m) motion[k] += body->inverse[k][m] * moved[m];
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Bodies that turn freely go from the linearized motions of u to the finite ones; change: the largest displacement of
+   these [length] */
+PetscErrorCode RigidStraighten(const Constraints *c, Vec u, PetscReal *change)
+{
+  RigidBodies *rigid = c->rigid;
+  Vec          before;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &before));
+  PetscCall(VecCopy(u, before));
+  for (PetscInt b = 0; b < rigid->n; ++b) {
+    RigidBody *body = &rigid->bodies[b], moved = *body;
+    PetscReal  motion[6];
+
+    if (!body->turns) continue;
+    PetscCall(RigidGetMotion(c, body, before, motion));
+    for (PetscInt k = 0; k < body->n; ++k) {
+      if (body->motion[k] < 3) moved.place[body->motion[k]] += motion[k];
+      else moved.angle[body->motion[k] - 3] += motion[k] / body->size;
+    }
+    PetscCall(RigidPlace(c, &moved, u));
+  }
+  PetscCall(VecAXPY(before, -1.0, u));
+  PetscCall(VecNorm(before, NORM_INFINITY, change));
+  PetscCall(VecDestroy(&before));
+  PetscFunctionReturn(0);
+}
+
+/* o, what the motions that are prescribed displace the rows that follow by */
 PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
 {
   RigidBodies       *rigid = c->rigid;
@@ -233,7 +472,7 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
   PetscCall(PetscMalloc1(c->bodies.scene->nramps, &factor));
   for (PetscInt r = 0; r < c->bodies.scene->nramps; ++r)
     PetscCall(SceneGetFactor(c->bodies.scene, r, time, &factor[r]));
-  PetscCall(VecZeroEntries(rigid->given));
+  if (!rigid->turns) PetscCall(VecZeroEntries(rigid->given));
   PetscCall(VecGetOwnershipRange(rigid->given, &rstart, NULL));
   PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
   PetscCall(VecGetArray(rigid->given, &a));
@@ -242,6 +481,7 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
     const PetscInt *nodes;
     PetscInt        n;
 
+    if (rigid->bodies[b].turns) continue;
     MotionGet(c->bodies.scene, rigid->bodies[b].leader, factor, &motion);
     PetscCall(RigidGetNodes(c, &rigid->bodies[b], &is));
     PetscCall(ISGetLocalSize(is, &n));
@@ -283,18 +523,19 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
   PetscFunctionReturn(0);
 }
 
-/* Adds springs, and the proximal stiffness of the free motions (proximal.c), to a matrix that has all diagonal
-   entries */
+/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions, where nothing
+   elastic does, to the centre of proximal.c */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
   const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
+  const PetscReal    none  = 1e-6; /* of it: elastic bodies that are tied to the rigid one hold the motion */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;
 
   PetscFunctionBegin;
   PetscCall(RigidAddSprings(c, C, stiffness));
-  PetscCall(VecZeroEntries(c->rigid->held));
+  PetscCall(MatGetDiagonal(stiffness, c->rigid->held));
   PetscCall(VecGetOwnershipRange(diagonal, &first, &end));
   PetscCall(VecGetArrayRead(diagonal, &d));
   PetscCall(VecGetArray(c->rigid->held, &held));
@@ -302,52 +543,45 @@ PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat 
     const RigidBody *body = &c->rigid->bodies[b];
 
     for (PetscInt k = 0; k < body->n; ++k) {
-      if (body->row[k] >= first && body->row[k] < end) held[body->row[k] - first] = share * d[body->row[k] - first];
+      const PetscInt i = body->row[k] - first;
+
+      if (body->row[k] >= first && body->row[k] < end && PetscRealPart(held[i]) <= none * PetscRealPart(d[i]))
+        held[i] = -share * d[i];
     }
   }
+  for (PetscInt i = 0; i < end - first; ++i) held[i] = PetscMax(-PetscRealPart(held[i]), 0.0);
   PetscCall(VecRestoreArray(c->rigid->held, &held));
   PetscCall(VecRestoreArrayRead(diagonal, &d));
   PetscCall(MatDiagonalSet(stiffness, c->rigid->held, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
-/* Marks the solve as failed if a free rotation is not small */
-PetscErrorCode RigidTest(const Constraints *c, Vec u, StepReport *report)
+/* A solve has not converged if a free rotation is larger than its linearization allows; finite: it is linearized again
+   until it is true */
+PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepReport *report)
 {
-  const PetscScalar *a, *given;
-  PetscInt           first, end;
-
   PetscFunctionBegin;
-  if (!c->rigid->n || !report->converged) PetscFunctionReturn(0);
-  PetscCall(VecGetOwnershipRange(u, &first, &end));
-  PetscCall(VecGetArrayRead(u, &a));
-  PetscCall(VecGetArrayRead(c->rigid->given, &given));
-  for (PetscInt b = 0; b < c->rigid->n; ++b) {
-    const RigidBody *body     = &c->rigid->bodies[b];
-    PetscReal        moved[6] = {0.0}, square = 0.0, degrees;
+  for (PetscInt b = 0; b < c->rigid->n && report->converged; ++b) {
+    const RigidBody *body = &c->rigid->bodies[b];
+    const PetscReal  most = finite && body->turns ? largest_angle : largest_linearized;
+    PetscReal        motion[6], angle[3], degrees;
     char             reason[256];
 
-    for (PetscInt k = 0; k < body->n; ++k)
-      moved[k] = body->row[k] >= first && body->row[k] < end
-                   ? PetscRealPart(a[body->row[k] - first] - given[body->row[k] - first])
-                   : 0.0;
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, 6, MPIU_REAL, MPIU_SUM, c->bodies.comm));
+    PetscCall(RigidGetMotion(c, body, u, motion));
+    PetscCall(PetscArraycpy(angle, body->angle, 3));
     for (PetscInt k = 0; k < body->n; ++k) {
-      PetscReal angle = 0.0;
-
-      for (PetscInt m = 0; m < body->n; ++m) angle += body->inverse[k][m] * moved[m] / body->size;
-      if (body->motion[k] >= 3) square += PetscSqr(angle);
+      if (body->motion[k] >= 3) angle[body->motion[k] - 3] += motion[k] / body->size;
     }
-    degrees = PetscSqrtReal(square) * 180.0 / PETSC_PI;
-    if (!(degrees > largest_angle)) continue;
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "displacement \"%s\": the rigid body turns by %.3g degrees, but a free rotation may be at most %.0f degrees: "
-      "prescribe the rotation, or add supports",
-      c->bodies.scene->displacements[body->leader].name, (double)degrees, (double)largest_angle));
+    degrees = PetscSqrtReal(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]) * 180.0 / PETSC_PI;
+    if (degrees <= most) continue;
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "displacement \"%s\": the rigid body turns by %.3g degrees%s",
+      c->bodies.scene->displacements[body->leader].name, (double)degrees,
+      !body->turns ? ", but a free rotation may be at most 2 degrees where a body of small strain is tied to it: use "
+                     "neohookean or saint_venant, prescribe the rotation, or add supports"
+      : !finite    ? " in one load step, but with contact_updates: 1 a free rotation may be at most 2 degrees"
+                   : " in one load step: use smaller load steps, prescribe the rotation, or add supports"));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
-  PetscCall(VecRestoreArrayRead(c->rigid->given, &given));
-  PetscCall(VecRestoreArrayRead(u, &a));
   PetscFunctionReturn(0);
 }
 
@@ -357,6 +591,7 @@ PetscErrorCode RigidDestroy(RigidBodies *rigid)
   PetscCall(MatDestroy(&rigid->R));
   PetscCall(VecDestroy(&rigid->elastic));
   PetscCall(VecDestroy(&rigid->given));
+  PetscCall(VecDestroy(&rigid->x));
   PetscCall(VecDestroy(&rigid->held));
   PetscCall(PetscFree(rigid->bodies));
   PetscFunctionReturn(0);

@@ -90,22 +90,45 @@ static PetscErrorCode TiesCreateDiagonal(Vec layout, PetscReal value, Mat *diago
   PetscFunctionReturn(0);
 }
 
-/* Multiplies C by R if forces drive rigid bodies */
+/* C = joined R, if there are rigid bodies that forces drive */
 static PetscErrorCode TiesJoinRigid(const Constraints *c)
 {
   Ties *ties = c->ties;
-  Mat   C    = NULL;
 
   PetscFunctionBegin;
   if (!c->rigid->R) PetscFunctionReturn(0);
-  ties->joined = ties->C;
-  PetscCall(TiesApplyNext(c->rigid->R, &C));
-  PetscCall(TiesApplyNext(ties->joined, &C));
-  ties->C = C;
-  PetscCall(MatDuplicate(C, MAT_COPY_VALUES, &ties->elastic));
+  PetscCall(MatDestroy(&ties->C));
+  PetscCall(MatDestroy(&ties->elastic));
+  PetscCall(TiesApplyNext(c->rigid->R, &ties->C));
+  PetscCall(TiesApplyNext(ties->joined, &ties->C));
+  PetscCall(MatSetBlockSizes(ties->C, 3, 3));
+  PetscCall(MatDuplicate(ties->C, MAT_COPY_VALUES, &ties->elastic));
   PetscCall(MatDiagonalScale(ties->elastic, c->rigid->elastic, NULL));
-  PetscCall(VecDuplicate(c->bodies.mass, &ties->o));
-  PetscCall(VecZeroEntries(ties->o));
+  PetscFunctionReturn(0);
+}
+
+/* Those that follow, in place of the rows of rigid bodies */
+static PetscErrorCode TiesListRows(const Constraints *c, PetscInt rstart, const PetscBool follows[])
+{
+  Ties              *ties = c->ties;
+  PetscInt           n, kept = 0, added = 0;
+  PetscInt          *rows;
+  const PetscScalar *elastic = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+  PetscCall(PetscMalloc1(n, &rows));
+  if (c->rigid->elastic) PetscCall(VecGetArrayRead(c->rigid->elastic, &elastic));
+  for (PetscInt k = 0; elastic && k < ties->n; ++k) {
+    if (PetscRealPart(elastic[ties->rows[k] - rstart]) > 0.0) rows[kept++] = ties->rows[k];
+  }
+  if (c->rigid->elastic) PetscCall(VecRestoreArrayRead(c->rigid->elastic, &elastic));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (follows[i]) rows[kept + added++] = rstart + i;
+  }
+  PetscCall(PetscFree(ties->rows));
+  ties->rows = rows;
+  ties->n    = kept + added;
   PetscFunctionReturn(0);
 }
 
@@ -127,15 +150,14 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscCall(TiesCreateHanging(c, prescribed, &ties->hanging, follows));
   PetscCall(RigidCreate(c, prescribed, follows));
   if (planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
-    PetscCall(TiesCompose(joints, planes, ties->hanging, &ties->C));
+    PetscCall(TiesCompose(joints, planes, ties->hanging, c->rigid->R ? &ties->joined : &ties->C));
     PetscCall(TiesJoinRigid(c));
     if (!ties->C) PetscCall(TiesCreateDiagonal(c->bodies.mass, 1.0, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));
-    PetscCall(PetscMalloc1(n, &ties->rows));
-    for (PetscInt i = 0; i < n; ++i) {
-      if (follows[i]) ties->rows[ties->n++] = rstart + i;
-    }
+    PetscCall(TiesListRows(c, rstart, follows));
     PetscCall(VecDuplicate(c->bodies.mass, &ties->work));
+    if (c->rigid->R) PetscCall(VecDuplicate(c->bodies.mass, &ties->o));
+    if (c->rigid->R) PetscCall(VecZeroEntries(ties->o));
     PetscCall(ElasticitySetMatType(c->bodies.elasticity, MATAIJ));
   }
   PetscCall(PetscFree2(prescribed, follows));
@@ -154,7 +176,46 @@ PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* u = C u + o: sets the dependent rows */
+/* The same about a displacement u since the last state, where rigid bodies turn freely. anew: the tangent of linear
+   bodies changes with that */
+PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u, PetscBool *anew)
+{
+  PetscInt   n, rstart;
+  PetscBool *prescribed, *follows;
+
+  PetscFunctionBegin;
+  *anew = PETSC_FALSE;
+  if (c->rigid->turns) {
+    PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+    PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
+    PetscCall(PetscCalloc2(n, &prescribed, n, &follows));
+    PetscCall(TiesMarkPrescribed(c, rstart, prescribed));
+    PetscCall(RigidTurn(c, time, u_last, u));
+    PetscCall(RigidMakeRows(c, prescribed, follows, anew));
+    PetscCall(TiesJoinRigid(c));
+    PetscCall(TiesListRows(c, rstart, follows));
+    PetscCall(PetscFree2(prescribed, follows));
+    *anew = (PetscBool)(*anew || c->ties->joined || c->springs->stiffness);
+  }
+  PetscCall(TiesMove(c, time));
+  PetscFunctionReturn(0);
+}
+
+/* u of the linearized motions becomes that of the finite ones; change: what it moves by, 0 where no body turns freely
+   [length] */
+PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
+{
+  PetscFunctionBegin;
+  *change = 0.0;
+  if (!c->rigid->turns) PetscFunctionReturn(0);
+  PetscCall(RigidStraighten(c, u, change));
+  if (!c->ties->joined) PetscFunctionReturn(0);
+  PetscCall(VecCopy(u, c->ties->work));
+  PetscCall(MatMult(c->ties->joined, c->ties->work, u));
+  PetscFunctionReturn(0);
+}
+
+/* u = C u + o: the tied rows follow the others */
 PetscErrorCode TiesFollow(const Ties *ties, Vec u)
 {
   PetscFunctionBegin;

@@ -100,6 +100,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
+  PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscCall(ContactDeform(contact, u));
   PetscCall(ContactAssemblyCreate(contact, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
@@ -120,6 +121,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyDestroy(&assembly));
+  PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

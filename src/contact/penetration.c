@@ -17,11 +17,11 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
 
     ContactPatchCreate(facet, &facets->patch[12 * nearest->facet], &patch);
     ContactPatchEvaluate(&patch, nearest->xi, offset, n);
-    if (!(ContactScaleToUnit(n) > 0.0)) return 0.0;
+    if (!(VectorScaleToUnit(n) > 0.0)) return 0.0;
   } else if (!ContactFacetNormal(facet, n)) return 0.0;
   for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - nearest->y[c] - offset[c];
-  height = ContactDot(r, n);
-  return height < 0.0 && 2.0 * height * height >= ContactDot(r, r) ? -height : 0.0;
+  height = VectorDot(r, n);
+  return height < 0.0 && 2.0 * height * height >= VectorDot(r, r) ? -height : 0.0;
 }
 
 /* Collective. deepest: raised to the largest depth of a vertex of `side` below `other` */

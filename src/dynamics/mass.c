@@ -2,7 +2,7 @@
 #include "dynamicsimpl.h"
 #include <mesh.h>
 
-/* 1 at the nodes of elastic bodies on the faces of contact pairs */
+/* 1 at the nodes of elastic bodies on the faces of contact pairs without friction */
 static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
 {
   Scene scene = c->bodies.scene;
@@ -15,7 +15,7 @@ static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
     PetscInt        n;
     IS              is;
 
-    if (SceneFaceMaterial(scene, face)->type == MATERIAL_RIGID) continue;
+    if (SceneContactPairRubs(&scene->pairs[k / 2]) || SceneFaceMaterial(scene, face)->type == MATERIAL_RIGID) continue;
     PetscCall(MeshGetFaceDofs(c->bodies.dm, face, 0, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));

@@ -140,6 +140,82 @@ PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal la
   PetscFunctionReturn(0);
 }
 
+/* Elastic energy of a cell, and plastic work in it since the last state of equilibrium */
+static void HistoryMeasureStep(CellState *cell, PetscReal *stored, PetscReal *work)
+{
+  const BodyMaterial *m = cell->material;
+  PetscReal           w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], history[MATERIAL_HISTORY];
+  MaterialModuli      own;
+
+  *stored = cell->body->element->energy(cell->body->basis, m, cell->X, cell->U);
+  *work   = 0;
+  if (!m->law->advance) return;
+  cell->body->element->strains(cell->body->basis, m, cell->X, cell->U, w, H);
+  for (PetscInt q = 0; q < cell->body->basis->npoints; ++q) {
+    const MaterialModuli *moduli = CellModuli(&m->moduli, q, &own);
+
+    (void)m->law->advance(moduli, H[q], history);
+    *stored -= w[q] * m->law->work(moduli, history);
+    *work += w[q] * (m->law->work(moduli, history) - m->law->work(moduli, moduli->history));
+  }
+}
+
+/*@
+  ElasticityPlasticFlow - Computes the plastic work of a step in bodies whose hardening comes to an end
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+- u          - displacement that the step tries, global, 3 components a node [length]
+
+  Output Parameters:
++ stored - elastic energy of all bodies at u; 0 if no body is of that kind [force length]
+. work   - plastic work since the last state of equilibrium, of bodies of that kind [force length]
+- body   - the one of them with the largest part of it
+
+  Level: developer
+
+  Note:
+  Only such bodies have a collapse load. Linear hardening carries any load.
+
+.seealso: `ElasticityCommit()`, `ElasticityPlasticWork()`
+@*/
+PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, PetscReal *work, PetscInt *body)
+{
+  Vec                local;
+  const PetscScalar *ul, *x;
+  PetscReal         *sums; /* of each body, and behind them the elastic energy */
+  PetscBool          flows = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *stored = *work = 0;
+  *body           = 0;
+  for (PetscInt b = 0; b < e->nbodies; ++b) flows = (PetscBool)(flows || MaterialCollapses(&e->bodies[b].given));
+  if (!flows) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(e->nbodies + 1, &sums));
+  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  for (PetscInt c = 0; c < e->ncells; ++c) {
+    PetscReal elastic, plastic;
+    CellState cell;
+
+    ElasticityGetCell(e, c, x, ul, &cell);
+    HistoryMeasureStep(&cell, &elastic, &plastic);
+    sums[e->nbodies] += elastic;
+    if (MaterialCollapses(&cell.body->given)) sums[e->cellbody[c]] += plastic;
+  }
+  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(e->nbodies + 1), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)e->dm)));
+  *stored = sums[e->nbodies];
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    *work += sums[b];
+    if (sums[b] > sums[*body]) *body = b;
+  }
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ElasticityCellPlastic - Gets the plastic strain of the cells at the last state of equilibrium
 

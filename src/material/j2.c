@@ -288,6 +288,12 @@ PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, c
   return (PetscBool) !(h->saturation != 0 && h->rate == 0);
 }
 
+PetscBool MaterialCollapses(const Material *material)
+{
+  return (
+    PetscBool)(material->type == MATERIAL_J2 && material->hardening.modulus == 0 && material->hardening.kinematic == 0);
+}
+
 static PetscErrorCode MaterialModuli_J2(const Material *material, MaterialModuli *moduli)
 {
   const char *key;

@@ -337,6 +337,19 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   PetscFunctionReturn(0);
 }
 
+/* Rigid bodies that turn freely, and the load on them, are those of the last state */
+static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec load)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscBool         anew;
+
+  PetscFunctionBegin;
+  PetscCall(RigidTurnLoads(&constraints, -1.0, time, load));
+  PetscCall(TiesTurn(&constraints, time, sim->path.u, sim->path.u, &anew));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, time, load));
+  PetscFunctionReturn(0);
+}
+
 /*
    Called after a solve without solution. none: whether no equilibrium exists for these loads and the positions of the
    last state; the report then names the moving body and its motion
@@ -351,6 +364,7 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   PetscFunctionBegin;
   *none = PETSC_FALSE;
   if (!sim->contact || !force) PetscFunctionReturn(0);
+  PetscCall(EquilibriumTurnBack(sim, time, force));
   PetscCall(EquilibriumMeasureLoad(force, &size));
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {

@@ -1,5 +1,6 @@
 /* If nothing stops a body, the energy is unbounded below. Finds the body and describes its motion. */
 #include "measureimpl.h"
+#include <vector3.h>
 
 /* Sums over the nodes of a body with coordinates X and displacements u; only reals, to be summed over ranks at once */
 typedef struct {
@@ -15,16 +16,6 @@ typedef struct {
   PetscReal residual; /* root mean square of the displacements without the motion, relative to that of the
                          displacements */
 } RigidFit;
-
-static void RigidFitCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  for (PetscInt i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static PetscReal RigidFitDot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* Collective. The body with the largest displacement component, and its value */
 static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
@@ -67,14 +58,14 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
     PetscReal       moment[3];
 
     if (sim->places.body[k / 3] != body) continue;
-    RigidFitCross(X, d, moment);
+    VectorCross(X, d, moment);
     sums->n++;
-    sums->square += RigidFitDot(d, d);
+    sums->square += VectorDot(d, d);
     for (PetscInt i = 0; i < 3; ++i) {
       sums->place[i] += X[i];
       sums->shift[i] += d[i];
       sums->moment[i] += moment[i];
-      for (PetscInt j = 0; j < 3; ++j) sums->inertia[i][j] += (i == j) * RigidFitDot(X, X) - X[i] * X[j];
+      for (PetscInt j = 0; j < 3; ++j) sums->inertia[i][j] += (i == j) * VectorDot(X, X) - X[i] * X[j];
     }
   }
   PetscCall(VecRestoreArrayRead(u, &v));
@@ -92,17 +83,16 @@ static void RigidFitFit(RigidFitSums *sums, RigidFit *flight)
     flight->center[i] = sums->place[i] / sums->n;
     flight->t[i]      = sums->shift[i] / sums->n;
   }
-  RigidFitCross(sums->place, flight->t, moment);
+  VectorCross(sums->place, flight->t, moment);
   for (PetscInt i = 0; i < 3; ++i) moment[i] = sums->moment[i] - moment[i];
   for (PetscInt k = 0; k < 9; ++k)
-    inertia[k] -= (k % 4 == 0) * RigidFitDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
-  for (PetscInt i = 0; i < 3; ++i) RigidFitCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
-  for (PetscInt i = 0; i < 3; ++i)
-    flight->w[i] = RigidFitDot(cross[i], moment) / RigidFitDot(sums->inertia[0], cross[0]);
-  turned         = RigidFitDot(flight->w, moment) / sums->n; /* w . inertia w */
+    inertia[k] -= (k % 4 == 0) * VectorDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
+  for (PetscInt i = 0; i < 3; ++i) VectorCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
+  for (PetscInt i = 0; i < 3; ++i) flight->w[i] = VectorDot(cross[i], moment) / VectorDot(sums->inertia[0], cross[0]);
+  turned         = VectorDot(flight->w, moment) / sums->n; /* w . inertia w */
   flight->turned = PetscSqrtReal(PetscMax(turned, 0.0));
   flight->residual =
-    PetscSqrtReal(PetscMax(1.0 - (turned + RigidFitDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
+    PetscSqrtReal(PetscMax(1.0 - (turned + VectorDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
 }
 
 /* Rounds x to a power of ten below the unit, and avoids minus zero, so that rounding errors are not printed */
@@ -126,10 +116,10 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
     PetscCall(PetscSNPrintf(text, length, "moves the farthest, by %g", (double)distance));
     PetscFunctionReturn(0);
   }
-  size = PetscSqrtReal(RigidFitDot(flight.w, flight.w));
-  if (flight.turned > part * PetscSqrtReal(RigidFitDot(flight.t, flight.t))) {
+  size = VectorNorm(flight.w);
+  if (flight.turned > part * VectorNorm(flight.t)) {
     radius = flight.turned / size;
-    RigidFitCross(flight.w, flight.t, axis);
+    VectorCross(flight.w, flight.t, axis);
     for (PetscInt i = 0; i < 3; ++i) {
       arm         = flight.center[i] + axis[i] / PetscSqr(size);
       axis[i]     = RigidFitRound(arm, 1e-2 * radius);
@@ -139,7 +129,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
       (double)flight.w[0], (double)flight.w[1], (double)flight.w[2], (double)axis[0], (double)axis[1],
       (double)axis[2]));
   } else {
-    size = PetscSqrtReal(RigidFitDot(flight.t, flight.t));
+    size = VectorNorm(flight.t);
     for (PetscInt i = 0; i < 3; ++i) flight.t[i] = RigidFitRound(flight.t[i] / size, 1e-2);
     PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)flight.t[0], (double)flight.t[1],
       (double)flight.t[2]));

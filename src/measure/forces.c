@@ -1,5 +1,6 @@
 /* Forces and moments of pairs, faces and bodies. */
 #include "measureimpl.h"
+#include <vector3.h>
 #include <string.h>
 
 /* A force and its moment about the origin [force], [force length] */
@@ -71,11 +72,6 @@ static PetscErrorCode ForceSumReduce(MPI_Comm comm, PetscInt n, ForceSum sums[])
   PetscFunctionBegin;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(6 * n), MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
-}
-
-static PetscReal ForceSize(const PetscReal f[3])
-{
-  return PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
 }
 
 /* Index of a face in the report; it is appended if it is new */
@@ -281,7 +277,7 @@ static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const 
     sum[c] += force[c];
     body->residual[c] += force[c];
   }
-  body->balance += ForceSize(force);
+  body->balance += VectorNorm(force);
   PetscFunctionReturn(0);
 }
 
@@ -360,7 +356,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
     BodyReport *body = &report->bodies[b];
 
     body->balance   = body->balance > rounding
-                        ? ForceSize(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest)
+                        ? VectorNorm(body->residual) / PetscMax(body->balance, PETSC_SQRT_MACHINE_EPSILON * largest)
                         : 0.0;
     report->balance = PetscMax(report->balance, body->balance);
   }

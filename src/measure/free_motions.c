@@ -2,7 +2,7 @@
    ties. */
 #include "measureimpl.h"
 
-/* Coordinates of the nodes: undeformed for small-strain laws, as in their energy */
+/* Where bodies are: those of small strain as their energy has them, undeformed, but beside rigid ones that turn */
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
 {
   PetscBool linear;
@@ -11,7 +11,7 @@ static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(VecDuplicate(sim->places.x, x));
   PetscCall(VecCopy(sim->places.x, *x));
-  if (!linear) PetscCall(VecAXPY(*x, 1.0, sim->path.u));
+  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(*x, 1.0, sim->path.u));
   PetscFunctionReturn(0);
 }
 

@@ -19,9 +19,9 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
   PetscFunctionReturn(0);
 }
 
-/* For one pair, at the owned vertices of both sides: force: present friction forces; work: minus the work of the
-   mean of the last and present forces on the motion from the last state to u */
-static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolution *sol, PetscInt pair, Vec force,
+/* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
+   those before and now, each on its way from the last state */
+static PetscErrorCode FrictionPairWork(Simulation sim, Vec way[2], const ContactSolution *sol, PetscInt pair, Vec force,
   PetscReal work[])
 {
   const ContactHistory *m      = &sim->history;
@@ -32,15 +32,15 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec u, const ContactSolut
   PetscCall(VecZeroEntries(force));
   PetscCall(FrictionAddForces(sim->linearization, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
-  PetscCall(VecGetArrayRead(sim->path.u, &a));
-  PetscCall(VecGetArrayRead(u, &b));
+  PetscCall(VecGetArrayRead(way[0], &a));
+  PetscCall(VecGetArrayRead(way[1], &b));
   for (PetscInt v = 0; v < m->nowned; ++v) {
     work[v] = 0.0;
     for (PetscInt i = 3 * v; i < 3 * v + 3; ++i)
-      work[v] -= 0.5 * (before[i] + PetscRealPart(now[i])) * PetscRealPart(b[i] - a[i]);
+      work[v] -= 0.5 * (before[i] * PetscRealPart(a[i]) + PetscRealPart(now[i]) * PetscRealPart(b[i]));
   }
-  PetscCall(VecRestoreArrayRead(u, &b));
-  PetscCall(VecRestoreArrayRead(sim->path.u, &a));
+  PetscCall(VecRestoreArrayRead(way[1], &b));
+  PetscCall(VecRestoreArrayRead(way[0], &a));
   PetscCall(VecRestoreArrayRead(force, &now));
   PetscFunctionReturn(0);
 }
@@ -65,19 +65,21 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
 /* For every pair: work since the start, up to the solution `sol` at u, and sum of the magnitudes of the forces */
 PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
 {
-  const ContactHistory *m = &sim->history;
+  const Bodies          bodies = SimulationBodies(sim);
+  const ContactHistory *m      = &sim->history;
   PetscReal            *sums, *work;
-  Vec                   force;
+  Vec                   force, way[2];
 
   PetscFunctionBegin;
   report->dissipated = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
+  PetscCall(ArcsGetWays(&bodies, sim->path.u, u, way));
   PetscCall(PetscCalloc1(2 * m->npairs, &sums));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!report->pairs[p].rubs) continue;
-    PetscCall(FrictionPairWork(sim, u, sol, p, force, work));
+    PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
   }
   PetscCall(FrictionAddSizes(sim->linearization, sol, sums));
@@ -89,6 +91,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   }
   PetscCall(PetscFree(work));
   PetscCall(PetscFree(sums));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
@@ -96,23 +99,26 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
 /* Adds the dissipation up to u to the history, and stores the forces at u */
 static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
 {
-  ContactHistory    *m = &sim->history;
+  const Bodies       bodies = SimulationBodies(sim);
+  ContactHistory    *m      = &sim->history;
   const PetscScalar *now;
   PetscReal         *work;
-  Vec                force;
+  Vec                force, way[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &force));
+  PetscCall(ArcsGetWays(&bodies, sim->path.u, u, way));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!SceneContactPairRubs(&sim->scene->pairs[p])) continue;
-    PetscCall(FrictionPairWork(sim, u, sol, p, force, work));
+    PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v];
     PetscCall(VecGetArrayRead(force, &now));
     for (PetscInt i = 0; i < 3 * m->nowned; ++i) m->friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
     PetscCall(VecRestoreArrayRead(force, &now));
   }
   PetscCall(PetscFree(work));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,6 @@
 /* Measures a state from the elements and the contact rows: forces, gaps, equilibrium, errors. */
 #include "measureimpl.h"
+#include <vector3.h>
 #include <math.h>
 
 /* With q = J_full^T M z: the relative sum of the contact forces on both sides */
@@ -16,12 +17,11 @@ static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *r
     const PetscReal f[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
 
     for (PetscInt c = 0; c < 3; ++c) sums[c] += f[c];
-    sums[3] += PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    sums[3] += VectorNorm(f);
   }
   PetscCall(VecRestoreArrayRead(q, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
-  report->action_reaction =
-    sums[3] > 0.0 ? PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) / sums[3] : 0.0;
+  report->action_reaction = sums[3] > 0.0 ? VectorNorm(sums) / sums[3] : 0.0;
   PetscFunctionReturn(0);
 }
 

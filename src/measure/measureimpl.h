@@ -57,6 +57,9 @@ PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
 PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
 
+/* rigid_places.c */
+PETSC_INTERN PetscErrorCode RigidPlacesMeasure(Simulation, StepReport *);
+
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
 PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);

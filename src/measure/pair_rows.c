@@ -1,5 +1,6 @@
 /* Rows of one contact pair: area, normal, pressure, gap, friction and status. */
 #include "pair_rows.h"
+#include <vector3.h>
 
 /* vector = mass_A x sum of A_AB over the vertices B of the mortar side */
 static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
@@ -23,11 +24,6 @@ static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt
   PetscCall(VecDestroy(&sum));
   PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
-}
-
-static PetscReal PairNorm(const PetscReal v[3])
-{
-  return PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 /*
@@ -82,10 +78,10 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
   PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
   PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
   for (PetscInt r = 0; r < n; ++r) {
-    PetscReal *normal = &rows->normal[3 * r], size = PairNorm(normal);
+    PetscReal *normal = &rows->normal[3 * r], size = VectorNorm(normal);
 
     if (!(size > 0.0)) continue;
-    rows->area[r]     = PairNorm(&force[3 * r]);
+    rows->area[r]     = VectorNorm(&force[3 * r]);
     rows->share[r]    = rows->area[r] / size;
     rows->pressure[r] = sim->pressure[r];
     rows->length[r] = rows->own[r] = PetscSqrtReal(PetscRealPart(mass[r]));

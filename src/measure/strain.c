@@ -4,8 +4,20 @@
 #define STRAIN_LIMIT   0.25 /* principal strain, averaged over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
 
-/* Collective. Checks the last state; warns once per body, in the first load step that exceeds a limit. Rigid bodies
-   may rotate */
+/* Bodies that may be warned of yet */
+static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
+{
+  PetscBool any = PETSC_FALSE;
+
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const Material *material = &scene->bodies[b].material;
+
+    any = (PetscBool)(any || (!beyond[b] && material->type != MATERIAL_RIGID && !MaterialIsFinite(material)));
+  }
+  return any;
+}
+
+/* At the last state; once for a body, in the first load step that goes so far. A rigid body may turn. Collective */
 PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;
@@ -13,6 +25,7 @@ PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 
   PetscFunctionBegin;
   if (!sim->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->beyond));
+  if (!StrainMayWarn(scene, sim->beyond)) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
   PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path.u, values));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {

@@ -1,9 +1,9 @@
 /* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
 
-/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (displacement increment) to work; `now` becomes
+/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (way of each) to work; `now` becomes
    `before` then */
-static PetscErrorCode WorkAddForce(Vec way, PetscReal part, Vec *before, Vec *now, PetscReal *work)
+static PetscErrorCode WorkAddForce(Vec way[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
   const PetscReal parts[2]  = {1.0 - part, part};
   Vec             forces[2] = {*before, *now};
@@ -12,7 +12,7 @@ static PetscErrorCode WorkAddForce(Vec way, PetscReal part, Vec *before, Vec *no
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
-    PetscCall(VecDot(forces[k], way, &product));
+    PetscCall(VecDot(forces[k], way[k], &product));
     *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
@@ -60,14 +60,14 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
-  LoadPath       *path = &sim->path;
+  const Bodies    bodies = SimulationBodies(sim);
+  LoadPath       *path   = &sim->path;
   const PetscReal work = path->work, taken = path->contact_work;
-  Vec             outside, reaction, way;
+  Vec             outside, reaction, way[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
   PetscCall(VecDuplicate(u, &reaction));
-  PetscCall(VecDuplicate(u, &way));
   PetscCall(VecCopy(unbalanced, outside));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
@@ -75,12 +75,12 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
-  PetscCall(VecWAXPY(way, -1.0, path->u, u));
+  PetscCall(ArcsGetWays(&bodies, path->u, u, way));
   PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(
     WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
-  PetscCall(VecDestroy(&way));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
   if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))

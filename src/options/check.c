@@ -34,6 +34,24 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
   PetscFunctionReturn(0);
 }
 
+/* The value is one of the words, where an option has such */
+static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char name[], const char value[])
+{
+  const char *const *words;
+  char               all[128] = "";
+  PetscBool          found    = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (!OptionGetChoices(name, &words)) PetscFunctionReturn(0);
+  for (PetscInt k = 0; words[k] && !found; ++k) {
+    PetscCall(PetscStrcasecmp(value, words[k], &found));
+    if (k) PetscCall(PetscStrlcat(all, words[k + 1] ? ", " : " or ", sizeof(all)));
+    PetscCall(PetscStrlcat(all, words[k], sizeof(all)));
+  }
+  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", and needs %s", name, value, all);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const char value[])
 {
   static const char *const needs[OPTION_KINDS] = {
@@ -53,6 +71,7 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
   if (missing) PetscFunctionReturn(0);
   PetscCall(OptionValueIsGood(kind, value, &good));
   PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", and needs %s", name, value, needs[kind]);
+  PetscCall(OptionCheckChoice(comm, name, value));
   PetscFunctionReturn(0);
 }
 

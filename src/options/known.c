@@ -36,6 +36,25 @@ static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact
   "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
   "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
 
+/* Options whose value is one of a few words. tests/doc/options.py holds them against the sources */
+static const struct {
+  const char *name, *words[5];
+} OptionsChoices[] = {
+  {"accuracy_of", {"energy", "force", "pressure", "displacement", NULL}},
+  {"contact_gap", {"mortar", "node", "dual", NULL}},
+  {"contact_normals", {"nodal", "facet", NULL}},
+  {"model", {"energy", "quadratic", NULL}},
+  {"pc_amgf_cycle", {"bfb", "fbf", "additive", NULL}},
+  {"pc_amgf_factor", {"false", "true", "auto", NULL}},
+  {"tao_ipfilter_barrier", {"monotone", "mehrotra", NULL}},
+  {"tao_ipfilter_equality", {"auto", "augmented", "condensed", NULL}},
+  {"tao_ipfilter_forcing", {"adaptive", "fixed", NULL}},
+  {"tao_ipfilter_kkt", {"relative", "mass", NULL}},
+  {"tao_ipfilter_scaling", {"problem", "gradient", "none", NULL}},
+  {"tao_ipfilter_start", {"cold", "predict", "warm", NULL}},
+  {"tao_ipfilter_subspace", {"false", "true", "auto", NULL}},
+};
+
 /* Prefixes of PETSc objects that are created later */
 static const char *const OptionsPrefixes[] = {"tao_ipfilter_augmented_", "tao_ipfilter_direct_", "tao_ipfilter_",
   "amgf_amg_", "amgf_factor_", "amgf_filter_", "elasticity_", "penalty_", NULL};
@@ -110,4 +129,17 @@ PetscBool OptionGetKind(const char name[], OptionKind *kind)
   else if (OptionIsOneOf(ours, OptionsWords)) *kind = OPTION_WORD;
   else *kind = OPTION_NUMBER;
   return OptionIsOneOf(ours, OptionsOurs);
+}
+
+/* The words that an option has one of */
+PetscBool OptionGetChoices(const char name[], const char *const **words)
+{
+  const char *ours = name + OptionPrefixLength(name);
+
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(OptionsChoices); ++k) {
+    if (strcasecmp(ours, OptionsChoices[k].name)) continue;
+    *words = OptionsChoices[k].words;
+    return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }

@@ -18,6 +18,7 @@ typedef enum {
 PETSC_INTERN const char *const OptionsOurs[], *const OptionsUsual[];
 PETSC_INTERN PetscBool OptionIsKnown(const char name[]);
 PETSC_INTERN PetscBool OptionGetKind(const char name[], OptionKind *); /* returns false if the option is not ours */
+PETSC_INTERN PetscBool OptionGetChoices(const char name[], const char *const **words); /* false: any word is right */
 PETSC_INTERN size_t    OptionPrefixLength(const char name[]); /* length of an object's prefix before an option of
                                                                  PCAMGF */
 

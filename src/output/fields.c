@@ -147,14 +147,14 @@ PetscErrorCode OutputWriteMesh(Output output)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteDisplacement(Output output, Vec displacement, PetscViewer viewer)
+static PetscErrorCode FieldsWriteGlobal(Output output, const char name[], Vec values, PetscViewer viewer)
 {
   Vec field;
 
   PetscFunctionBegin;
   /* a plain vector, since those of a DMPlex are written in PETSc's own layout */
-  PetscCall(DatasetCreate(output->comm, "displacement", output->nowned, 3, &field));
-  PetscCall(VecCopy(displacement, field));
+  PetscCall(DatasetCreate(output->comm, name, output->nowned, 3, &field));
+  PetscCall(VecCopy(values, field));
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
@@ -294,7 +294,8 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
   const PetscReal  time   = state->report->time;
 
   PetscFunctionBegin;
-  PetscCall(FieldsWriteDisplacement(output, state->displacement, viewer));
+  PetscCall(FieldsWriteGlobal(output, "displacement", state->displacement, viewer));
+  if (state->velocity) PetscCall(FieldsWriteGlobal(output, "velocity", state->velocity, viewer));
   PetscCall(StressWriteCells(output, state, viewer));
   PetscCall(StressWriteNodes(output, state, viewer));
   PetscCall(StressWriteQuadrature(output, state, viewer));

@@ -115,6 +115,7 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
   output->plastic = (PetscBool)(state->plastic != NULL);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
+  output->moving = (PetscBool)(state->velocity != NULL);
   for (PetscInt p = 0; p < report->npairs; ++p)
     output->friction = (PetscBool)(output->friction || report->pairs[p].rubs);
   if (report->npairs < 2) PetscFunctionReturn(0);
@@ -144,6 +145,7 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
    Input Parameters:
 +  output - the output, before OutputWrite()
 .  step   - load steps that are done
+.  increment - time of a load step: 1, in dynamics the time step
 -  same   - whether the mesh is laid out as that run's; else its fields are not listed beside the new ones
 
    Level: intermediate
@@ -153,7 +155,7 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
 
 .seealso: `OutputCreate()`, `OutputWrite()`, `CheckpointRead()`
 @*/
-PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
+PetscErrorCode OutputContinue(Output output, PetscInt step, PetscReal increment, PetscBool same)
 {
   char      file[PETSC_MAX_PATH_LEN];
   PetscBool exists;
@@ -163,7 +165,7 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscBool same)
   for (PetscInt s = 1; same && s <= step; ++s) {
     PetscCall(OutputGetStepFile(output, s, file, sizeof(file)));
     PetscCall(OutputTestFile(output->comm, file, &exists));
-    if (exists) PetscCall(OutputAddStep(output, s, (PetscReal)s));
+    if (exists) PetscCall(OutputAddStep(output, s, (PetscReal)s * increment));
   }
   PetscFunctionReturn(0);
 }

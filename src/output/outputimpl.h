@@ -32,6 +32,7 @@ struct _n_Output {
   PetscInt  nindices,
     nindiceslocal;         /* number of integers that describe the cells: 8 nodes each, or in mixed files a kind and its
                       nodes */
+  PetscBool   moving;      /* the velocity is written */
   PetscBool   friction;    /* friction stress and slip are written */
   PetscBool   plastic;     /* plastic strain is written */
   PetscBool   nodes;       /* nodal stress and strain energy are written */
@@ -109,6 +110,7 @@ typedef enum {
   TABLE_FORCES,
   TABLE_PAIRS,
   TABLE_FACES,
+  TABLE_RIGID,
   TABLE_BALANCE,
   TABLE_PLASTICITY,
   TABLE_TRUTH,
@@ -158,8 +160,8 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaFallbacks, SchemaTimes,
-  SchemaLevels, SchemaEffects, SchemaLines;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaFallbacks,
+  SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
 PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);

@@ -68,6 +68,15 @@ static const ReportField face_fields[] = {
 };
 const ReportRecord SchemaFaces = {sizeof(FaceReport), PETSC_TRUE, face_fields};
 
+static const ReportField rigid_fields[] = {
+  FIELD(RigidReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_RIGID, "rigid body", "", -24)}),
+  FIELD(RigidReport, position, FIELD_VECTOR, "length", .columns = {COLUMN(TABLE_RIGID, "position", "", -41)}),
+  FIELD(RigidReport, rotation, FIELD_VECTOR, "degrees",
+    .columns = {COLUMN(TABLE_RIGID, "rotation [degrees]", "", -41)}),
+  END,
+};
+const ReportRecord SchemaRigid = {sizeof(RigidReport), PETSC_TRUE, rigid_fields};
+
 static const ReportField ramp_fields[] = {
   FIELD(RampReport, name, FIELD_TEXT, ""),
   FIELD(RampReport, factor, FIELD_REAL, ""),
@@ -193,6 +202,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
+  FIELD(StepReport, rigid_bodies, FIELD_LIST, "", .count = offsetof(StepReport, nrigid_bodies), .record = &SchemaRigid),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
   FIELD(StepReport, motions, FIELD_LIST, "", .count = offsetof(StepReport, nmotions), .record = &SchemaMotions),
   FIELD(StepReport, balance, FIELD_REAL, "", .columns = {COLUMN(TABLE_FORCES, "balance", "", 9)}),
@@ -211,12 +221,20 @@ const ReportRecord SchemaSteps = {sizeof(StepReport), PETSC_FALSE, step_fields};
 static const ReportField time_fields[] = {
   FIELD(RunTimes, total, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "total", "", 0, .behind = PETSC_TRUE)}),
   FIELD(RunTimes, mesh, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "mesh", "", 0)}),
+  FIELD(RunTimes, setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "set-up", "", 0)}),
   FIELD(RunTimes, assembly, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "assembly", "", 0)}),
-  FIELD(RunTimes, contact, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "contact", "", 0)}),
+  FIELD(RunTimes, contact_search, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "contact search", "", 0)}),
+  FIELD(RunTimes, contact_integrals, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "contact gaps", "", 0)}),
+  FIELD(RunTimes, contact, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "contact, else", "", 0)}),
   FIELD(RunTimes, amg_setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "AMG set-up", "", 0)}),
   FIELD(RunTimes, amg_apply, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "AMG apply", "", 0)}),
   FIELD(RunTimes, filter_setup, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter set-up", "", 0)}),
   FIELD(RunTimes, filter_apply, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "filter apply", "", 0)}),
+  FIELD(RunTimes, directions, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "directions", "", 0)}),
+  FIELD(RunTimes, reduced_factor, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "reduced factor", "", 0)}),
+  FIELD(RunTimes, reduced, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "reduced, else", "", 0)}),
+  FIELD(RunTimes, optimizer, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "optimizer, else", "", 0)}),
+  FIELD(RunTimes, measures, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "measures", "", 0)}),
   FIELD(RunTimes, error_estimate, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "error estimate", "", 0)}),
   FIELD(RunTimes, results, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "results", "", 0)}),
   FIELD(RunTimes, other, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "other", "", 0)}),

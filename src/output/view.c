@@ -17,6 +17,8 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 
   PetscFunctionBegin;
   PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "balance: what is left of all forces on a body, over the sum of their sizes; the largest of the bodies\n"));
   if (last && last->npairs) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(TableViewHead(report, TABLE_PAIRS, &SchemaPairs, 0, viewer));
@@ -26,6 +28,11 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
     PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
+  }
+  if (last && last->nrigid_bodies) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_RIGID, &SchemaRigid, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_RIGID, &SchemaRigid, last->nrigid_bodies, last->rigid_bodies, viewer));
   }
   PetscFunctionReturn(0);
 }
@@ -104,8 +111,8 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy",
-    "discretization error in the energy norm, and the bodies' parts of it"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "error over the energy",
+    "error in the energy norm over that of the displacement, and the bodies' parts of it"));
   PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
   PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
   PetscFunctionReturn(0);

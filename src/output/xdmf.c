@@ -127,6 +127,8 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
     XDMFBeginStep(stream, &output->steps[s]);
     XDMFWriteMeshGrid(stream, output, mesh);
     XDMFWriteAttribute(stream, file, "displacement", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
+    if (output->moving)
+      XDMFWriteAttribute(stream, file, "velocity", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
     PetscCall(XDMFWriteContact(stream, output, file, NULL));
     for (PetscInt p = 0; p < output->npairs; ++p)
       PetscCall(XDMFWriteContact(stream, output, file, output->pairnames[p]));

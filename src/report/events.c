@@ -2,23 +2,39 @@
 #include "reportimpl.h"
 #include <petsctime.h>
 
-PetscLogEvent SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;
+PetscLogEvent SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results;
 
-/* Events of the phases: ours, the preconditioner's, the error estimator's */
+#define NO_PHASE (-1)
+
+/* The events of the phases, and the phase that an event is a part of, whose time it does not count to */
 static const struct {
   const char *event;
-  size_t      time;
+  PetscInt    time, within;
 } phases[] = {
-  {"SimMesh", offsetof(RunTimes, mesh)},
-  {"SimAssembly", offsetof(RunTimes, assembly)},
-  {"SimContact", offsetof(RunTimes, contact)},
-  {"PCAMGFAMGSetUp", offsetof(RunTimes, amg_setup)},
-  {"PCAMGFAMGApply", offsetof(RunTimes, amg_apply)},
-  {"PCAMGFFltSetUp", offsetof(RunTimes, filter_setup)},
-  {"PCAMGFFltApply", offsetof(RunTimes, filter_apply)},
-  {"ElastError", offsetof(RunTimes, error_estimate)},
-  {"SimResults", offsetof(RunTimes, results)},
+  {"SimMesh", offsetof(RunTimes, mesh), NO_PHASE},
+  {"SimSetUp", offsetof(RunTimes, setup), NO_PHASE},
+  {"SimAssembly", offsetof(RunTimes, assembly), NO_PHASE},
+  {"SimEnergy", offsetof(RunTimes, assembly), offsetof(RunTimes, optimizer)},
+  {"ContactLinear", offsetof(RunTimes, contact), NO_PHASE},
+  {"ContactSearch", offsetof(RunTimes, contact_search), offsetof(RunTimes, contact)},
+  {"ContactIntegr", offsetof(RunTimes, contact_integrals), offsetof(RunTimes, contact)},
+  {"PCAMGFAMGSetUp", offsetof(RunTimes, amg_setup), offsetof(RunTimes, optimizer)},
+  {"PCAMGFAMGApply", offsetof(RunTimes, amg_apply), offsetof(RunTimes, optimizer)},
+  {"PCAMGFFltSetUp", offsetof(RunTimes, filter_setup), offsetof(RunTimes, optimizer)},
+  {"PCAMGFFltApply", offsetof(RunTimes, filter_apply), offsetof(RunTimes, optimizer)},
+  {"TaoIPFltDirect", offsetof(RunTimes, directions), offsetof(RunTimes, optimizer)},
+  {"TaoIPFltReduced", offsetof(RunTimes, reduced), offsetof(RunTimes, optimizer)},
+  {"TaoIPFltFactor", offsetof(RunTimes, reduced_factor), offsetof(RunTimes, reduced)},
+  {"SimSolve", offsetof(RunTimes, optimizer), NO_PHASE},
+  {"SimForces", offsetof(RunTimes, measures), NO_PHASE},
+  {"ElastError", offsetof(RunTimes, error_estimate), NO_PHASE},
+  {"SimResults", offsetof(RunTimes, results), NO_PHASE},
 };
+
+static PetscLogDouble *EventsTime(RunTimes *times, PetscInt offset)
+{
+  return (PetscLogDouble *)((char *)times + offset);
+}
 
 PetscErrorCode StepEventsRegister(void)
 {
@@ -30,8 +46,9 @@ PetscErrorCode StepEventsRegister(void)
   registered = PETSC_TRUE;
   PetscCall(PetscClassIdRegister("Simulation", &classid));
   PetscCall(PetscLogEventRegister("SimMesh", classid, &SIM_Mesh));
+  PetscCall(PetscLogEventRegister("SimSetUp", classid, &SIM_SetUp));
   PetscCall(PetscLogEventRegister("SimAssembly", classid, &SIM_Assembly));
-  PetscCall(PetscLogEventRegister("SimContact", classid, &SIM_Contact));
+  PetscCall(PetscLogEventRegister("SimEnergy", classid, &SIM_Energy));
   PetscCall(PetscLogEventRegister("SimSolve", classid, &SIM_Solve));
   PetscCall(PetscLogEventRegister("SimForces", classid, &SIM_Forces));
   PetscCall(PetscLogEventRegister("SimResults", classid, &SIM_Results));
@@ -53,7 +70,8 @@ PetscErrorCode StepEventsRead(RunTimes *times)
     PetscCall(PetscLogEventGetId(phases[i].event, &event));
     if (event < 0) continue;
     PetscCall(PetscLogEventGetPerfInfo(0, event, &info));
-    *(PetscLogDouble *)((char *)times + phases[i].time) = info.time;
+    *EventsTime(times, phases[i].time) += info.time;
+    if (phases[i].within != NO_PHASE) *EventsTime(times, phases[i].within) -= info.time;
   }
   PetscCall(PetscTime(&times->total));
   PetscFunctionReturn(0);
@@ -62,18 +80,17 @@ PetscErrorCode StepEventsRead(RunTimes *times)
 /* Times since `start`, largest over the ranks; "other" is the rest of the total */
 PetscErrorCode StepEventsGetTimes(MPI_Comm comm, const RunTimes *start, RunTimes *times)
 {
-  PetscLogDouble sum = 0.0;
+  const PetscInt        n   = sizeof(*times) / sizeof(PetscLogDouble);
+  const PetscLogDouble *was = (const PetscLogDouble *)start;
+  PetscLogDouble       *now = (PetscLogDouble *)times, sum = 0.0;
 
   PetscFunctionBegin;
   PetscCall(StepEventsRead(times));
-  times->total -= start->total;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(phases); ++i) {
-    PetscLogDouble *time = (PetscLogDouble *)((char *)times + phases[i].time);
-
-    *time -= *(const PetscLogDouble *)((const char *)start + phases[i].time);
-    sum += *time;
+  for (PetscInt i = 0; i < n; ++i) {
+    now[i] = PetscMax(now[i] - was[i], 0.0);
+    sum += now[i];
   }
-  times->other = PetscMax(0.0, times->total - sum);
+  times->other = PetscMax(0.0, 2.0 * times->total - sum); /* the total is in the sum */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, times, (PetscMPIInt)(sizeof(*times) / sizeof(PetscLogDouble)), MPI_DOUBLE,
     MPI_MAX, comm));
   PetscFunctionReturn(0);

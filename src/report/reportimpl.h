@@ -9,7 +9,7 @@
 #include <petsccompat.h>
 
 /* events.c */
-PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_Assembly, SIM_Contact, SIM_Solve, SIM_Forces, SIM_Results;
+PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results;
 PETSC_INTERN PetscErrorCode StepEventsRegister(void);
 PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
 PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);

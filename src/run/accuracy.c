@@ -1,5 +1,6 @@
 /* Chooses tolerances and mesh for a requested accuracy. */
 #include <accuracy.h>
+#include <vector3.h>
 #include <math.h>
 
 #define ACCURACY_RATE \
@@ -284,7 +285,7 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
   for (PetscInt p = 0; p < npairs; ++p) {
     const PetscReal *f = p < step->npairs ? step->pairs[p].force : NULL;
 
-    force[2 * p]     = f ? PetscSqrtReal(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) : 0.0;
+    force[2 * p]     = f ? VectorNorm(f) : 0.0;
     force[2 * p + 1] = f ? step->pairs[p].normal_force : 0.0;
     pressure[p]      = f ? step->pairs[p].pressure : 0.0;
   }

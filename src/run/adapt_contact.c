@@ -1,6 +1,7 @@
 /* Chooses the cells at the contact to refine for the next mesh, as in the last load step: recovery sees neither the
    facets of curved surfaces nor where the faces meet */
 #include "runimpl.h"
+#include <vector3.h>
 
 /* Of each vertex of a face, in its local vector */
 typedef enum {
@@ -79,7 +80,7 @@ static void FacetArea(PetscReal x[4][3], PetscReal area[3])
     d[c] = x[2][c] - x[0][c];
     e[c] = x[3][c] - x[1][c];
   }
-  for (PetscInt c = 0; c < 3; ++c) area[c] = d[(c + 1) % 3] * e[(c + 2) % 3] - d[(c + 2) % 3] * e[(c + 1) % 3];
+  VectorCross(d, e, area);
 }
 
 /* Adds the angles about a face's vertices, and finds whether it is plane */
@@ -109,7 +110,7 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
     PetscCall(MeshGetVertexCoordinates(sim->dm, 4, vertices, x));
     FacetArea(x, area);
     for (PetscInt c = 0; c < 3; ++c) sums[c] += area[c];
-    sums[3] += PetscSqrtReal(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    sums[3] += VectorNorm(area);
     for (PetscInt k = 0; k < 4; ++k) {
       PetscInt offset;
 
@@ -123,8 +124,7 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscCall(DMLocalToGlobal(sim->dm, angles, ADD_VALUES, facts));
   PetscCall(DMRestoreLocalVector(sim->dm, &angles));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
-  *plane = (PetscBool)(PetscSqrtReal(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]) >=
-                       (1.0 - ADAPT_PLANE) * sums[3]);
+  *plane = (PetscBool)(VectorNorm(sums) >= (1.0 - ADAPT_PLANE) * sums[3]);
   PetscFunctionReturn(0);
 }
 

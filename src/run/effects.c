@@ -16,6 +16,7 @@ typedef enum {
   EFFECT_PRESSURE,
   EFFECT_TRACTION,
   EFFECT_BODY_FORCE,
+  EFFECT_INERTIA,
   EFFECT_SPRINGS,
   EFFECT_WEAK_SPRINGS,
   EFFECT_TEMPERATURE,
@@ -41,6 +42,7 @@ static const char *const EffectNames[] = {
   [EFFECT_PRESSURE]      = "pressure",
   [EFFECT_TRACTION]      = "traction",
   [EFFECT_BODY_FORCE]    = "body force",
+  [EFFECT_INERTIA]       = "inertia",
   [EFFECT_SPRINGS]       = "springs",
   [EFFECT_WEAK_SPRINGS]  = "weak springs",
   [EFFECT_TEMPERATURE]   = "thermal strain",
@@ -129,6 +131,11 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     planes));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces",
     scene->nforces));
+  if (SceneIsDynamic(scene))
+    PetscCall(EffectSet(report, EFFECT_INERTIA, PETSC_TRUE, "%" PetscInt_FMT " time steps of %g, scheme %s, mass %s",
+      scene->nsteps, (double)scene->dynamics.time_step, DynamicsSchemes[scene->dynamics.scheme],
+      MassTypes[scene->dynamics.mass]));
+  else PetscCall(EffectSet(report, EFFECT_INERTIA, PETSC_FALSE, "no dynamics: a static analysis"));
   if (scene->displacement_bounds)
     PetscCall(
       EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));

@@ -42,7 +42,17 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(TiesCreate(&constraints));
   PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->dynamics));
   if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path.outside));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SimulationSetUpTangent(Simulation sim)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscBool         linear;
+
+  PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(TiesCreateTangent(&constraints, &sim->K));
   if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -114,14 +124,19 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
+  PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));
   PetscCall(VecSet(sim->path.u, 0.0));
   PetscCall(VecDuplicate(sim->path.u, &sim->path.previous_u));
   PetscCall(VecSet(sim->path.previous_u, 0.0));
   PetscCall(SimulationSetUpElasticity(sim));
+  PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
+  PetscCall(SimulationSetUpTangent(sim));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
+  PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscCall(SimulationSetUpContact(sim));
   PetscCall(ForecastSetUp(sim));
   PetscCall(SimulationSetUpReport(sim));
+  PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

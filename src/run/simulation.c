@@ -242,6 +242,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].probes));
     PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
+    PetscCall(PetscFree(s->report.steps[i].rigid_bodies));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));

@@ -115,6 +115,11 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
         "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
         "be dead, or the pair without friction",
         file, here->name, scene->pressures[q].name);
+    SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
+                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairRubs(here)),
+      "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
+      "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
+      file, here->name);
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name,
       here->mortar);

@@ -13,11 +13,13 @@ static PetscErrorCode KeyDescribeType(const SceneKey *row, char type[], size_t l
   type[0] = 0;
   if (row->type == SCENE_REALS || row->type == SCENE_INTS)
     PetscCall(PetscSNPrintf(type, length, "%s%s%s%s", counts[row->n], what, row->n > 1 ? "s" : "",
-      row->range == SCENE_ABOVE_0  ? " above 0"
-      : row->range == SCENE_FROM_0 ? ", not negative"
-                                   : ""));
+      row->range == SCENE_ABOVE_0     ? " above 0"
+      : row->range == SCENE_FROM_0    ? ", not negative"
+      : row->range == SCENE_UNBOUNDED ? " or `inf`"
+                                      : ""));
   else if (row->type == SCENE_ANSWER) PetscCall(PetscStrncpy(type, "`true` or `false`", length));
   else if (row->type == SCENE_TEXT) PetscCall(PetscStrncpy(type, "a text", length));
+  else if (row->type == SCENE_EXPRESSION) PetscCall(PetscStrncpy(type, "an expression", length));
   else if (row->type == SCENE_BODY) PetscCall(PetscStrncpy(type, "a body's name", length));
   else if (row->type == SCENE_RAMP) PetscCall(PetscStrncpy(type, "a ramp's name", length));
   else if (row->type == SCENE_OWN) PetscCall(PetscStrncpy(type, "see there", length));

@@ -3,22 +3,11 @@
 #include "stepimpl.h"
 #include <math.h>
 
-/* Linearizes the gap of all contact pairs at u, with the faces where they are: no ramp of an initial overlap is
-   applied. */
-static PetscErrorCode AttemptLinearizeFaces(Simulation sim, Vec u, ContactLinearization *lin)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscCall(ContactLinearize(sim->contact, u, lin));
-  PetscCall(PetscLogEventEnd(SIM_Contact, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
 /* Linearizes the gap at u for a load step that ends at `time`: ramps of initial overlaps are applied. */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(AttemptLinearizeFaces(sim, u, lin));
+  PetscCall(ContactLinearize(sim->contact, u, lin));
   PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
@@ -45,7 +34,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (rescued) nsolves = 0;
   } while (again || rescued);
   PetscCall(WeakSpringsTest(p, u, report));
-  PetscCall(RigidTest(&constraints, u, report));
+  PetscCall(RigidTest(&constraints, (PetscBool)(!p->J || p->sim->scene->contact_updates > 1), u, report));
+  report->straightened = 0.0;
+  if (report->converged) PetscCall(TiesStraighten(&constraints, u, &report->straightened));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -72,7 +63,29 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscFunctionReturn(0);
 }
 
-/* du = u - u_linearized; moved: its largest component [length] */
+/* Without contact. Rigid bodies that turn freely are linearized again until their rotation is finite */
+static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
+{
+  const PetscInt most = 50;
+  PetscReal      size;
+  PetscBool      again = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; !k || again; ++k) {
+    if (k || foreseen) PetscCall(StepProblemTurn(p, u));
+    PetscCall(AttemptSolve(p, (PetscBool)(foreseen || k), u, report, sol));
+    PetscCall(VecNorm(u, NORM_INFINITY, &size));
+    again = (PetscBool)(report->converged &&
+                        report->straightened > PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12) * size);
+    if (k < most || !again) continue;
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "rigid bodies that turn freely come to no rest: use smaller load steps"));
+    again = PETSC_FALSE;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* What has moved since the linearization, and by how much at most */
 static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal *moved)
 {
   PetscFunctionBegin;
@@ -153,6 +166,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
 
   PetscFunctionBegin;
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
+  PetscCall(StepProblemTurn(p, u_linearized));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
     if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->linearization));
@@ -225,7 +239,32 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
   PetscFunctionReturn(0);
 }
 
-/* Warns of damped contact updates, once in a run */
+/* Faces that went right through one another since the last state have no contact at u, and never had any on the way.
+   That takes motions of at least the depth that is searched */
+static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *report)
+{
+  PetscReal moved, reach, depth;
+  Vec       du;
+  char      sentence[256];
+
+  PetscFunctionBegin;
+  if (!report->converged) PetscFunctionReturn(0);
+  PetscCall(AttemptMotion(sim->path.u, u, &du, &moved));
+  PetscCall(VecDestroy(&du));
+  for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
+    const SceneContactPair *pair = &sim->scene->pairs[p];
+
+    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path.u, u, &depth, &reach));
+    if (depth <= reach) continue;
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
+      pair->name, pair->mortar, pair->nonmortar, (double)depth));
+    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Once a run */
 static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
@@ -240,10 +279,23 @@ static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Moves u_linearized to the next point of linearization, and sim->linearization with it. On entry `at_u` is the
-   linearization at u; it is used if u is that point, else destroyed. */
-static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpdateSecants *secants, Vec u,
-  Vec u_linearized, StepReport *report, ContactLinearization *at_u)
+/* Between displacements there is none of rigid bodies that turn */
+static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
+{
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscReal         change;
+
+  PetscFunctionBegin;
+  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  PetscCall(StepProblemTurn(p, u));
+  PetscCall(TiesFollow(&p->sim->ties, u));
+  PetscCall(TiesStraighten(&constraints, u, &change));
+  PetscFunctionReturn(0);
+}
+
+/* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
+static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants, Vec u, Vec u_linearized,
+  StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution;
@@ -256,6 +308,7 @@ static PetscErrorCode AttemptNextLinearization(const StepProblem *p, ContactUpda
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
   if (!at_solution) {
     PetscCall(ContactLinearizationDestroy(at_u));
+    PetscCall(AttemptMakeRigid(p, u_linearized));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
   }
   sim->linearization = *at_u;
@@ -474,7 +527,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   Vec                  u, inertia;
 
   PetscFunctionBegin;
-  if (sim->contact && !sim->upcoming) PetscCall(AttemptLinearizeFaces(sim, sim->path.u, &sim->upcoming));
+  if (sim->contact && !sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
   if (sim->contact && sim->path.time == 0.0 && !report->cuts && !sim->forecast.failed) {
     PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
     PetscCall(StartWarn(sim, sim->upcoming));
@@ -487,7 +540,8 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (sim->contact) {
     PetscCall(AttemptBegin(sim, time, foreseen, u));
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
-  } else PetscCall(AttemptSolve(&p, foreseen, u, report, &sol));
+    PetscCall(AttemptFindPassed(sim, u, report));
+  } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {

@@ -1,5 +1,6 @@
 /* Rejects solutions in which weak springs carry a notable load or a body moves far: nothing else holds that body. */
 #include "stepimpl.h"
+#include <vector3.h>
 
 /* Largest force of a body's weak springs, as a fraction of the sum of the magnitudes of its nodal loads */
 static const PetscReal weak_springs_share = 0.01;
@@ -45,7 +46,7 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
   PetscCall(PetscMalloc1(4 * scene->nbodies, &carried));
   PetscCall(WeakSpringsMeasure(p->sim, u, p->load, carried));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
-    const PetscReal *c = &carried[4 * b], force = PetscSqrtReal(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+    const PetscReal *c = &carried[4 * b], force = VectorNorm(c);
     char             reason[256];
 
     PetscCall(PetscSNPrintf(reason, sizeof(reason),

@@ -6,6 +6,9 @@
    accepted */
 static const PetscReal askew = 1e-2;
 
+/* What the end of a free rotation that is off counts for: elastic faces tied to the body take it as a strain */
+static const PetscReal tied = 1e4;
+
 /*
    Rotation of the normals between sim->linearization and at_u: over all pairs the largest sum_r p_r m_r |n' - n| /
    sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->linearization, or negative
@@ -48,15 +51,19 @@ static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
   ContactLinearization solved = sim->linearization;
+  const Bodies         bodies = SimulationBodies(sim);
   const PetscScalar   *s, *a;
   PetscReal            worst = 0.0;
+  PetscBool            turned;
   Vec                  way, slip;
 
   PetscFunctionBegin;
   *change = 0.0;
   if (!sol->slip) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &way));
-  PetscCall(VecWAXPY(way, -1.0, sim->path.u, u));
+  PetscCall(ArcsGetExcess(&bodies, sim->path.u, u, way, &turned));
+  if (!turned) PetscCall(VecZeroEntries(way));
+  PetscCall(VecAXPBYPCZ(way, 1.0, -1.0, 1.0, u, sim->path.u));
   PetscCall(MatCreateVecs(at_u->slip, NULL, &slip));
   PetscCall(MatMult(at_u->slip, way, slip));
   PetscCall(VecGetArrayRead(slip, &s));
@@ -79,9 +86,9 @@ static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* Compares the linearization at_u at the solution u with sim->linearization, by which u was found.
-   report->gap_change must be set. Sets normals_turn, slip_change, and untruth = max(gap_change, slip_change, askew
-   normals_turn max|u|) [length] */
+/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
+   normals, the change of the slip, and untruth, which all three, and what free rotations are off, are worth as changes
+   of the gap */
 PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
@@ -95,5 +102,6 @@ PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSol
   PetscCall(ContactUpdateTruthMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
   PetscCall(PetscFree(row));
   report->untruth = PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
+  report->untruth = PetscMax(report->untruth, tied * report->straightened);
   PetscFunctionReturn(0);
 }

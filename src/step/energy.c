@@ -25,9 +25,9 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscFunctionBegin;
   (void)tao;
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
   if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
   if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->sim->dynamics, u, f, NULL));
@@ -49,9 +49,9 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
     PetscCall(VecZeroEntries(G));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityForce(p->sim->elasticity, u, G));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, G));
   PetscCall(SchemeAddForce(&p->sim->dynamics, u, &energy, G));
@@ -70,9 +70,43 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   PetscFunctionBegin;
   (void)tao, (void)Hpre;
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(TiesTangent(&constraints, u, H));
   PetscCall(ProximalAddStiffness(p, H));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Ends a solve that plastic flow keeps from an equilibrium. Plastic work grows in proportion to the displacement and
+   the elastic energy does not, so that the objective has a minimum unless the loads do more work on the flow than it
+   takes. They do where the objective is below that of the last state although the plastic work is a large multiple of
+   the elastic energy (the kinematic theorem of limit analysis). Prescribed displacements that move may require such a
+   plastic work, and are left alone.
+*/
+PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
+{
+  StepProblem       *p        = (StepProblem *)ctx;
+  const PetscReal    multiple = 1e3;
+  const PetscInt     patience = 2;
+  Vec                iterate, u;
+  PetscReal          stored, work, f, rest;
+  PetscInt           body;
+  PetscBool          still;
+  TaoConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  if (reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
+  PetscCall(TaoGetSolution(tao, &iterate));
+  PetscCall(EnergyGetState(p, iterate, &u));
+  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored, &work, &body));
+  if (!(work > multiple * stored)) PetscFunctionReturn(0);
+  PetscCall(VecEqual(p->base, p->sim->path.u, &still));
+  PetscCall(EnergyObjective(tao, iterate, &f, p));
+  PetscCall(EnergyObjective(tao, p->sim->path.u, &rest, p));
+  if (!still || !(f < rest) || ++p->nflows < patience) PetscFunctionReturn(0);
+  p->flowing = p->sim->scene->bodies[body].name;
+  PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
   PetscFunctionReturn(0);
 }

@@ -20,10 +20,12 @@ static PetscBool FollowersAny(Scene scene)
    [force/length] */
 static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
 {
-  Simulation sim = p->sim;
+  Simulation        sim         = p->sim;
+  const Constraints constraints = SimulationConstraints(sim);
 
   PetscFunctionBegin;
   PetscCall(DeadLoadsGet(&sim->loads, p->time, load));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, *load));
   if (!*load) {
     PetscCall(VecDuplicate(u, load));
     PetscCall(VecZeroEntries(*load));
@@ -66,7 +68,15 @@ PetscErrorCode FollowersBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Discards the secants of the follower loads: they belong to another contact gap */
+/* The dead loads have changed */
+PetscErrorCode FollowersTurn(StepProblem *p)
+{
+  PetscFunctionBegin;
+  if (p->followed) PetscCall(FollowersLinearize(p));
+  PetscFunctionReturn(0);
+}
+
+/* Secants are those of one problem: the next one's gap is another */
 PetscErrorCode FollowersForget(StepProblem *p)
 {
   PetscFunctionBegin;

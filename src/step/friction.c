@@ -36,11 +36,13 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
-/* slip = T u + t = T (u - base) + T_full (base - path.u). T is T_full without prescribed columns; mask: 0 in these
-   columns, 1 elsewhere */
-PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec mask)
+/* slip = T (u - base) + T_full (base - path.u), T without prescribed columns; mask: 0 there, 1 elsewhere. Of bodies
+   that turn the way to u_linearized is along arcs */
+PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_linearized, Vec mask)
 {
-  StepFriction *f = &p->friction;
+  const Bodies  bodies = SimulationBodies(p->sim);
+  StepFriction *f      = &p->friction;
+  PetscBool     turned;
   Vec           moved;
 
   PetscFunctionBegin;
@@ -55,6 +57,8 @@ PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec mask)
   PetscCall(MatMult(lin->slip, p->w, f->t));
   PetscCall(MatMult(f->T, p->base, moved));
   PetscCall(VecAXPY(f->t, -1.0, moved));
+  PetscCall(ArcsGetExcess(&bodies, p->sim->path.u, u_linearized, p->w, &turned));
+  if (turned) PetscCall(MatMultAdd(lin->slip, p->w, f->t, f->t));
   PetscCall(VecDestroy(&moved));
   PetscCall(VecDuplicate(lin->g, &f->limit));
   PetscCall(VecDuplicate(lin->g, &f->coefficient));

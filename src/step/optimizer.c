@@ -49,6 +49,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoSetObjective(*tao, EnergyObjective, p));
     PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, EnergyObjectiveAndGradient, p));
     PetscCall(TaoSetHessian(*tao, p->K, p->K, EnergyHessian, p));
+    if (!SimulationIsDynamic(sim)) PetscCall(TaoMonitorSet(*tao, EnergyTestFlow, p, NULL));
   }
   if (p->J) {
     PetscCall(VecDuplicate(p->g, &c));
@@ -184,6 +185,20 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *report)
+{
+  char reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "no equilibrium exists at time %g: body \"%s\" flows plastically, for the load is beyond the collapse load; the "
+    "last "
+    "equilibrium is at time %g",
+    (double)p->time, p->flowing, (double)p->sim->path.time));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u,
   StepReport *report)
 {
@@ -196,7 +211,8 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
-  if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
+  if (reason < 0 && p->flowing) PetscCall(OptimizerReportFlow(p, report));
+  else if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));

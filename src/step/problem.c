@@ -1,41 +1,33 @@
 /* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
 #include "stepimpl.h"
 
-/*
-   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
-   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
-   energy the callbacks assemble the tangent at each iterate.
-*/
-PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
+/* Where bodies turn freely, the base and the loads are those about u */
+static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
 {
+  Simulation        sim         = p->sim;
   const Constraints constraints = SimulationConstraints(sim);
-  PetscScalar       work        = 0.0;
-  PetscBool         linear, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscMemzero(p, sizeof(*p)));
-  p->sim  = sim;
-  p->time = time;
-  PetscCall(PetscObjectReference((PetscObject)sim->K));
-  p->K = sim->K;
-  PetscCall(VecDuplicate(sim->path.u, &p->base));
-  PetscCall(VecDuplicate(sim->path.u, &p->w));
   PetscCall(VecCopy(sim->path.u, p->base));
-  PetscCall(PrescribedApply(&sim->prescribed, time, p->base));
-  PetscCall(TiesMove(&constraints, time));
+  PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
+  PetscCall(TiesTurn(&constraints, p->time, sim->path.u, u, anew));
   PetscCall(TiesFollow(&sim->ties, p->base));
-  PetscCall(DeadLoadsGet(&sim->loads, time, &p->load));
-  PetscCall(TemperaturesApply(&sim->temperatures, time));
-  PetscCall(FollowersBegin(p));
-  PetscCall(ProximalBegin(p));
-  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
-  if (!sim->quadratic) PetscFunctionReturn(0);
+  PetscCall(VecDestroy(&p->load));
+  PetscCall(DeadLoadsGet(&sim->loads, p->time, &p->load));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
+  PetscFunctionReturn(0);
+}
 
-  PetscCall(VecDuplicate(sim->path.u, &p->force));
-  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
+/* Energy, gradient and, if anew, the tangent of the quadratic model at the base */
+static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
+{
+  Simulation        sim         = p->sim;
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscScalar       work        = 0.0;
+
+  PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear || changed) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (anew) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -47,6 +39,51 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(SchemeAddForce(&sim->dynamics, p->base, &p->energy, p->force));
   PetscCall(TiesGather(&sim->ties, p->force));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
+   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
+   energy the callbacks assemble the tangent at each iterate.
+*/
+PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
+{
+  PetscBool linear, anew, changed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(p, sizeof(*p)));
+  p->sim  = sim;
+  p->time = time;
+  PetscCall(PetscObjectReference((PetscObject)sim->K));
+  p->K = sim->K;
+  PetscCall(VecDuplicate(sim->path.u, &p->base));
+  PetscCall(VecDuplicate(sim->path.u, &p->w));
+  PetscCall(StepProblemSetBase(p, sim->path.u, &anew));
+  PetscCall(TemperaturesApply(&sim->temperatures, time));
+  PetscCall(FollowersBegin(p));
+  PetscCall(ProximalBegin(p));
+  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
+  if (!sim->quadratic) PetscFunctionReturn(0);
+
+  PetscCall(VecDuplicate(sim->path.u, &p->force));
+  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || changed || !linear)));
+  PetscFunctionReturn(0);
+}
+
+/* Rigid bodies that turn freely are linearized about u */
+PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
+{
+  PetscBool anew;
+
+  PetscFunctionBegin;
+  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  PetscCall(StepProblemSetBase(p, u, &anew));
+  PetscCall(FollowersTurn(p));
+  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || SimulationIsDynamic(p->sim))));
+  PetscCall(ProximalTurn(p, u));
   PetscFunctionReturn(0);
 }
 
@@ -68,7 +105,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecSet(mask, 1.0));
   PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
   PetscCall(MatDiagonalScale(p->J, NULL, mask));
-  PetscCall(FrictionSetUp(p, lin, mask));
+  PetscCall(FrictionSetUp(p, lin, u_linearized, mask));
   PetscCall(VecDestroy(&mask));
   PetscFunctionReturn(0);
 }

@@ -50,6 +50,16 @@ PetscErrorCode ProximalBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
+/* The base has changed; about u */
+PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
+{
+  PetscFunctionBegin;
+  if (!p->centre) PetscFunctionReturn(0);
+  PetscCall(VecCopy(p->base, p->centre));
+  PetscCall(ProximalCentre(p, u));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode ProximalEnd(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -76,7 +86,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   Mat             K;
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld &&
+  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld && !p->flowing &&
                        !p->sim->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));

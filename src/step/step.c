@@ -28,16 +28,20 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
 static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, StepState *state)
 {
   PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscFree(sim->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
   PetscCall(ContactPointsMeasure(sim, report));
+  PetscCall(RigidPlacesMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
   if (report->converged) PetscCall(StrainWarn(sim, report->step - 1));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(ResultsMeasure(sim));
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
     .report            = report,
     .displacement      = sim->path.u,
+    .velocity          = sim->dynamics.velocity,
     .stress            = sim->stress,
     .nodal             = sim->results.nodal,
     .plastic           = sim->results.plastic,

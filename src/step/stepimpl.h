@@ -72,6 +72,8 @@ typedef struct {
                                      load step */
   PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
   PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
+  PetscInt             nflows;       /* iterates that show plastic flow */
+  const char          *flowing;      /* the body that it shows in, so that there is no equilibrium; NULL: none */
   Vec                  w, Kw;
 
   StepFriction friction;
@@ -84,6 +86,7 @@ static inline PetscReal StepProblemShare(const StepProblem *p)
 }
 
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
+PETSC_INTERN PetscErrorCode StepProblemTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
@@ -93,12 +96,14 @@ PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
 /* followers.c */
 PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode FollowersTurn(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersForget(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
 /* proximal.c */
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
+PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
 PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
@@ -106,7 +111,7 @@ PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *e
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
 /* friction.c */
-PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec mask);
+PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec u_linearized, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
@@ -119,6 +124,7 @@ PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *,
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
+PETSC_INTERN PetscErrorCode EnergyTestFlow(Tao, void *); /* a monitor */
 
 /* PETSC_INFINITY is a finite floating point number, so PetscIsInfOrNanReal() does not detect it */
 static inline PetscBool EnergyIsFinite(PetscReal energy)

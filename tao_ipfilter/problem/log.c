@@ -1,8 +1,8 @@
 /* Events of -log_view. */
 #include "problemimpl.h"
 
-PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterAppend,
-  TAO_IPFilterReduced;
+PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterDirections,
+  TAO_IPFilterReduced, TAO_IPFilterFactor;
 
 static PetscBool registered = PETSC_FALSE;
 
@@ -22,8 +22,9 @@ PetscErrorCode IPLogRegister(void)
   PetscCall(PetscLogEventRegister("TaoIPFltCondens", TAO_CLASSID, &TAO_IPFilterCondense));
   PetscCall(PetscLogEventRegister("TaoIPFltSolve", TAO_CLASSID, &TAO_IPFilterSolve));
   PetscCall(PetscLogEventRegister("TaoIPFltApply", TAO_CLASSID, &TAO_IPFilterApply));
-  PetscCall(PetscLogEventRegister("TaoIPFltAppend", TAO_CLASSID, &TAO_IPFilterAppend));
+  PetscCall(PetscLogEventRegister("TaoIPFltDirect", TAO_CLASSID, &TAO_IPFilterDirections));
   PetscCall(PetscLogEventRegister("TaoIPFltReduced", TAO_CLASSID, &TAO_IPFilterReduced));
+  PetscCall(PetscLogEventRegister("TaoIPFltFactor", TAO_CLASSID, &TAO_IPFilterFactor));
   PetscCall(PetscRegisterFinalize(LogFinalize));
   registered = PETSC_TRUE;
   PetscFunctionReturn(0);

@@ -9,7 +9,7 @@
 
 /* log.c */
 PETSC_INTERN PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply,
-  TAO_IPFilterAppend, TAO_IPFilterReduced;
+  TAO_IPFilterDirections, TAO_IPFilterReduced, TAO_IPFilterFactor;
 PETSC_INTERN PetscErrorCode IPLogRegister(void);
 
 /* work.c */

@@ -425,8 +425,11 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscFunctionBegin;
   PetscCall(IPReducedIsOf(r, K, definite));
   if (*definite) PetscCall(ISEqual(r->W, W, definite));
-  if (!*definite) PetscCall(ReducedSetSpace(r, K, W, x, basis, definite));
-  else if (r->generation != basis->generation) r->system.k = r->companions.n;
+  if (!*definite) {
+    PetscCall(PetscLogEventBegin(TAO_IPFilterFactor, K, NULL, NULL, NULL));
+    PetscCall(ReducedSetSpace(r, K, W, x, basis, definite));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterFactor, K, NULL, NULL, NULL));
+  } else if (r->generation != basis->generation) r->system.k = r->companions.n;
   r->generation = basis->generation;
   if (*definite) PetscCall(ReducedSetRows(r, ops, J, terms, c, definite));
   if (!*definite) PetscCall(IPReducedDestroy(r));

@@ -267,12 +267,16 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
     kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
     if (!kept->held) PetscCall(KeptSetUpFree(tao, kept, K, possible));
     if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));
+    PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
     PetscCall(IPBasisMultiply(&kept->basis, K));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   } else PetscCall(IPSubspaceStateReconsider(tao, kept, kept->napplications, possible));
   kept->K_id    = ((PetscObject)K)->id;
   kept->K_state = state;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
   PetscCall(IPBasisRestrict(&kept->basis, K, IPFilteredOf(tao)->W));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -153,7 +153,9 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
   PetscCall(IPReducedCoupling(f->reduced, basis, E));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(IPBasisCompress(basis, best, last, E));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
@@ -232,9 +234,9 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
   PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
-    PetscCall(PetscLogEventBegin(TAO_IPFilterAppend, tao, d, NULL, NULL));
+    PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, d, NULL, NULL));
     PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
-    PetscCall(PetscLogEventEnd(TAO_IPFilterAppend, tao, d, NULL, NULL));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, d, NULL, NULL));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
   if (!*extended) PetscFunctionReturn(0);

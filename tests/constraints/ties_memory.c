@@ -2,6 +2,7 @@ static char help[] = "The matrix of ties has room for its entries and no more.\n
 
 #include "src/state/stateimpl.h"
 #include <step.h>
+#include "../lib/scene_text.h"
 
 static const char scene_text[] =
   "bodies:\n  - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [6, 6, 6], young: 1, poisson: 0.3}\n"
@@ -9,26 +10,8 @@ static const char scene_text[] =
   "displacements:\n  - foot: {face: low.zmin, value: [0, 0, 0]}\n"
   "ties:\n  - glue: {mortar: low.zmax, nonmortar: top.zmin}\n";
 
-static PetscErrorCode WriteScene(const char file[])
-{
-  PetscMPIInt rank;
-  FILE       *stream;
-
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (!rank) {
-    stream = fopen(file, "w");
-    PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write %s", file);
-    fputs(scene_text, stream);
-    fclose(stream);
-  }
-  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
-  PetscFunctionReturn(0);
-}
-
 int main(int argc, char **argv)
 {
-  const char file[] = "ties_memory.yaml";
   Scene      scene;
   Simulation sim;
   MatInfo    info;
@@ -36,8 +19,7 @@ int main(int argc, char **argv)
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  PetscCall(WriteScene(file));
-  PetscCall(SceneLoad(PETSC_COMM_WORLD, file, &scene));
+  PetscCall(SceneLoadText("ties_memory.yaml", scene_text, &scene));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
   PetscCall(SimulationSetUp(sim));
   PetscCall(MatGetSize(sim->ties.C, &rows, NULL));

@@ -34,3 +34,16 @@ for name in "approach", "finite", "loaded", "rigid", "limited", "approach_interi
     good = good and max(errors) < 0.5  # what is relative to the energy of a body without stress would be anything
     print(name + ":", "open, then closed, in balance" if good else "NO, " + str(([(s["balance"], s["equilibrium"], s["pairs"][0]["normal_force"]) for s in steps], errors)))
 CHECK
+# A lid that is pressed through a cube, to below its foot, in one load step: the faces must not pass each other unseen
+cat > through.yaml << 'SCENE'
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 10, poisson: 0.3}
+  - lid: {lower: [-0.5, -0.5, 1.1], upper: [1.5, 1.5, 1.4], cells: [2, 2, 1], material: rigid}
+displacements:
+  - foot: {face: cube.zmin, value: [0, 0, 0]}
+  - press: {body: lid, value: [0, 0, -2]}
+contact:
+  - touch: {mortar: lid.zmin, nonmortar: cube.zmax}
+SCENE
+"$AMGF_DIR/bin/contact" through.yaml -quiet 2>&1 | grep -o '^contact: load step 1 failed: contact pair "touch": lid.zmin and cube.zmax go through each other within the load step'
+echo "exit code ${PIPESTATUS[0]}"

@@ -26,6 +26,11 @@ lists = {"Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": 
 kinds = {kind: re.findall(r'"(\w+)"', re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1]) for kind in set(lists.values())}
 print("of another kind than asked for:", ", ".join(sorted({name for call, name in calls if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
 print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name for _, name in calls})) or "none")
+choices = {name: re.findall(r'"(\w+)"', words) for name, words in re.findall(r'\{"(\w+)", \{([^}]*), NULL\}\}', code("src/options/known.c"))}
+enumerated = {name for call, name in calls if call in ("Enum", "EList")}
+print("enumerated, and without a list of words:", ", ".join(sorted(enumerated ^ set(choices))) or "none")
+arrays = [re.findall(r'"(\w+)"', words) for words in re.findall(r"\*const \w+\[\] *= \{(.*?)\}", sources, flags=re.S)]
+print("with other words than the sources have:", ", ".join(name for name, words in choices.items() if not any(words == array[: len(words)] and len(array) in (len(words), len(words) + 2) for array in arrays)) or "none")
 users = "".join(open(path, errors="replace").read() for folder in ("tests", "share") for path in glob.glob(os.path.join(TOP, folder, "**", "*.*"), recursive=True)
                 if path.endswith((".c", ".sh", ".py", ".opts", ".yaml", ".md")) and not path.endswith("changelog.md")) + open(os.path.join(TOP, "README.md")).read()
 print("set by no test and no page:", ", ".join(name for name in listed if not re.search(r"(-|\b)%s\b" % name if name.startswith(("tao_", "pc_amgf_", "contact_")) else r"-%s\b" % name, users)) or "none")

@@ -40,6 +40,8 @@ try -tao_ipfilter_pc_amgf_filter_ranks many
 try -quiet nofile
 try -tao_ipfilter_monitor 3x
 try -contact_gap wide
+try -tao_ipfilter_pc_amgf_cycle bbf
+try -load_steps 1 -tao_ipfilter_subspace maybe
 try -elasticity_mat_type xyz
 try -load_steps 1 -traceback maybe
 sed 's/^solver:.*//' "$scene" > solver.yaml

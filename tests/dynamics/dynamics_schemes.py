@@ -53,6 +53,7 @@ if sys.argv[1:] == ["scenes"]:
     for name, (body, dynamics) in REFUSED.items():
         open(f"refused_{name}.yaml", "w").write(BODY.format(body=body, dynamics=dynamics))
     open("refused_static.yaml", "w").write(BODY.format(body=", initial_velocity: [1, 0, 0]", dynamics="").replace("dynamics: {}\n", ""))
+    open("refused_mass.yaml", "w").write(WALL.format(scheme="generalized_alpha", radius=0.8, mass="lumped"))
     open("refused_steps.yaml", "w").write(BODY.format(body=", density: 1", dynamics="time_step: 1, end_time: 2") + "load: {steps: 3}\n")
 else:
     for name in SCHEMES:

@@ -19,4 +19,4 @@ done
 "$contact" peg.yaml -quiet -output again -load_steps 1
 echo "a run of one step after one of three:" again*
 cp again_0001.h5 again_0002.h5 # as an older run leaves it that was killed
-PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B -c 'import run_files; print("load steps to draw:", run_files.Run("again").files)'
+PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files; print("load steps to draw:", Files("again").files)'

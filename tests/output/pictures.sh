@@ -33,6 +33,6 @@ for refused in "--step 7" "--only base,lid" "--only 2" "--field heat" "--field s
   draw boxes no.png $refused 2>&1 && echo "$refused: drawn"
 done
 draw nothing no.png 2>&1 || ls no.png 2> /dev/null
-PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B -c 'from run_files import Run
+PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
 for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density"):
-    print(field, Run("boxes").unit(field))'
+    print(field, Files("boxes").unit(field))'

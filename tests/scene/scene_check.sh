@@ -15,3 +15,11 @@ echo "wrong: exit $?"
 sed '/wall/d' "$AMGF_DIR/share/scenes/cantilever.yaml" > loose.yaml
 "$contact" loose.yaml -scene_check > out 2>&1
 echo "loose: exit $?"; cat out
+# An assembly of 300 bodies: more keys than PETSc's options database holds
+{
+  echo "bodies:"
+  for i in $(seq 300); do echo "  - block$i: {lower: [$((2 * i)), 0, 0], upper: [$((2 * i + 1)), 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3}"; done
+  echo "displacements:"
+  for i in $(seq 300); do echo "  - foot$i: {face: block$i.zmin, value: [0, 0, 0]}"; done
+} > assembly.yaml
+"$AMGF_DIR/bin/contact" assembly.yaml -scene_check | grep -c '^  displacement foot'

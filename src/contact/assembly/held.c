@@ -170,17 +170,17 @@ static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisp
 {
   PetscReal n[3] = {plane->normal[0], plane->normal[1], plane->normal[2]};
 
-  (void)ContactScaleToUnit(n);
-  return ContactDot(n, &s->reference[3 * i]);
+  (void)VectorScaleToUnit(n);
+  return VectorDot(n, &s->reference[3 * i]);
 }
 
 static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacement *b)
 {
   PetscReal m[3] = {a->normal[0], a->normal[1], a->normal[2]}, n[3] = {b->normal[0], b->normal[1], b->normal[2]};
 
-  (void)ContactScaleToUnit(m);
-  (void)ContactScaleToUnit(n);
-  return (PetscBool)(PetscAbsReal(ContactDot(m, n)) > 1.0 - held_rounding);
+  (void)VectorScaleToUnit(m);
+  (void)VectorScaleToUnit(n);
+  return (PetscBool)(PetscAbsReal(VectorDot(m, n)) > 1.0 - held_rounding);
 }
 
 /*
@@ -199,7 +199,7 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 4 * mortar->nfacets && !found; ++i) {
     const SceneDisplacement *other = planes[i] ? &contact->displacements[planes[i] - 1] : NULL;
-    const PetscReal          sign  = other && ContactDot(plane->normal, other->normal) < 0.0 ? -1.0 : 1.0;
+    const PetscReal          sign  = other && VectorDot(plane->normal, other->normal) < 0.0 ? -1.0 : 1.0;
 
     found = other && HeldParallel(plane, other) && PetscAbsReal(sign * HeldOffset(mortar, i, other) - offset) <= margin;
   }

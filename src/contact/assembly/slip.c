@@ -12,7 +12,7 @@ static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], Petsc
   const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
 
   for (PetscInt c = 0; c < 3; ++c) t[c] = v[c] - along * n[c];
-  return (PetscBool)(ContactScaleToUnit(t) > least);
+  return (PetscBool)(VectorScaleToUnit(t) > least);
 }
 
 static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal t[3])
@@ -28,7 +28,7 @@ static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal
 static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
 {
   if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
-  ContactCross(t + 3, n, t);
+  VectorCross(t + 3, n, t);
   for (PetscInt d = 0; d < 3; ++d) t[3 + d] = 0.0;
   return PETSC_TRUE;
 }
@@ -45,7 +45,7 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
   for (PetscInt c = 0; c < 3; ++c)
     if (held >> c & 1 && SlipTangentAlong(n, c, along)) axis = c;
   (void)SlipTangentAlong(n, axis, t + 3);
-  ContactCross(t + 3, n, t);
+  VectorCross(t + 3, n, t);
   for (PetscInt c = 0; c < 3; ++c) {
     if (!(held >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
     for (PetscInt d = 0; d < 3; ++d) t[(c == axis ? 3 : 0) + d] = 0.0;
@@ -72,7 +72,7 @@ static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
 
   if (plane >= 0) {
     for (PetscInt c = 0; c < 3; ++c) across[c] = contact->displacements[plane].normal[c];
-    (void)ContactScaleToUnit(across);
+    (void)VectorScaleToUnit(across);
     if (SlipTangentsInPlane(n, across, t)) {
       SlipDropHeld(held, t);
       return;

@@ -20,8 +20,8 @@ static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
 
     ContactShape(xi, phi);
     ContactFacetTangents(x, xi, t1, t2);
-    ContactCross(t1, t2, n);
-    w = weight[q / 3] * weight[q % 3] * PetscSqrtReal(ContactDot(n, n));
+    VectorCross(t1, t2, n);
+    w = weight[q / 3] * weight[q % 3] * VectorNorm(n);
     for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += w * phi[a / 4] * phi[a % 4];
   }
 }

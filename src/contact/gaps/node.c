@@ -26,7 +26,7 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
 
   if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
   ContactFacetTangents(facet, nearest->xi, t1, t2);
-  ContactCross(t1, t2, n);
+  VectorCross(t1, t2, n);
   if (ContactFacetIsTriangle(facet)) { /* a triangle's first tangent is zero at its last vertex */
     ContactFacetAreaVector(facet, n);
     for (PetscInt c = 0; c < 3; ++c) n[c] *= 0.25;
@@ -80,10 +80,10 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   }
   for (PetscInt d = 0; d < 2; ++d) {
     moves[d] = (PetscBool)(PetscAbsReal(nearest->xi[d]) < 1.0);
-    H[2 * d] = moves[d] ? ContactDot(t[d], t[d]) : 1.0;
+    H[2 * d] = moves[d] ? VectorDot(t[d], t[d]) : 1.0;
     mu[d]    = moves[d] ? -by_xi[d] : 0.0;
   }
-  H[1] = moves[0] && moves[1] ? ContactDot(t[0], t[1]) + ContactDot(r, twist) : 0.0;
+  H[1] = moves[0] && moves[1] ? VectorDot(t[0], t[1]) + VectorDot(r, twist) : 0.0;
   det  = H[0] * H[2] - H[1] * H[1];
   if (!(det > 0.0)) return;
   mu[0] = (H[2] * mu[0] - H[1] * mu[1]) / det;
@@ -109,12 +109,12 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
 
   ContactPatchCreate(facet, normals, &patch);
   ContactPatchEvaluate(&patch, nearest->xi, r, m);
-  length = ContactScaleToUnit(m);
+  length = VectorScaleToUnit(m);
   for (PetscInt c = 0; c < 3; ++c) {
     r[c] = x[c] - nearest->y[c] - r[c];
     if (!(length > 0.0)) m[c] = -n[c];
   }
-  gap->gap = ContactDot(r, m);
+  gap->gap = VectorDot(r, m);
   for (PetscInt c = 0; c < 3; ++c) {
     by_normal[c]   = length > 0.0 ? (r[c] - gap->gap * m[c]) / length : 0.0;
     gap->vertex[c] = m[c];
@@ -159,7 +159,7 @@ static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3
 {
   const PetscReal r[3] = {nearest->y[0] - x[0], nearest->y[1] - x[1], nearest->y[2] - x[2]};
 
-  return ContactDot(r, n);
+  return VectorDot(r, n);
 }
 
 /* Adds gap and coupling N2_B(xi) - 1 of a vertex, multiplied by the mass, as the assembly divides by it */

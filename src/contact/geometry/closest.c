@@ -13,7 +13,7 @@ typedef struct {
 static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], PetscReal r[3])
 {
   for (PetscInt d = 0; d < 3; ++d) r[d] = o->c[0][d] + o->c[1][d] * xi[0] + (o->c[2][d] + o->c[3][d] * xi[0]) * xi[1];
-  return ContactDot(r, r);
+  return VectorDot(r, r);
 }
 
 /* Start for Newton's method: the nearest of nine points of the facet, because a warped facet may have several local
@@ -51,9 +51,9 @@ static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, Pe
   PetscReal t[2][3], r[3], length;
 
   ClosestTangents(o, xi, t);
-  length = ContactDot(t[parameter], t[parameter]);
+  length = VectorDot(t[parameter], t[parameter]);
   (void)ClosestEvaluate(o, xi, r);
-  if (length > 0.0) xi[parameter] = PetscClipInterval(xi[parameter] - ContactDot(r, t[parameter]) / length, -1.0, 1.0);
+  if (length > 0.0) xi[parameter] = PetscClipInterval(xi[parameter] - VectorDot(r, t[parameter]) / length, -1.0, 1.0);
   return ClosestEvaluate(o, xi, r);
 }
 
@@ -64,11 +64,11 @@ static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2]
 
   (void)ClosestEvaluate(o, xi, r);
   ClosestTangents(o, xi, t);
-  for (PetscInt d = 0; d < 2; ++d) g[d] = ContactDot(r, t[d]);
-  H[0]  = ContactDot(t[0], t[0]);
-  H[1]  = ContactDot(t[0], t[1]);
-  H[2]  = ContactDot(t[1], t[1]);
-  twist = ContactDot(r, o->c[3]);
+  for (PetscInt d = 0; d < 2; ++d) g[d] = VectorDot(r, t[d]);
+  H[0]  = VectorDot(t[0], t[0]);
+  H[1]  = VectorDot(t[0], t[1]);
+  H[2]  = VectorDot(t[1], t[1]);
+  twist = VectorDot(r, o->c[3]);
   det   = H[0] * H[2] - PetscSqr(H[1] + twist);
   if (det > 0.0) H[1] += twist;
   else det = H[0] * H[2] - PetscSqr(H[1]);

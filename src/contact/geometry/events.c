@@ -1,7 +1,7 @@
 /* PETSc's log events of contact */
 #include "geometryimpl.h"
 
-PetscLogEvent CONTACT_Search, CONTACT_Integrate;
+PetscLogEvent CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;
 
 PetscErrorCode ContactEventsRegister(void)
 {
@@ -12,6 +12,7 @@ PetscErrorCode ContactEventsRegister(void)
   if (registered) PetscFunctionReturn(0);
   registered = PETSC_TRUE;
   PetscCall(PetscClassIdRegister("Contact", &classid));
+  PetscCall(PetscLogEventRegister("ContactLinear", classid, &CONTACT_Linearize));
   PetscCall(PetscLogEventRegister("ContactSearch", classid, &CONTACT_Search));
   PetscCall(PetscLogEventRegister("ContactIntegr", classid, &CONTACT_Integrate));
   PetscFunctionReturn(0);

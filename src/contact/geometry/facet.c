@@ -31,7 +31,7 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
     d1[c] = x[6 + c] - x[c];
     d2[c] = x[9 + c] - x[3 + c];
   }
-  ContactCross(d1, d2, a);
+  VectorCross(d1, d2, a);
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
@@ -44,13 +44,13 @@ void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscRea
   for (PetscInt k = 0; k < 2; ++k) {
     for (PetscInt c = 0; c < 3; ++c) d[k][c] = x[6 + 3 * k + c] - x[3 * k + c];
   }
-  ContactCross(d[0], d[1], n);
-  size = ContactScaleToUnit(n); /* twice the area */
-  ContactCross(moment, n, q);
-  ContactCross(d[1], q, by_d[0]);
-  ContactCross(q, d[0], by_d[1]);
-  ContactCross(n, d[0], s);
-  spin = ContactDot(moment, n) / ContactDot(d[0], d[0]);
+  VectorCross(d[0], d[1], n);
+  size = VectorScaleToUnit(n); /* twice the area */
+  VectorCross(moment, n, q);
+  VectorCross(d[1], q, by_d[0]);
+  VectorCross(q, d[0], by_d[1]);
+  VectorCross(n, d[0], s);
+  spin = VectorDot(moment, n) / VectorDot(d[0], d[0]);
   for (PetscInt c = 0; c < 3; ++c) {
     by_d[0][c] = by_d[0][c] / size + spin * s[c];
     by_d[1][c] /= size;
@@ -88,8 +88,8 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
 
     ContactShape(xi, phi);
     ContactFacetTangents(x, xi, t1, t2);
-    ContactCross(t1, t2, n);
-    weight = PetscSqrtReal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    VectorCross(t1, t2, n);
+    weight = VectorNorm(n);
     for (PetscInt a = 0; a < 4; ++a) mass[a] += weight * phi[a];
     area += weight;
   }

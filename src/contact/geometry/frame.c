@@ -7,7 +7,7 @@ PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
   PetscReal area;
 
   ContactFacetAreaVector(x, n);
-  area = PetscSqrtReal(ContactDot(n, n));
+  area = VectorNorm(n);
   if (!(area > 0.0)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) n[c] /= area;
   return PETSC_TRUE;
@@ -24,7 +24,7 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
     t[c]         = x[6 + c] - x[c]; /* a diagonal lies in the plane, as the normal is the cross product of the
                                        diagonals */
   }
-  length = PetscSqrtReal(ContactDot(t, t));
+  length = VectorNorm(t);
   for (PetscInt c = 0; c < 3; ++c) t[c] /= length;
   s[0] = n[1] * t[2] - n[2] * t[1];
   s[1] = n[2] * t[0] - n[0] * t[2];
@@ -38,8 +38,8 @@ void ContactFrameProject(const ContactFrame *f, const PetscReal x[12], PetscReal
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscReal d[3] = {x[3 * a] - f->origin[0], x[3 * a + 1] - f->origin[1], x[3 * a + 2] - f->origin[2]};
 
-    p[a][0]   = ContactDot(d, f->axis[0]);
-    p[a][1]   = ContactDot(d, f->axis[1]);
-    height[a] = ContactDot(d, f->axis[2]);
+    p[a][0]   = VectorDot(d, f->axis[0]);
+    p[a][1]   = VectorDot(d, f->axis[1]);
+    height[a] = VectorDot(d, f->axis[2]);
   }
 }

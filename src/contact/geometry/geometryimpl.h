@@ -5,10 +5,11 @@
 #define GEOMETRYIMPL_H
 
 #include <contact.h>
+#include <vector3.h>
 #include <petsccompat.h>
 
 /* events.c: PETSc's log events of this folder */
-PETSC_INTERN PetscLogEvent  CONTACT_Search, CONTACT_Integrate;
+PETSC_INTERN PetscLogEvent  CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;
 PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
 
 /* quadrature.c: a rule for triangles */
@@ -19,11 +20,6 @@ typedef struct {
   PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
 } ContactRule;
 PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
-
-/* vector.c: products of vectors */
-PETSC_INTERN PetscReal ContactDot(const PetscReal a[3], const PetscReal b[3]);
-PETSC_INTERN void      ContactCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
-PETSC_INTERN PetscReal ContactScaleToUnit(PetscReal n[3]);
 
 /*
    facet.c: bilinear facets. A triangle stores its last vertex twice. The two functions of that vertex add up to its

@@ -10,7 +10,7 @@ static void AddOuter(const PetscReal A[9], PetscReal factor, const PetscReal a[3
 
 static void Times(const PetscReal A[9], const PetscReal a[3], PetscReal b[3])
 {
-  for (PetscInt i = 0; i < 3; ++i) b[i] = ContactDot(&A[3 * i], a);
+  for (PetscInt i = 0; i < 3; ++i) b[i] = VectorDot(&A[3 * i], a);
 }
 
 /* From the derivative A by v x a (factor 1) or a x v (factor -1) computes the derivative B by v */
@@ -19,7 +19,7 @@ static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal f
   for (PetscInt i = 0; i < 3; ++i) {
     PetscReal row[3];
 
-    ContactCross(a, &A[3 * i], row);
+    VectorCross(a, &A[3 * i], row);
     for (PetscInt c = 0; c < 3; ++c) B[3 * i + c] = factor * row[c];
   }
 }
@@ -82,8 +82,8 @@ static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const
     PetscReal edge[2][3], product[3], along[3], B[9], squares[2], weight;
 
     ContactRingEdges(ring, corner, edge[0], edge[1]);
-    ContactCross(edge[0], edge[1], product);
-    for (PetscInt k = 0; k < 2; ++k) squares[k] = ContactDot(edge[k], edge[k]);
+    VectorCross(edge[0], edge[1], product);
+    for (PetscInt k = 0; k < 2; ++k) squares[k] = VectorDot(edge[k], edge[k]);
     weight = squares[0] * squares[1] > 0.0 ? 1.0 / (squares[0] * squares[1]) : 0.0;
     Times(S, product, along);
     for (PetscInt k = 0; k < 2; ++k) {
@@ -113,16 +113,16 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
   ContactRingEdges(ring, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
     ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m[i]);
-    G[i] = ContactDot(d[i], d[i]);
+    G[i] = VectorDot(d[i], d[i]);
   }
-  G[2] = ContactDot(d[0], d[1]);
+  G[2] = VectorDot(d[0], d[1]);
   det  = G[0] * G[1] - G[2] * G[2];
   if (det > CONTACT_FLAT_CORNER * G[0] * G[1]) {
     for (PetscInt i = 0; i < 2; ++i) {
       for (PetscInt c = 0; c < 3; ++c) D[i][c] = (G[1 - i] * d[i][c] - G[2] * d[1 - i][c]) / det;
     }
     for (PetscInt j = 0; j < 2; ++j) {
-      for (PetscInt i = 0; i < 2; ++i) b[j] -= ContactDot(D[j], D[i]) * (ContactDot(n, d[i]) + ContactDot(m[i], d[i]));
+      for (PetscInt i = 0; i < 2; ++i) b[j] -= VectorDot(D[j], D[i]) * (VectorDot(n, d[i]) + VectorDot(m[i], d[i]));
     }
   }
   for (PetscInt i = 0; i < 9; ++i) mean[i] = A[i];
@@ -157,14 +157,14 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
   ContactRingEdges(ring, first, after, d);
   ContactRingEdges(ring, last, d, before);
   for (PetscInt c = 0; c < 3; ++c) border->along[c] = after[c] - before[c];
-  ContactCross(n, border->along, border->across);
-  border->length  = ContactScaleToUnit(border->across);
+  VectorCross(n, border->along, border->across);
+  border->length  = VectorScaleToUnit(border->across);
   border->squares = 0.0;
   for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     ContactRingEdges(ring, corner, after, d);
     ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
-    sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(border->across, d);
-    border->squares += PetscSqr(ContactDot(border->across, d));
+    sum -= (VectorDot(n, d) + VectorDot(m, d)) * VectorDot(border->across, d);
+    border->squares += PetscSqr(VectorDot(border->across, d));
   }
   border->bend = border->squares > 0.0 ? sum / border->squares : 0.0;
 }
@@ -189,8 +189,8 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
 
     ContactRingEdges(ring, corner, after, d);
     ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
-    c = ContactDot(border.across, d);
-    r = -ContactDot(n, d) - ContactDot(m, d) - 2.0 * border.bend * c;
+    c = VectorDot(border.across, d);
+    r = -VectorDot(n, d) - VectorDot(m, d) - 2.0 * border.bend * c;
     for (PetscInt k = 0; k < 3; ++k) by_edge[k] = -c * (n[k] + m[k]) + r * border.across[k];
     AddOuter(mean, -c * inverse, AX, d, mean);
     AddOuter(across, r * inverse, AX, d, across);
@@ -224,7 +224,7 @@ void ContactRingNormalSlopes(const ContactRing *ring, PetscInt corner, ContactNo
   (void)ContactRingFanNormal(ring, first, last, n);
   for (PetscInt c = 0; c < 3; ++c) mended[c] = n[c];
   ContactRingMend(ring, first, last, mended);
-  length = ContactScaleToUnit(mended);
+  length = VectorScaleToUnit(mended);
   ThroughUnit(identity, mended, length, A);
   if (first == last) AddMendedCorner(ring, corner, n, A, slopes);
   else AddMendedBorder(ring, first, last, n, A, slopes);

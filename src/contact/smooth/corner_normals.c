@@ -14,12 +14,12 @@ PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt
     PetscReal after[3], before[3], product[3], weight;
 
     ContactRingEdges(ring, corner, after, before);
-    ContactCross(after, before, product);
-    weight = ContactDot(after, after) * ContactDot(before, before);
+    VectorCross(after, before, product);
+    weight = VectorDot(after, after) * VectorDot(before, before);
     for (PetscInt c = 0; weight > 0.0 && c < 3; ++c) n[c] += product[c] / weight;
     if (corner == last) break;
   }
-  return ContactScaleToUnit(n);
+  return VectorScaleToUnit(n);
 }
 
 /* Mean over all facets around a corner's node that are not separated by a sharp edge */
@@ -40,10 +40,10 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
   ContactRingEdges(ring, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
     ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m);
-    rhs[i] = -ContactDot(n, d[i]) - ContactDot(m, d[i]);
-    G[i]   = ContactDot(d[i], d[i]);
+    rhs[i] = -VectorDot(n, d[i]) - VectorDot(m, d[i]);
+    G[i]   = VectorDot(d[i], d[i]);
   }
-  G[2] = ContactDot(d[0], d[1]);
+  G[2] = VectorDot(d[0], d[1]);
   det  = G[0] * G[1] - G[2] * G[2];
   if (!(det > CONTACT_FLAT_CORNER * G[0] * G[1])) return;
   for (PetscInt c = 0; c < 3; ++c)
@@ -59,13 +59,13 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   ContactRingEdges(ring, first, after, d);
   ContactRingEdges(ring, last, d, before);
   for (PetscInt c = 0; c < 3; ++c) along[c] = after[c] - before[c];
-  ContactCross(n, along, across);
-  (void)ContactScaleToUnit(across);
+  VectorCross(n, along, across);
+  (void)VectorScaleToUnit(across);
   for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     ContactRingEdges(ring, corner, after, d);
     ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
-    sum -= (ContactDot(n, d) + ContactDot(m, d)) * ContactDot(across, d);
-    squares += PetscSqr(ContactDot(across, d));
+    sum -= (VectorDot(n, d) + VectorDot(m, d)) * VectorDot(across, d);
+    squares += PetscSqr(VectorDot(across, d));
   }
   if (!(squares > 0.0)) return;
   for (PetscInt c = 0; c < 3; ++c) n[c] += sum / squares * across[c];
@@ -88,5 +88,5 @@ void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
   (void)ContactRingFanNormal(ring, first, last, n);
   if (closed) return;
   ContactRingMend(ring, first, last, n);
-  (void)ContactScaleToUnit(n);
+  (void)VectorScaleToUnit(n);
 }

@@ -235,7 +235,7 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
       x[3 * b + 2] - frame->origin[2]};
     PetscReal       m[3];
 
-    ContactCross(r, &by_x[3 * b], m);
+    VectorCross(r, &by_x[3 * b], m);
     for (PetscInt c = 0; c < 3; ++c) moment[c] += m[c];
   }
 }

@@ -26,7 +26,7 @@ PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
   PetscReal        N[3];
 
   for (PetscInt c = 0; c < 3; ++c) N[c] = n[0][c] + n[1][c];
-  return (PetscBool)(ContactDot(N, N) > PetscSqr(LEAST_SUM));
+  return (PetscBool)(VectorDot(N, N) > PetscSqr(LEAST_SUM));
 }
 
 /* Computes edge e from vertex e to the next; straight if a normal is missing or the two are opposite */
@@ -40,13 +40,13 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
     d[c] = x1[c] - x0[c];
     N[c] = n[0][c] + n[1][c];
   }
-  length         = PetscSqrtReal(ContactDot(N, N));
-  steepest       = STEEPEST * PetscSqrtReal(ContactDot(d, d));
+  length         = VectorNorm(N);
+  steepest       = STEEPEST * VectorNorm(d);
   p->slope[e][0] = p->slope[e][1] = 0.0;
   if (!ContactPatchIsBent(p, e)) return;
   for (PetscInt c = 0; c < 3; ++c) N[c] /= length;
   for (PetscInt i = 0; i < 2; ++i)
-    p->slope[e][i] = PetscClipInterval(-2.0 * ContactDot(d, n[i]) / (1.0 + ContactDot(N, n[i])), -steepest, steepest);
+    p->slope[e][i] = PetscClipInterval(-2.0 * VectorDot(d, n[i]) / (1.0 + VectorDot(N, n[i])), -steepest, steepest);
 }
 
 /* Creates the patch of the facet x with these unit normals at its vertices; a zero normal means a missing one */

@@ -31,9 +31,8 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
   ContactShapeSlopes(xi, dphi);
   by_xi[0] = by_xi[1] = 0.0;
   for (PetscInt e = 0; e < 4; ++e) {
-    const PetscReal direction = ContactDot(p->direction[e], by_offset),
-                    normal = ContactDot(&p->normal[3 * e], by_normal), forward = e < 2 ? 0.5 : -0.5,
-                    outward = e == 1 || e == 2 ? 0.5 : -0.5;
+    const PetscReal direction = VectorDot(p->direction[e], by_offset), normal = VectorDot(&p->normal[3 * e], by_normal),
+                    forward = e < 2 ? 0.5 : -0.5, outward = e == 1 || e == 2 ? 0.5 : -0.5;
     PetscReal       slopes[4];
     const PetscReal height = EdgeHeight(p, e, along[e], blend[e], slopes);
 
@@ -58,15 +57,15 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
   PetscReal offset[3], normal[3], by_offset[3], by_normal[3], height, cosine;
 
   ContactPatchEvaluate(p, xi, offset, normal);
-  cosine = ContactDot(normal, direction);
-  if (PetscSqr(cosine) < STEEPEST_SQUARED_COSINE * ContactDot(normal, normal)) {
-    height = ContactDot(offset, direction);
+  cosine = VectorDot(normal, direction);
+  if (PetscSqr(cosine) < STEEPEST_SQUARED_COSINE * VectorDot(normal, normal)) {
+    height = VectorDot(offset, direction);
     for (PetscInt c = 0; c < 3; ++c) {
       by_offset[c] = direction[c];
       by_normal[c] = 0.0;
     }
   } else {
-    height = cosine != 0.0 ? ContactDot(offset, normal) / cosine : 0.0; /* if there is no normal there is no offset */
+    height = cosine != 0.0 ? VectorDot(offset, normal) / cosine : 0.0; /* if there is no normal there is no offset */
     for (PetscInt c = 0; c < 3; ++c) {
       by_offset[c] = cosine != 0.0 ? normal[c] / cosine : 0.0;
       by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
@@ -81,16 +80,16 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   PetscReal by_chord[3], PetscReal by_normal[2][3])
 {
   const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]}, *N = p->direction[e],
-                  length    = PetscSqrtReal(2.0 + 2.0 * ContactDot(n[0], n[1]));
+                  length    = PetscSqrtReal(2.0 + 2.0 * VectorDot(n[0], n[1]));
   PetscReal by_direction[3] = {by->direction[e][0], by->direction[e][1], by->direction[e][2]}, along;
 
   for (PetscInt i = 0; i < 2; ++i) {
-    const PetscReal half = 1.0 + ContactDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
+    const PetscReal half = 1.0 + VectorDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
 
-    if (PetscAbsReal(-2.0 * ContactDot(d, n[i]) / half) >
+    if (PetscAbsReal(-2.0 * VectorDot(d, n[i]) / half) >
         PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the slope is at its limit, a fixed fraction of
                                                                        the chord */
-      for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / ContactDot(d, d) * d[c];
+      for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / VectorDot(d, d) * d[c];
       continue;
     }
     for (PetscInt c = 0; c < 3; ++c) {
@@ -99,7 +98,7 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
       by_direction[c] -= factor * slope * n[i][c];
     }
   }
-  along = ContactDot(N, by_direction);
+  along = VectorDot(N, by_direction);
   for (PetscInt i = 0; i < 2; ++i) {
     for (PetscInt c = 0; c < 3; ++c) by_normal[i][c] += (by_direction[c] - along * N[c]) / length;
   }
@@ -132,8 +131,8 @@ void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal
   for (PetscInt e = 0; e < 4; ++e) {
     PetscReal m[3], k[3];
 
-    ContactCross(p->direction[e], by->direction[e], m);
-    ContactCross(&p->normal[3 * e], &by->normal[3 * e], k);
+    VectorCross(p->direction[e], by->direction[e], m);
+    VectorCross(&p->normal[3 * e], &by->normal[3 * e], k);
     for (PetscInt c = 0; c < 3; ++c) moment[c] += m[c] + k[c];
   }
 }

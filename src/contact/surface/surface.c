@@ -137,12 +137,7 @@ PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
 
 static void SurfaceNormalize(PetscInt n, PetscReal normal[])
 {
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscReal      *v      = &normal[3 * i];
-    const PetscReal length = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-
-    for (PetscInt c = 0; c < 3; ++c) v[c] = length > 0.0 ? v[c] / length : 0.0;
-  }
+  for (PetscInt i = 0; i < n; ++i) (void)VectorScaleToUnit(&normal[3 * i]);
 }
 
 /*

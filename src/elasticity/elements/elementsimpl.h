@@ -5,6 +5,7 @@
 #define ELEMENTSIMPL_H
 
 #include <elasticity.h>
+#include <vector3.h>
 #include <petsccompat.h>
 #include <mesh.h>
 #include <petscsf.h>
@@ -46,16 +47,7 @@ static inline PetscReal CellGradients(const int n, const CellBasis *basis, Petsc
       J[i][k] = sum;
     }
   }
-  for (int i = 0; i < 3; ++i) {
-    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-
-    for (int k = 0; k < 3; ++k) {
-      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-
-      C[i][k] = J[i1][k1] * J[i2][k2] - J[i1][k2] * J[i2][k1];
-    }
-  }
-  det = J[0][0] * C[0][0] + J[0][1] * C[0][1] + J[0][2] * C[0][2];
+  det = MatrixCofactors(J, C);
   for (int j = 0; j < 3; ++j) {
     const PetscReal c0 = C[j][0] / det, c1 = C[j][1] / det, c2 = C[j][2] / det;
 

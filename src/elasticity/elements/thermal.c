@@ -12,15 +12,9 @@
 /* Solves M x = b for a symmetric positive definite 3 x 3 matrix by Cramer's rule */
 static void ThermalSolve(PetscReal M[3][3], const PetscReal b[3], PetscReal x[3])
 {
-  PetscReal C[3][3], det;
+  PetscReal       C[3][3];
+  const PetscReal det = MatrixCofactors(M, C);
 
-  for (int i = 0; i < 3; ++i) {
-    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-
-    for (int j = 0; j < 3; ++j)
-      C[i][j] = M[i1][(j + 1) % 3] * M[i2][(j + 2) % 3] - M[i1][(j + 2) % 3] * M[i2][(j + 1) % 3];
-  }
-  det = M[0][0] * C[0][0] + M[0][1] * C[0][1] + M[0][2] * C[0][2];
   for (int j = 0; j < 3; ++j) x[j] = (C[0][j] * b[0] + C[1][j] * b[1] + C[2][j] * b[2]) / det;
 }
 

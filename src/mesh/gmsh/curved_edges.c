@@ -4,6 +4,7 @@
    sharp; they are bent by the surfaces on both sides.
 */
 #include "gmshimpl.h"
+#include <vector3.h>
 #include <stdlib.h>
 
 #define ARC_FEATURE 35.0 /* degrees; the default of contact */
@@ -40,24 +41,6 @@ static PetscInt ArcAfter(PetscInt corner)
 static PetscInt ArcBefore(PetscInt corner)
 {
   return corner % 4 ? corner - 1 : corner + 3;
-}
-
-static PetscReal ArcDot(const PetscReal a[3], const PetscReal b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void ArcCross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  for (PetscInt d = 0; d < 3; ++d) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
-}
-
-/* Scales n to length 1; a zero vector stays zero */
-static void ArcScale(PetscReal n[3])
-{
-  const PetscReal length = PetscSqrtReal(ArcDot(n, n));
-
-  for (PetscInt d = 0; d < 3; ++d) n[d] = length > 0 ? n[d] / length : 0;
 }
 
 static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e[3])
@@ -102,8 +85,8 @@ static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 
   ArcEdge(s, first, first + 2, d1);
   ArcEdge(s, first + 1, first + 3, d2);
-  ArcCross(d1, d2, n);
-  ArcScale(n);
+  VectorCross(d1, d2, n);
+  (void)VectorScaleToUnit(n);
 }
 
 /* Finds the neighbour of each edge. edges: all corners by the ends of their edges, sorted */
@@ -119,7 +102,7 @@ static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
     if (end - i != 2) continue;
     ArcFacetNormal(s, edges[i].at, n);
     ArcFacetNormal(s, edges[i + 1].at, m);
-    if (ArcDot(n, m) < cosine) continue;
+    if (VectorDot(n, m) < cosine) continue;
     s->twin[edges[i].at]     = edges[i + 1].at;
     s->twin[edges[i + 1].at] = edges[i].at;
   }
@@ -152,12 +135,12 @@ static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *fi
 
     ArcEdge(s, c, ArcAfter(c), e);
     ArcEdge(s, c, ArcBefore(c), f);
-    ArcCross(e, f, product);
-    weight = ArcDot(e, e) * ArcDot(f, f);
+    VectorCross(e, f, product);
+    weight = VectorDot(e, e) * VectorDot(f, f);
     for (PetscInt d = 0; weight > 0 && d < 3; ++d) n[d] += product[d] / weight;
     if (c == *last) break;
   }
-  ArcScale(n);
+  (void)VectorScaleToUnit(n);
   return closed;
 }
 
@@ -169,7 +152,7 @@ static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[
   PetscInt  first, last;
 
   (void)ArcFanNormal(s, other, &first, &last, m);
-  return -ArcDot(n, e) - ArcDot(m, e);
+  return -VectorDot(n, e) - VectorDot(m, e);
 }
 
 /* Corrects the normal at a corner with a single facet: along both edges the surface is an arc */
@@ -181,9 +164,9 @@ static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   ArcEdge(s, corner, ArcBefore(corner), e[1]);
   lack[0] = ArcLack(s, ArcAfter(corner), n, e[0]);
   lack[1] = ArcLack(s, ArcBefore(corner), n, e[1]);
-  a       = ArcDot(e[0], e[0]);
-  b       = ArcDot(e[1], e[1]);
-  c       = ArcDot(e[0], e[1]);
+  a       = VectorDot(e[0], e[0]);
+  b       = VectorDot(e[1], e[1]);
+  c       = VectorDot(e[0], e[1]);
   det     = a * b - c * c;
   if (!(det > 1e-4 * a * b)) return;
   for (PetscInt d = 0; d < 3; ++d)
@@ -199,12 +182,12 @@ static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, Pe
   ArcEdge(s, first, ArcAfter(first), e);
   ArcEdge(s, last, ArcBefore(last), f);
   for (PetscInt d = 0; d < 3; ++d) along[d] = e[d] - f[d];
-  ArcCross(n, along, across);
-  ArcScale(across);
+  VectorCross(n, along, across);
+  (void)VectorScaleToUnit(across);
   for (PetscInt c = first; c != last; c = s->twin[ArcBefore(c)]) {
     ArcEdge(s, c, ArcBefore(c), f);
-    sum += ArcLack(s, ArcBefore(c), n, f) * ArcDot(across, f);
-    squares += PetscSqr(ArcDot(across, f));
+    sum += ArcLack(s, ArcBefore(c), n, f) * VectorDot(across, f);
+    squares += PetscSqr(VectorDot(across, f));
   }
   for (PetscInt d = 0; squares > 0 && d < 3; ++d) n[d] += sum / squares * across[d];
 }
@@ -217,7 +200,7 @@ static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   if (closed) return;
   if (first == last) ArcMendCorner(s, corner, n);
   else ArcMendBorder(s, first, last, n);
-  ArcScale(n);
+  (void)VectorScaleToUnit(n);
 }
 
 /* Height of an arc in the middle of an edge, along the mean N of the normals at its ends; 0 within rounding */
@@ -229,17 +212,17 @@ static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
   ArcNormal(s, ArcAfter(corner), n[1]);
   ArcEdge(s, corner, ArcAfter(corner), e);
   for (PetscInt d = 0; d < 3; ++d) N[d] = n[0][d] + n[1][d];
-  if (!(ArcDot(N, N) > 1)) return 0;
-  ArcScale(N);
-  for (PetscInt i = 0; i < 2; ++i) slope[i] = -2 * ArcDot(e, n[i]) / (1 + ArcDot(N, n[i]));
+  if (!(VectorDot(N, N) > 1)) return 0;
+  (void)VectorScaleToUnit(N);
+  for (PetscInt i = 0; i < 2; ++i) slope[i] = -2 * VectorDot(e, n[i]) / (1 + VectorDot(N, n[i]));
   height = (slope[0] - slope[1]) / 8;
-  return PetscAbsReal(height) > ARC_FLAT * PetscSqrtReal(ArcDot(e, e)) ? height : 0;
+  return PetscAbsReal(height) > ARC_FLAT * VectorNorm(e) ? height : 0;
 }
 
 /* off: the shortest vector from the middle of an edge that has both heights */
 static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const PetscReal n2[3], PetscReal off[3])
 {
-  const PetscReal c = ArcDot(n1, n2), det = 1 - c * c;
+  const PetscReal c = VectorDot(n1, n2), det = 1 - c * c;
 
   for (PetscInt d = 0; d < 3; ++d)
     off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;

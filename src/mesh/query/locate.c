@@ -4,6 +4,7 @@
    or quadratic map, clamped to the cell. The nearest cell over all ranks gets the point.
 */
 #include "queryimpl.h"
+#include <vector3.h>
 
 /* a point may lie outside of its cell by this fraction of the cell's size, since curved surfaces lie outside of
    facets */
@@ -153,11 +154,6 @@ static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[
   }
 }
 
-static PetscReal LocateNorm(const PetscReal r[3])
-{
-  return PetscSqrtReal(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-}
-
 /* Clamps the parameters to a tetrahedron: not negative, sum at most 1 */
 static void LocateClampTetrahedron(PetscReal xi[3])
 {
@@ -191,7 +187,7 @@ static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal poin
   if (tetrahedron) LocateClampTetrahedron(xi);
   for (PetscInt k = 0; k < 3; ++k) xi[k] = PetscMax(-1.0, PetscMin(1.0, xi[k]));
   LocateDifference(n, X, point, xi, N, r, J);
-  return LocateNorm(r);
+  return VectorNorm(r);
 }
 
 /* Bounding box of a cell's nodes, with a margin */
@@ -207,7 +203,7 @@ static PetscReal LocateBox(PetscInt n, PetscReal X[][3], PetscReal lower[3], Pet
     }
     diagonal[d] = upper[d] - lower[d];
   }
-  size = LocateNorm(diagonal);
+  size = VectorNorm(diagonal);
   for (PetscInt d = 0; d < 3; ++d) {
     lower[d] -= locate_margin * size;
     upper[d] += locate_margin * size;

@@ -1,5 +1,6 @@
 /* Quality checks of cells */
 #include "queryimpl.h"
+#include <vector3.h>
 #include <petscdt.h>
 
 /* Gauss points of hexahedra, or the quadrature points of tetrahedra */
@@ -45,29 +46,22 @@ PetscErrorCode MeshQualityTableCreate(PetscInt n, MeshQualityTable *table)
   PetscFunctionReturn(0);
 }
 
-static PetscReal QualityDeterminant(PetscReal e[3][3])
-{
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
-
 /* Smallest Jacobian determinant, divided by the cube of the longest derivative at a node */
 PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
 {
   PetscReal smallest = PETSC_MAX_REAL, longest = 0;
 
   for (PetscInt q = 0; q < table->nplaces; ++q) {
-    PetscReal e[3][3];
+    PetscReal e[3][3], C[3][3];
 
     for (PetscInt k = 0; k < 3; ++k) {
       for (PetscInt d = 0; d < 3; ++d) {
         e[k][d] = 0;
         for (PetscInt a = 0; a < table->nnodes; ++a) e[k][d] += table->dN[q][k][a] * x[a][d];
       }
-      if (q < table->nnodes)
-        longest = PetscMax(longest, PetscSqrtReal(PetscSqr(e[k][0]) + PetscSqr(e[k][1]) + PetscSqr(e[k][2])));
+      if (q < table->nnodes) longest = PetscMax(longest, VectorNorm(e[k]));
     }
-    smallest = PetscMin(smallest, QualityDeterminant(e));
+    smallest = PetscMin(smallest, MatrixCofactors(e, C));
   }
   return longest > 0 ? smallest / (longest * longest * longest) : 0;
 }

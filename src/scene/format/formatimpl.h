@@ -14,8 +14,24 @@ typedef struct {
   size_t  *lines;
 } SceneKeyLines;
 
-/* yaml.c. Not collective: error if the text is not YAML that PETSc can read */
+/* yaml.c. Not collective: error if the text is not YAML that can be read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
+
+/* values.c: the values by their full keys, sorted; initialize with zeros */
+typedef struct {
+  char     *key, *text;
+  PetscInt  place; /* in the file */
+  PetscBool used;
+} SceneValue;
+
+typedef struct {
+  PetscInt    n, max;
+  SceneValue *values;
+} SceneValues;
+
+PETSC_INTERN PetscErrorCode SceneValuesRead(const char text[], SceneValues *);
+PETSC_INTERN const char    *SceneValuesUse(SceneValues *, const char key[]);
+PETSC_INTERN PetscErrorCode SceneValuesDestroy(SceneValues *);
 
 /* keys.c: the keys and values of a scene file. Each reader asks for a full key (nested keys joined with _); keys
    that no reader asked for are reported as unknown. A bad or missing value is recorded, not raised at once, because
@@ -28,7 +44,7 @@ typedef struct {
 typedef struct {
   MPI_Comm                   comm;
   const char                *file;
-  PetscOptions               options;
+  SceneValues                values;
   PetscInt                   nasked, maxasked;
   char                     **asked;
   const struct _n_SceneList *list; /* the list that is being read */
@@ -67,6 +83,7 @@ PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const ch
 PETSC_INTERN PetscErrorCode SceneParseAnswer(SceneKeys, const char key[], const char text[], PetscBool *);
 PETSC_INTERN PetscErrorCode SceneParseList(SceneKeys, const char key[], const char text[], PetscInt *n, char ***words);
 PETSC_INTERN PetscErrorCode SceneParseReals(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
+PETSC_INTERN PetscErrorCode SceneParseBounds(SceneKeys, const char key[], const char text[], PetscInt n, PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneParseInts(SceneKeys, const char key[], const char text[], PetscInt n, PetscInt[]);
 PETSC_INTERN PetscErrorCode SceneParseBody(SceneKeys, Scene, const char key[], const char text[], PetscInt *body);
 PETSC_INTERN PetscErrorCode SceneParseRamp(SceneKeys, Scene, const char key[], const char text[], PetscInt *ramp);
@@ -99,8 +116,9 @@ typedef enum {
   SCENE_CHOICE, /* an enumeration, by its names */
   SCENE_AXIS,   /* the same, stored as PetscInt */
   SCENE_TEXT,
-  SCENE_BODY, /* a body's name, stored as its number */
-  SCENE_RAMP, /* a ramp's */
+  SCENE_EXPRESSION, /* of the place; stored as text */
+  SCENE_BODY,       /* a body's name, stored as its number */
+  SCENE_RAMP,       /* a ramp's */
   SCENE_OWN,
   SCENE_SECTION /* read and printed by a file in sections/ */
 } SceneKeyType;
@@ -111,7 +129,7 @@ typedef enum {
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0 } SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0, SCENE_UNBOUNDED /* infinite, too */ } SceneRange;
 
 /* A value with a syntax of its own */
 typedef struct {

@@ -59,16 +59,11 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   PetscCall(PetscNew(&k));
   k->comm = comm;
   k->file = file;
-  PetscCall(PetscOptionsCreate(&k->options));
   PetscCall(RankErrorBegin(&error));
   ierr = SceneCheckYAML((size_t)length, text, &k->lines);
-  if (!ierr) ierr = PetscOptionsInsertStringYAML(k->options, text);
+  if (!ierr) ierr = SceneValuesRead(text, &k->values);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
-  PetscCheck(error.code != PETSC_ERR_MEM, comm, PETSC_ERR_USER_INPUT,
-    "%s has more keys than PETSc's options database holds, which is 512 of PETSc 3.18: leave out what is built in, or "
-    "join bodies in a Gmsh file",
-    file);
   PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ,
     "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
   PetscCall(PetscFree(text));
@@ -102,21 +97,16 @@ static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
 /* Gets the text of a key, borrowed; NULL if the file does not have it */
 PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
 {
-  char      option[SCENE_KEY_LENGTH] = "-";
-  PetscBool set;
-  va_list   args;
+  char    key[SCENE_KEY_LENGTH];
+  va_list args;
 
   PetscFunctionBegin;
   va_start(args, format);
-  PetscCall(PetscVSNPrintf(option + 1, sizeof(option) - 1, format, NULL, args));
+  PetscCall(PetscVSNPrintf(key, sizeof(key), format, NULL, args));
   va_end(args);
-  PetscCall(SceneKeysRemember(keys, option + 1));
-  PetscCall(PetscOptionsFindPair(keys->options, NULL, option, value, &set));
-  if (set && !*value) *value = "";
-  if (!set) {
-    *value = NULL;
-    if (required) PetscCall(SceneKeysComplain(keys, "the key \"%s\" is missing", option + 1));
-  }
+  PetscCall(SceneKeysRemember(keys, key));
+  *value = SceneValuesUse(&keys->values, key);
+  if (!*value && required) PetscCall(SceneKeysComplain(keys, "the key \"%s\" is missing", key));
   PetscFunctionReturn(0);
 }
 
@@ -305,24 +295,21 @@ static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[]
 /* Raises the first error of the file: an unknown key, else the first bad value */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
-  PetscInt    n;
-  char      **names, **values;
   const char *unknown  = NULL;
   size_t      shortest = 0, length;
 
   PetscFunctionBegin;
   PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
-  PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
   /* The shortest unknown key is the outermost one: under a misspelt list every key is unknown */
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscCall(PetscStrlen(names[i], &length));
+  for (PetscInt i = 0; i < keys->values.n; ++i) {
+    if (keys->values.values[i].used) continue;
+    PetscCall(PetscStrlen(keys->values.values[i].key, &length));
     if (!unknown || length < shortest) {
-      unknown  = names[i];
+      unknown  = keys->values.values[i].key;
       shortest = length;
     }
   }
   if (unknown) PetscCall(SceneKeysRaiseUnknown(keys, unknown));
-  PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
   PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
   PetscFunctionReturn(0);
 }
@@ -351,7 +338,7 @@ PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
   PetscCall(PetscFree((*keys)->lines.lines));
   for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
   PetscCall(PetscFree((*keys)->materials));
-  PetscCall(PetscOptionsDestroy(&(*keys)->options));
+  PetscCall(SceneValuesDestroy(&(*keys)->values));
   PetscCall(PetscFree(*keys));
   PetscFunctionReturn(0);
 }

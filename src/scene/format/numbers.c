@@ -3,12 +3,16 @@
 #include <petscviewer.h>
 #include <stdlib.h>
 
-/* Prints the shortest decimal that reads back as the same number */
+/* Prints the shortest decimal that reads back as the same number. PETSC_INFINITY is a finite number in some releases */
 PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
 {
   char text[64];
 
   PetscFunctionBegin;
+  if (PetscAbsReal(value) >= PETSC_INFINITY) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, value < 0 ? "-inf" : "inf"));
+    PetscFunctionReturn(0);
+  }
   for (int digits = 6; digits <= 17; ++digits) {
     (void)snprintf(text, sizeof(text), "%.*g", digits, (double)value);
     if ((PetscReal)strtod(text, NULL) == value) break;

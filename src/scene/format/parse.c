@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <ctype.h>
 #include <string.h>
+#include <strings.h>
 
 static PetscBool SceneParseAtEnd(const char *s)
 {
@@ -98,14 +99,36 @@ PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneParseReals(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscReal values[])
+/* infinite: a number may be infinite, in any common spelling */
+static PetscErrorCode ParseReals(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscBool infinite,
+  PetscReal values[])
 {
   char **words;
 
   PetscFunctionBegin;
   PetscCall(SceneParseList(keys, key, text, &n, &words));
-  for (PetscInt i = 0; i < n; ++i) PetscCall(SceneParseReal(keys, key, words[i], &values[i]));
+  for (PetscInt i = 0; i < n; ++i) {
+    const char *word = words[i] + (words[i][0] == '-');
+
+    if (infinite && !strcasecmp(word + (word[0] == '.'), "inf"))
+      values[i] = word == words[i] ? PETSC_INFINITY : PETSC_NINFINITY;
+    else PetscCall(SceneParseReal(keys, key, words[i], &values[i]));
+  }
   if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseReals(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(ParseReals(keys, key, text, n, PETSC_FALSE, values));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneParseBounds(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCall(ParseReals(keys, key, text, n, PETSC_TRUE, values));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,4 @@
-/* Detection of repeated keys: repeated.c processes the events of libyaml before PETSc reads the text */
+/* Detection of repeated keys: repeated.c processes the events of libyaml before the text is read */
 #ifndef REPEATED_H
 #define REPEATED_H
 

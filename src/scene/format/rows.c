@@ -37,6 +37,7 @@ static PetscErrorCode RowRead(SceneKeys keys, Scene scene, const SceneKey *row, 
   switch (row->type) {
   case SCENE_REALS:
     if (row->n == 1) PetscCall(SceneParseReal(keys, key, text, (PetscReal *)value));
+    else if (row->range == SCENE_UNBOUNDED) PetscCall(SceneParseBounds(keys, key, text, row->n, (PetscReal *)value));
     else PetscCall(SceneParseReals(keys, key, text, row->n, (PetscReal *)value));
     PetscCall(RowCheckRange(keys, row, key, text, (PetscReal *)value));
     break;
@@ -53,6 +54,8 @@ static PetscErrorCode RowRead(SceneKeys keys, Scene scene, const SceneKey *row, 
     break;
   }
   case SCENE_AXIS: PetscCall(SceneParseEnum(keys, key, text, row->names, (PetscInt *)value)); break;
+  case SCENE_EXPRESSION: PetscCall(SceneCheckExpression(keys, key, text));
+  /* fall through */
   case SCENE_TEXT: PetscCall(PetscStrallocpy(text, (char **)value)); break;
   case SCENE_BODY: PetscCall(SceneParseBody(keys, scene, key, text, (PetscInt *)value)); break;
   case SCENE_RAMP: PetscCall(SceneParseRamp(keys, scene, key, text, (PetscInt *)value)); break;
@@ -118,6 +121,11 @@ PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list,
   PetscFunctionReturn(0);
 }
 
+static PetscBool RowIsText(const SceneKey *row)
+{
+  return (PetscBool)(row->type == SCENE_TEXT || row->type == SCENE_EXPRESSION);
+}
+
 static size_t RowSize(const SceneKey *row)
 {
   switch (row->type) {
@@ -135,7 +143,7 @@ static PetscBool RowIsShown(const SceneKey *row, const void *entry, const void *
 
   if (row->type == SCENE_SECTION) return PETSC_FALSE;
   if (row->type == SCENE_OWN) return row->own->shown(entry);
-  if (row->type == SCENE_TEXT) return (PetscBool)(*(char *const *)value != NULL);
+  if (RowIsText(row)) return (PetscBool)(*(char *const *)value != NULL);
   if (row->type == SCENE_BODY) return (PetscBool)(*(const PetscInt *)value >= 0);
   if (row->need != SCENE_OPTIONAL) return PETSC_TRUE;
   if (row->type == SCENE_REALS && row->n == 1 && *(const PetscReal *)value >= PETSC_INFINITY) return PETSC_FALSE;
@@ -169,6 +177,7 @@ static PetscErrorCode RowView(Scene scene, PetscViewer viewer, const SceneKey *r
   case SCENE_CHOICE: PetscCall(PetscViewerASCIIPrintf(viewer, "%s", row->names[*(const PetscEnum *)value])); break;
   case SCENE_AXIS: PetscCall(PetscViewerASCIIPrintf(viewer, "%s", row->names[*n])); break;
   case SCENE_TEXT: PetscCall(PetscViewerASCIIPrintf(viewer, "%s", *(char *const *)value)); break;
+  case SCENE_EXPRESSION: PetscCall(PetscViewerASCIIPrintf(viewer, "\"%s\"", *(char *const *)value)); break;
   case SCENE_BODY: PetscCall(PetscViewerASCIIPrintf(viewer, "%s", scene->bodies[*n].name)); break;
   case SCENE_RAMP: PetscCall(PetscViewerASCIIPrintf(viewer, "%s", scene->ramps[*n].name)); break;
   case SCENE_OWN: PetscCall(row->own->view(scene, viewer, entry)); break;
@@ -245,7 +254,7 @@ PetscErrorCode SceneFreeRows(const SceneKey rows[], void *entry)
   PetscFunctionBegin;
   for (const SceneKey *row = rows; row->name; ++row) {
     char         **text = (char **)((char *)entry + row->at);
-    const PetscInt n    = row->type == SCENE_TEXT ? 1 : row->type == SCENE_OWN ? row->own->ntexts : 0;
+    const PetscInt n    = RowIsText(row) ? 1 : row->type == SCENE_OWN ? row->own->ntexts : 0;
 
     for (PetscInt i = 0; i < n; ++i) PetscCall(PetscFree(text[i]));
   }

@@ -1,5 +1,5 @@
 /*
-   Checks that a scene is YAML that PETSc can read. YAML has anchors, &name, and aliases, *name. PETSc's reader expands
+   Checks that a scene is YAML that can be read. YAML has anchors, &name, and aliases, *name. The reader expands
    aliases in place: an anchor that contains its own alias would never end, and nested aliases could exhaust memory.
    Therefore anchored values must not contain aliases.
 */

@@ -95,9 +95,9 @@ static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMateria
 
 static const SceneKey face_rows[] = {
   TEXT("of", NULL, SceneSubface, of, REQUIRED, "", "a face, or a part listed before"),
-  OWN("lower", NULL, SceneSubface, lower, OPTIONAL, SceneOwnLower, "L", "no bound",
+  REALS("lower", NULL, 3, SceneSubface, lower, OPTIONAL, UNBOUNDED, "L", "no bound",
     "lower corner of the box that the facets' centroids are in; `-inf` bounds nothing"),
-  OWN("upper", NULL, SceneSubface, upper, OPTIONAL, SceneOwnUpper, "L", "no bound",
+  REALS("upper", NULL, 3, SceneSubface, upper, OPTIONAL, UNBOUNDED, "L", "no bound",
     "upper corner of that box; `inf` bounds nothing"),
   {NULL}};
 
@@ -156,7 +156,7 @@ static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForc
 
 static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTemperature, body, "every body that expands",
                                               "a body whose material has an `expansion`"),
-  OWN("value", NULL, SceneTemperature, value, REQUIRED, SceneOwnTemperature, "temperature", "",
+  ONE("value", NULL, EXPRESSION, SceneTemperature, value, REQUIRED, NULL, NULL, "temperature", "",
     "above that without stress, at factor 1: a number, or an expression of the undeformed place `x`, `y`, `z`"),
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
@@ -240,7 +240,8 @@ static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynami
     "of `generalized_alpha`, from 0 to 1: what is left of the highest frequencies after a time step; 1: nothing is "
     "lost"),
   NAMED("mass", NULL, CHOICE, SceneDynamics, mass, SHOWN, MassTypes, "`redistributed`",
-    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces, which the other nodes of their "
+    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces without friction, which the "
+    "other nodes of their "
     "cells have; `lumped`; `consistent`"),
   REALS("damping_mass", NULL, 1, SceneDynamics, damping_mass, OPTIONAL, ANY, "1/T", "0",
     "Rayleigh damping: forces of this times mass times velocity"),

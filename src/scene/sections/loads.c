@@ -40,30 +40,6 @@ PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[],
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TemperatureRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
-{
-  PetscFunctionBegin;
-  (void)scene;
-  PetscCall(PetscStrallocpy(text, &((SceneTemperature *)entry)->value));
-  PetscCall(SceneCheckExpression(keys, key, text));
-  PetscFunctionReturn(0);
-}
-
-static PetscBool TemperatureIsShown(const void *entry)
-{
-  return (PetscBool)(entry != NULL);
-}
-
-static PetscErrorCode TemperatureView(Scene scene, PetscViewer viewer, const void *entry)
-{
-  PetscFunctionBegin;
-  (void)scene;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\"%s\"", ((const SceneTemperature *)entry)->value));
-  PetscFunctionReturn(0);
-}
-
-const SceneOwn SceneOwnTemperature = {TemperatureRead, TemperatureIsShown, TemperatureView, 1};
-
 static PetscErrorCode SceneBodyExpands(const SceneBody *body, PetscBool *expands)
 {
   PetscReal A[9];

@@ -43,7 +43,6 @@ PETSC_INTERN PetscErrorCode SceneScaleRigid(Scene);
 PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer, const SceneList *);
 
 /* faces.c: body and face of a name <body>.<face> (PETSC_DECIDE: no such body); parts of faces */
-PETSC_INTERN const SceneOwn SceneOwnLower, SceneOwnUpper;
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
 PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer, const SceneList *);
@@ -72,7 +71,6 @@ PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scen
 PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
 
 /* loads.c: forces and temperatures */
-PETSC_INTERN const SceneOwn SceneOwnTemperature;
 PETSC_INTERN PetscBool      SceneTractionIsForce(const void *entry);
 PETSC_INTERN PetscBool      SceneTractionIsNone(const void *entry);
 PETSC_INTERN PetscBool      SceneForceHides(const void *entry, const char key[]);

@@ -49,7 +49,7 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
 static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
-  const char *text, *mesh = NULL;
+  const char *text;
   PetscInt    shape = PETSC_DECIDE;
 
   PetscFunctionBegin;
@@ -57,11 +57,8 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, BodyShapes, &shape));
   else {
-    PetscBool set;
-
-    PetscCall(PetscSNPrintf(key, sizeof(key), "-bodies_%s_mesh", body->name));
-    PetscCall(PetscOptionsFindPair(keys->options, NULL, key, &mesh, &set));
-    if (set) shape = SHAPE_GMSH;
+    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_mesh", body->name));
+    if (SceneValuesUse(&keys->values, key)) shape = SHAPE_GMSH;
   }
   if (shape < 0) { /* unknown shape: reported first, as the valid keys depend on it */
     if (text) keys->decides = PETSC_TRUE;

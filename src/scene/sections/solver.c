@@ -21,8 +21,6 @@ static PetscErrorCode SceneAddOption(Scene scene, const char name[], const char 
 PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
 {
   const char *text;
-  PetscInt    n;
-  char      **names, **values;
   PetscBool   ours;
 
   PetscFunctionBegin;
@@ -30,14 +28,14 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
   if (text && text[0])
     PetscCall(SceneKeysComplain(keys,
       "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
-  PetscCall(PetscOptionsLeftGet(keys->options, &n, &names, &values));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscCall(PetscStrncmp(names[i], SOLVER_PREFIX, sizeof(SOLVER_PREFIX) - 1, &ours));
-    if (!ours) continue;
-    PetscCall(SceneAddOption(scene, names[i] + sizeof(SOLVER_PREFIX) - 1, values[i]));
-    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", names[i]));
+  for (PetscInt i = 0; i < keys->values.n; ++i) {
+    const SceneValue *value = &keys->values.values[i];
+
+    PetscCall(PetscStrncmp(value->key, SOLVER_PREFIX, sizeof(SOLVER_PREFIX) - 1, &ours));
+    if (!ours || value->used) continue;
+    PetscCall(SceneAddOption(scene, value->key + sizeof(SOLVER_PREFIX) - 1, value->text));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", value->key));
   }
-  PetscCall(PetscOptionsLeftRestore(keys->options, &n, &names, &values));
   PetscFunctionReturn(0);
 }
 

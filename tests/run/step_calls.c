@@ -7,30 +7,12 @@ static char help[] =
 #include <checkpoint.h>
 #include <step.h>
 #include "../lib/attempt.h"
+#include "../lib/scene_text.h"
 
 static const char scene_text[] =
   "bodies:\n  - bar: {lower: [0, 0, 0], upper: [1, 1, 4], cells: [1, 1, 4], young: 1, poisson: 0.3}\n"
   "displacements:\n  - foot: {face: bar.zmin, value: [0, 0, 0]}\n  - top: {face: bar.zmax, value: [0, 0, 0.1]}\n"
   "load: {steps: 3}\n";
-
-static PetscErrorCode CreateScene(Scene *scene)
-{
-  const char  file[] = "step_calls.yaml";
-  PetscMPIInt rank;
-  FILE       *stream;
-
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (!rank) {
-    stream = fopen(file, "w");
-    PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write %s", file);
-    fputs(scene_text, stream);
-    fclose(stream);
-  }
-  PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
-  PetscCall(SceneLoad(PETSC_COMM_WORLD, file, scene));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode CreateSimulation(Scene scene, PetscBool ready, Simulation *sim)
 {
@@ -146,7 +128,7 @@ int main(int argc, char **argv)
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  PetscCall(CreateScene(&scene));
+  PetscCall(SceneLoadText("step_calls.yaml", scene_text, &scene));
   PetscCall(TestOrder(scene));
   PetscCall(TestSignal(scene));
   PetscCall(TestCheckpoint(scene));

@@ -4,7 +4,6 @@ BASE.xmf names the bodies, the units and the load steps. BASE.h5 holds the mesh,
 """
 import os
 import re
-import sys
 import xml.etree.ElementTree as ElementTree
 
 import h5py
@@ -17,20 +16,19 @@ STRESSES = ("Pa", "kPa", "MPa", "GPa", "N/mm^2", "N/mm2", "N/m^2", "psi", "ksi")
 COMPONENTS = {3: ("x", "y", "z"), 6: ("xx", "xy", "xz", "yy", "yz", "zz")}
 
 
-def stop(text):
-    """Ends the program with one sentence"""
-    sys.exit(os.path.basename(sys.argv[0]) + ": " + text)
+class ContactError(Exception):
+    """One sentence that says what is wrong"""
 
 
-class Run:
-    """The files of one run"""
+class Files:
+    """The fields that one run wrote"""
 
     def __init__(self, base):
         self.base = base
         try:
             root = ElementTree.parse(base + ".xmf").getroot()
         except (OSError, ElementTree.ParseError):
-            stop(f"there is no readable {base}.xmf; run contact with -output {base}")
+            raise ContactError(f"there is no readable {base}.xmf; run contact with -output {base}")
         notes = {item.get("Name"): item.get("Value") for item in root.iter("Information")}
         self.bodies = [notes[f"body {b}"] for b in range(len(notes)) if f"body {b}" in notes]
         self.units = notes.get("units", "")
@@ -39,7 +37,7 @@ class Run:
         files = [os.path.join(folder, item.text.strip().rsplit(":", 1)[0]) for item in items]
         self.files = {int(re.search(r"_(\d+)\.h5$", file).group(1)): file for file in files if os.path.exists(file)}
         if not self.files:
-            stop(f"{base}.xmf lists no load step whose file exists")
+            raise ContactError(f"{base}.xmf lists no load step whose file exists")
         with h5py.File(base + ".h5", "r") as mesh:
             self.cells, self.vertices = self.read_cells(mesh), mesh["vertices"][:]
             self.body = mesh["body"][:].ravel()
@@ -61,7 +59,7 @@ class Run:
         if number is None:
             return max(self.files)
         if number not in self.files:
-            stop(f"{self.base}.xmf has no load step {number}: it has {min(self.files)} to {max(self.files)}")
+            raise ContactError(f"{self.base}.xmf has no load step {number}: it has {min(self.files)} to {max(self.files)}")
         return number
 
     def body_numbers(self, text):
@@ -73,7 +71,7 @@ class Run:
             elif name.isdigit() and int(name) < len(self.bodies):
                 numbers.append(int(name))
             else:
-                stop(f"{self.base}.xmf has no body {name}: it has {', '.join(self.bodies)}")
+                raise ContactError(f"{self.base}.xmf has no body {name}: it has {', '.join(self.bodies)}")
         return numbers
 
     def field(self, step, name):
@@ -82,7 +80,7 @@ class Run:
             if name in file:
                 values = file[name][:]
                 if values.ndim > 1 and values.shape[1] == 6:
-                    stop(f"{name} has six components: ask for one, as {name}_xx")
+                    raise ContactError(f"{name} has six components: ask for one, as {name}_xx")
                 return np.linalg.norm(values, axis=1) if values.ndim > 1 else values
             whole, _, component = name.rpartition("_")
             if whole in file and file[whole].ndim > 1:
@@ -90,7 +88,7 @@ class Run:
                 if component in names:
                     return file[whole][:, names.index(component)]
             there = ", ".join(file)
-        stop(f"{self.files[step]} has no field {name}: it has {there}")
+        raise ContactError(f"{self.files[step]} has no field {name}: it has {there}")
 
     def displacement(self, step):
         with h5py.File(self.files[step], "r") as file:

@@ -1,0 +1,164 @@
+/*
+   Slip of bodies that turn is measured along arcs. A displacement increment is the chord: of a wheel that rolls by an
+   angle t it is off by R t^3/6 in the contact. In place of the chord stands the motion at the end of the increment,
+
+     d = dc + t x (x1 - c1) + Q e,   e = c0 + Q^T (x1 - c1) - x0,
+
+   of the centres c0 and c1, the rotation vector t of Q, and the deformation e.
+*/
+#include "constraintsimpl.h"
+
+/* Below it the arc is the chord to a part in a million [rad] */
+static const PetscReal least_angle = PETSC_PI / 180.0;
+
+typedef struct {
+  PetscBool turns, centred;
+  PetscReal c0[3], c1[3], angle[3];
+} BodyArc;
+
+static PetscInt ArcFindBody(Scene scene, const char face[])
+{
+  const Material *material = SceneFaceMaterial(scene, face);
+  PetscInt        body     = 0;
+
+  while (material != &scene->bodies[body].material) ++body;
+  return body;
+}
+
+/* Of two bodies that touch and turn alike one takes the centre of the other, if that has one */
+static void ArcsShareCenter(BodyArc *one, BodyArc *other)
+{
+  PetscReal apart = 0.0;
+
+  for (PetscInt i = 0; i < 3; ++i) apart += PetscSqr(one->angle[i] - other->angle[i]);
+  if (one->centred == other->centred || apart > PetscSqr(least_angle)) return;
+  for (PetscInt i = 0; i < 3; ++i) {
+    if (one->centred) other->c0[i] = one->c0[i], other->c1[i] = one->c1[i];
+    else one->c0[i] = other->c0[i], one->c1[i] = other->c1[i];
+  }
+  one->centred = other->centred = PETSC_TRUE;
+}
+
+/* That which the scene turns a rigid body about; of others that of a body which they are carried along by, as a tyre by
+   its hub; or else the mean of their places */
+static PetscErrorCode ArcsFindCenters(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[])
+{
+  Scene     scene = b->scene;
+  BodyPose *before;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &before));
+  PetscCall(PosesFind(b, NULL, u0, before));
+  for (PetscInt body = 0; body < scene->nbodies; ++body) {
+    const PetscReal *center = PoseFindCenter(scene, body);
+
+    arcs[body].centred = (PetscBool)(center != NULL);
+    if (center) PosePlace(&before[body], center, arcs[body].c0);
+    else PetscCall(PetscArraycpy(arcs[body].c0, poses[body].from, 3));
+    PosePlace(&poses[body], arcs[body].c0, arcs[body].c1);
+  }
+  PetscCall(PetscFree(before));
+  for (PetscInt k = 0; k < scene->nbodies; ++k) {
+    for (PetscInt t = 0; t < scene->nties; ++t)
+      ArcsShareCenter(&arcs[ArcFindBody(scene, scene->ties[t].mortar)],
+        &arcs[ArcFindBody(scene, scene->ties[t].nonmortar)]);
+    for (PetscInt p = 0; p < scene->npairs; ++p)
+      ArcsShareCenter(&arcs[ArcFindBody(scene, scene->pairs[p].mortar)],
+        &arcs[ArcFindBody(scene, scene->pairs[p].nonmortar)]);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ArcsFind(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[], PetscBool *any)
+{
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  for (PetscInt body = 0; body < b->scene->nbodies; ++body) {
+    BodyArc *arc = &arcs[body];
+
+    PoseGetVector((const PetscReal(*)[3])poses[body].Q, arc->angle);
+    arc->turns =
+      (PetscBool)(PetscSqr(arc->angle[0]) + PetscSqr(arc->angle[1]) + PetscSqr(arc->angle[2]) > PetscSqr(least_angle));
+    *any = (PetscBool)(*any || arc->turns);
+  }
+  if (*any) PetscCall(ArcsFindCenters(b, u0, poses, arcs));
+  PetscFunctionReturn(0);
+}
+
+/* d - (x1 - x0) of a node */
+static void ArcGetExcess(const BodyArc *arc, const PetscReal Q[3][3], const PetscReal x0[3], const PetscReal x1[3],
+  PetscReal excess[3])
+{
+  PetscReal r[3], e[3];
+
+  for (PetscInt i = 0; i < 3; ++i) r[i] = x1[i] - arc->c1[i];
+  for (PetscInt i = 0; i < 3; ++i) {
+    e[i] = arc->c0[i] - x0[i];
+    for (PetscInt k = 0; k < 3; ++k) e[i] += Q[k][i] * r[k];
+  }
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
+
+    excess[i] = arc->c1[i] - arc->c0[i] + arc->angle[j] * r[k] - arc->angle[k] * r[j] - (x1[i] - x0[i]);
+    for (PetscInt l = 0; l < 3; ++l) excess[i] += Q[i][l] * e[l];
+  }
+}
+
+/* What the way along arcs from displacement u0 to u1 is beside the chord; any: 0 and not set where no body turns */
+PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscBool *any)
+{
+  BodyPose          *poses;
+  BodyArc           *arcs;
+  const PetscScalar *x, *a0, *a1;
+  PetscScalar       *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(b->scene->nbodies, &poses, b->scene->nbodies, &arcs));
+  PetscCall(PosesFind(b, u0, u1, poses));
+  PetscCall(ArcsFind(b, u0, poses, arcs, any));
+  PetscCall(VecGetLocalSize(excess, &n));
+  if (*any) {
+    PetscCall(VecGetArrayRead(b->places.x, &x));
+    PetscCall(VecGetArrayRead(u0, &a0));
+    PetscCall(VecGetArrayRead(u1, &a1));
+    PetscCall(VecGetArrayWrite(excess, &a));
+    for (PetscInt i = 0; i < n; i += 3) {
+      const PetscInt body = b->places.body[i / 3];
+      PetscReal      x0[3], x1[3], d[3] = {0.0, 0.0, 0.0};
+
+      for (PetscInt k = 0; k < 3; ++k) {
+        x0[k] = PetscRealPart(x[i + k] + a0[i + k]);
+        x1[k] = PetscRealPart(x[i + k] + a1[i + k]);
+      }
+      if (arcs[body].turns) ArcGetExcess(&arcs[body], (const PetscReal(*)[3])poses[body].Q, x0, x1, d);
+      for (PetscInt k = 0; k < 3; ++k) a[i + k] = d[k];
+    }
+    PetscCall(VecRestoreArrayWrite(excess, &a));
+    PetscCall(VecRestoreArrayRead(u1, &a1));
+    PetscCall(VecRestoreArrayRead(u0, &a0));
+    PetscCall(VecRestoreArrayRead(b->places.x, &x));
+  }
+  PetscCall(PetscFree2(poses, arcs));
+  PetscFunctionReturn(0);
+}
+
+/* The ways from displacement u0 to u1 along the chord, to multiply forces at u0 with, way[0], and at u1, way[1]; where
+   bodies turn along arcs: forces in balance do no work on a body that turns as a whole */
+PetscErrorCode ArcsGetWays(const Bodies *b, Vec u0, Vec u1, Vec way[2])
+{
+  PetscBool any;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u0, &way[0]));
+  PetscCall(VecDuplicate(u0, &way[1]));
+  PetscCall(ArcsGetExcess(b, u0, u1, way[1], &any));
+  if (any) PetscCall(ArcsGetExcess(b, u1, u0, way[0], &any));
+  for (int k = 0; k < 2; ++k) {
+    if (!any) PetscCall(VecZeroEntries(way[k]));
+    if (k == 0) PetscCall(VecScale(way[k], -1.0));
+    PetscCall(VecAXPY(way[k], 1.0, u1));
+    PetscCall(VecAXPY(way[k], -1.0, u0));
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,56 @@
+/* Where rigid bodies are, and what they have turned by since the start. */
+#include "measureimpl.h"
+
+static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
+{
+  return (PetscBool)(scene->bodies[body].material.type == MATERIAL_RIGID);
+}
+
+/* Rotation vectors [degrees] differ by whole turns about their axis: that which is nearest to the one before */
+static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
+{
+  const PetscReal turn = 360.0;
+  PetscReal       size = 0.0, along = 0.0, axis[3];
+
+  for (PetscInt i = 0; i < 3; ++i) size += PetscSqr(rotation[i]);
+  size = PetscSqrtReal(size);
+  if (size == 0.0) PetscFunctionReturnVoid();
+  for (PetscInt i = 0; i < 3; ++i) axis[i] = rotation[i] / size;
+  for (PetscInt i = 0; i < 3; ++i) along += axis[i] * before[i];
+  size += turn * PetscFloorReal((along - size) / turn + 0.5);
+  for (PetscInt i = 0; i < 3; ++i) rotation[i] = size * axis[i];
+}
+
+/* At the last state; about the axes that the scene has, or else about the middle of the body */
+PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
+{
+  const Bodies       bodies  = SimulationBodies(sim);
+  const RigidReport *before  = report > sim->report.steps ? report[-1].rigid_bodies : NULL;
+  const PetscReal    none[3] = {0.0, 0.0, 0.0};
+  BodyPose          *poses;
+  PetscInt           n = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) n += RigidPlacesHas(sim->scene, b);
+  PetscCall(PetscFree(report->rigid_bodies));
+  report->nrigid_bodies = n;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(n, &report->rigid_bodies));
+  PetscCall(PetscMalloc1(sim->scene->nbodies, &poses));
+  PetscCall(PosesFind(&bodies, NULL, sim->path.u, poses));
+  n = 0;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    const PetscReal *center = PoseFindCenter(sim->scene, b);
+    RigidReport     *body   = &report->rigid_bodies[n];
+
+    if (!RigidPlacesHas(sim->scene, b)) continue;
+    *body = (RigidReport){.name = sim->scene->bodies[b].name};
+    PosePlace(&poses[b], center ? center : poses[b].from, body->position);
+    PoseGetVector((const PetscReal(*)[3])poses[b].Q, body->rotation);
+    for (PetscInt i = 0; i < 3; ++i) body->rotation[i] *= 180.0 / PETSC_PI;
+    RigidPlacesUnwind(before ? before[n].rotation : none, body->rotation);
+    ++n;
+  }
+  PetscCall(PetscFree(poses));
+  PetscFunctionReturn(0);
+}

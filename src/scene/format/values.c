@@ -1,0 +1,221 @@
+/*
+   The values of a scene file by their full keys: nested keys are joined with _, a list becomes its entries separated by
+   commas. Entries of a list that are mappings of one key are named by it, and their values are nested under the list.
+   Like PetscOptionsInsertStringYAML(), but for any number of keys.
+*/
+#include "formatimpl.h"
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <yaml.h>
+
+#define VALUES_DEPTH 25 /* nested mappings */
+
+static const char *ValuesText(const yaml_node_t *node)
+{
+  return (const char *)node->data.scalar.value;
+}
+
+static PetscErrorCode ValuesAdd(SceneValues *v, const char prefix[], const char key[], const char text[])
+{
+  SceneValue *value;
+  size_t      length;
+
+  PetscFunctionBegin;
+  if (v->n == v->max) {
+    v->max = 2 * v->max + 64;
+    PetscCall(PetscRealloc(v->max * sizeof(*v->values), &v->values));
+  }
+  value  = &v->values[v->n];
+  *value = (SceneValue){.place = v->n++};
+  length = strlen(prefix) + strlen(key) + 1;
+  PetscCall(PetscMalloc1(length, &value->key));
+  PetscCall(PetscSNPrintf(value->key, length, "%s%s", prefix, key));
+  PetscCall(PetscStrallocpy(text, &value->text));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ValuesReadMapping(SceneValues *, yaml_document_t *, const yaml_node_t *, PetscInt depth,
+  const char prefix[]);
+
+/* The values of a mapping nested under a key */
+static PetscErrorCode ValuesReadNested(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
+  const char prefix[], const char key[])
+{
+  const size_t length = strlen(prefix) + strlen(key) + 2;
+  char        *nested;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(length, &nested));
+  PetscCall(PetscSNPrintf(nested, length, "%s%s_", prefix, key));
+  PetscCall(ValuesReadMapping(v, doc, node, depth + 1, nested));
+  PetscCall(PetscFree(nested));
+  PetscFunctionReturn(0);
+}
+
+/* Appends a word to a list */
+static PetscErrorCode ValuesAppend(const char word[], size_t *length, char **list)
+{
+  const size_t more = strlen(word);
+
+  PetscFunctionBegin;
+  if (!more) PetscFunctionReturn(0);
+  PetscCall(PetscRealloc(*length + more + 2, list));
+  if (*length) (*list)[(*length)++] = ',';
+  PetscCall(PetscArraycpy(*list + *length, word, more + 1));
+  *length += more;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ValuesReadSequence(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
+  const char prefix[], const char key[])
+{
+  char  *list;
+  size_t length = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(1, &list));
+  for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; ++i) {
+    const yaml_node_t      *item = yaml_document_get_node(doc, *i);
+    const yaml_node_pair_t *pair;
+    const yaml_node_t      *name;
+
+    if (item->type == YAML_SCALAR_NODE) {
+      PetscCall(ValuesAppend(ValuesText(item), &length, &list));
+      continue;
+    }
+    PetscCheck(item->type == YAML_MAPPING_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "Unsupported YAML node type: expected scalar or mapping");
+    pair = item->data.mapping.pairs.start;
+    PetscCheck(item->data.mapping.pairs.top - pair <= 1, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "Unsupported YAML node value: expected a single key:value pair");
+    if (item->data.mapping.pairs.top == pair) continue;
+    name = yaml_document_get_node(doc, pair->key);
+    PetscCheck(name->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "Unsupported YAML node type: expected scalar");
+    PetscCheck(strcmp(ValuesText(name), "<<"), PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "Unsupported YAML node value: merge key '<<' not supported here");
+    PetscCall(ValuesReadNested(v, doc, item, depth, prefix, key));
+    PetscCall(ValuesAppend(ValuesText(name), &length, &list));
+  }
+  PetscCall(ValuesAdd(v, prefix, key, list));
+  PetscCall(PetscFree(list));
+  PetscFunctionReturn(0);
+}
+
+/* Values of a merge key, <<, are those of the mapping that it is in */
+static PetscErrorCode ValuesReadMerged(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
+  const char prefix[])
+{
+  PetscFunctionBegin;
+  if (node->type != YAML_SEQUENCE_NODE) {
+    PetscCall(ValuesReadMapping(v, doc, node, depth + 1, prefix));
+    PetscFunctionReturn(0);
+  }
+  for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; ++i)
+    PetscCall(ValuesReadMapping(v, doc, yaml_document_get_node(doc, *i), depth + 1, prefix));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ValuesReadMapping(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
+  const char prefix[])
+{
+  PetscFunctionBegin;
+  PetscCheck(depth < VALUES_DEPTH, PETSC_COMM_SELF, PETSC_ERR_SUP, "more than %d mappings are nested", VALUES_DEPTH);
+  if (node->type == YAML_SCALAR_NODE && !ValuesText(node)[0]) PetscFunctionReturn(0);
+  PetscCheck(node->type == YAML_MAPPING_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
+    "Unsupported YAML node type: expected mapping");
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key), *value = yaml_document_get_node(doc, p->value);
+
+    PetscCheck(key->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
+      "Unsupported YAML node type: expected scalar");
+    if (!strcmp(ValuesText(key), "<<")) PetscCall(ValuesReadMerged(v, doc, value, depth, prefix));
+    else if (value->type == YAML_SCALAR_NODE) PetscCall(ValuesAdd(v, prefix, ValuesText(key), ValuesText(value)));
+    else if (value->type == YAML_SEQUENCE_NODE)
+      PetscCall(ValuesReadSequence(v, doc, value, depth, prefix, ValuesText(key)));
+    else PetscCall(ValuesReadNested(v, doc, value, depth, prefix, ValuesText(key)));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* By key, upper and lower case alike */
+static int ValuesCompareKeys(const void *a, const void *b)
+{
+  return strcasecmp(((const SceneValue *)a)->key, ((const SceneValue *)b)->key);
+}
+
+/* Of one key that given last comes first */
+static int ValuesCompare(const void *a, const void *b)
+{
+  const int order = ValuesCompareKeys(a, b);
+
+  return order ? order : ((const SceneValue *)a)->place < ((const SceneValue *)b)->place ? 1 : -1;
+}
+
+/* Sorted, and of each key the value that was given last */
+static PetscErrorCode ValuesSort(SceneValues *v)
+{
+  PetscInt n = 0;
+
+  PetscFunctionBegin;
+  if (v->n) qsort(v->values, (size_t)v->n, sizeof(*v->values), ValuesCompare);
+  for (PetscInt i = 0; i < v->n; ++i) {
+    if (n && !ValuesCompareKeys(&v->values[n - 1], &v->values[i])) {
+      PetscCall(PetscFree(v->values[i].key));
+      PetscCall(PetscFree(v->values[i].text));
+    } else v->values[n++] = v->values[i];
+  }
+  v->n = n;
+  PetscFunctionReturn(0);
+}
+
+/* Not collective. Of a text that SceneCheckYAML() has passed; v: initialized with zeros */
+PetscErrorCode SceneValuesRead(const char text[], SceneValues *v)
+{
+  yaml_parser_t   parser;
+  yaml_document_t doc;
+  PetscErrorCode  ierr = 0;
+  PetscBool       more = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to parse it");
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+  while (more && !ierr) {
+    if (!yaml_parser_load(&parser, &doc)) {
+      yaml_parser_delete(&parser);
+      SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "YAML parser loading error");
+    }
+    more = (PetscBool)(yaml_document_get_root_node(&doc) != NULL);
+    if (more) ierr = ValuesReadMapping(v, &doc, yaml_document_get_root_node(&doc), 0, "");
+    yaml_document_delete(&doc);
+  }
+  yaml_parser_delete(&parser);
+  PetscCall(ierr);
+  PetscCall(ValuesSort(v));
+  PetscFunctionReturn(0);
+}
+
+/* Marks the value of a key as used; NULL: there is none */
+const char *SceneValuesUse(SceneValues *v, const char key[])
+{
+  const SceneValue wanted = {.key = (char *)key};
+  SceneValue      *value =
+    v->n ? (SceneValue *)bsearch(&wanted, v->values, (size_t)v->n, sizeof(wanted), ValuesCompareKeys) : NULL;
+
+  if (!value) return NULL;
+  value->used = PETSC_TRUE;
+  return value->text;
+}
+
+PetscErrorCode SceneValuesDestroy(SceneValues *v)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < v->n; ++i) {
+    PetscCall(PetscFree(v->values[i].key));
+    PetscCall(PetscFree(v->values[i].text));
+  }
+  PetscCall(PetscFree(v->values));
+  *v = (SceneValues){0};
+  PetscFunctionReturn(0);
+}
