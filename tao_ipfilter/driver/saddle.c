@@ -1,8 +1,8 @@
 /* Stationary points that are no minima: where the linear solver does not meet negative curvature by itself. */
 #include "driverimpl.h"
 
-/* Whether nothing has told so far that the matrix is positive definite: a factorization of the caller's choice solves with
-   any matrix */
+/* Whether nothing has told so far that the matrix is positive definite: a factorization of the caller's choice solves
+   with any matrix */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

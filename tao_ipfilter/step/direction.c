@@ -333,8 +333,8 @@ static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* Into dir.x a direction of negative curvature of the matrix at the present point, if conjugate gradients, scaled by the
-   diagonal, meet one: p with p^T A p < 0 */
+/* Into dir.x a direction of negative curvature of the matrix at the present point, if conjugate gradients, scaled by
+   the diagonal, meet one: p with p^T A p < 0 */
 PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;

@@ -282,8 +282,8 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Goes on from the trial point at the end of dir.x, which was found beside the path: multipliers are centred, with mu no
-   less than a trace of the first */
+/* Goes on from the trial point at the end of dir.x, which was found beside the path: multipliers are centred, with mu
+   no less than a trace of the first */
 static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -361,8 +361,8 @@ static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
 }
 
 /* Where Newton's steps shrink slowly, the gradient and the curvature vanish together, and the point may be one of
-   inflection: whether the barrier function falls beyond it, along the last step, further and further. Then the solve goes
-   on from there. */
+   inflection: whether the barrier function falls beyond it, along the last step, further and further. Then the solve
+   goes on from there. */
 PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

@@ -1,8 +1,8 @@
 /*
    Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
-   slacks vanish before mu does. Then all inequality constraints, and beside equality constraints all bounds, are relaxed,
-   c_I + r >= 0, with r a hundredth of the tolerance times their size (Waechter and Biegler 2006, section 3.5, relax
-   all problems from the start, and by more).
+   slacks vanish before mu does. Then all inequality constraints, and beside equality constraints all bounds, are
+   relaxed, c_I + r >= 0, with r a hundredth of the tolerance times their size (Waechter and Biegler 2006, section
+   3.5, relax all problems from the start, and by more).
 */
 #include "stepimpl.h"
 
@@ -46,9 +46,9 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 }
 
 /* The same, or the multiplier of a slack on the central path of a mu that does not fall is so much larger than what
-   balances the objective's gradient that no slack of a constraint with an interior would be so small; or that of a bound
-   is, and it cancels that of an equality constraint. Far from feasible points that happens on the way. Without scales
-   nothing says what balances. */
+   balances the objective's gradient that no slack of a constraint with an interior would be so small; or that of a
+   bound is, and it cancels that of an equality constraint. Far from feasible points that happens on the way. Without
+   scales nothing says what balances. */
 static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
