@@ -166,6 +166,16 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Whether contact can hold the loads at all; bodies that move have inertia beside it. With friction it is asked before
+   a solve, because a solve that finds no solution takes long */
+static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
+{
+  PetscFunctionBegin;
+  if (!p->lower && !SimulationIsDynamic(p->sim))
+    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  PetscFunctionReturn(0);
+}
+
 /* Explains a failed solve: names the bodies that contact cannot hold, or else lists likely causes */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
@@ -173,8 +183,7 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   char *unbounded;
 
   PetscFunctionBegin;
-  if (!p->lower && !SimulationIsDynamic(p->sim))
-    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+  if (!p->friction.T) PetscCall(OptimizerForesee(p, report));
   if (p->unheld) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
@@ -279,6 +288,8 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
+  if (p->friction.T && !resume) PetscCall(OptimizerForesee(p, report));
+  if (p->unheld) PetscFunctionReturn(0);
   PetscCall(OptimizerCreate(p, &tao, &ours));
   PetscCall(OptimizerStart(p, resume, tao, u, &valid));
   if (valid) {

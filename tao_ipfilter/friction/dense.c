@@ -1,5 +1,6 @@
 /* Solves the systems of system.c by a dense LU factorization where GMRES fails. That happens for soft bodies with
-   very different stiffnesses along their motions. C is computed once. */
+   very different stiffnesses along their motions. C is computed once. Rows that are open or have no friction are left
+   out. */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
@@ -25,70 +26,142 @@ static PetscErrorCode TermDenseMakeCompliance(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* N += factor B_v columns, with rows scaled by the rows' scale and columns by `scale`; columns have length m */
-static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscInt n, const PetscReal columns[], PetscReal factor,
-  const PetscReal scale[], PetscInt ld, PetscReal N[])
+/* rows: the n rows whose equation has more than their own force. Of the others the equation is b_f x = r_f, which
+   gives x; x of the n rows is 0 */
+static PetscErrorCode TermDenseFindCoupled(const IPTermSystem *t, const PetscReal rf[], PetscInt *n, PetscInt rows[],
+  PetscReal x[])
 {
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < n; j++) {
-    PetscReal *column = N + (size_t)j * (size_t)ld;
+  *n = 0;
+  for (PetscInt i = 0; i < t->m; i++) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           nc;
+    PetscReal          own = 0.0, others = 0.0;
 
-    PetscCall(VecPlaceArray(t->r, columns + (size_t)j * (size_t)t->m));
-    PetscCall(VecPlaceArray(t->z, column));
-    PetscCall(MatMult(t->Bv, t->r, t->z));
-    PetscCall(VecResetArray(t->z));
-    PetscCall(VecResetArray(t->r));
-    for (PetscInt i = 0; i < t->m; i++) column[i] *= factor * t->scale[i] * (scale ? scale[j] : 1.0);
+    PetscCall(MatGetRow(t->Bv, i, &nc, NULL, &values));
+    for (PetscInt c = 0; c < nc; c++) others += PetscAbsScalar(values[c]);
+    PetscCall(MatRestoreRow(t->Bv, i, &nc, NULL, &values));
+    PetscCall(MatGetRow(t->Bf, i, &nc, &columns, &values));
+    for (PetscInt c = 0; c < nc; c++) {
+      if (columns[c] == i) own = PetscRealPart(values[c]);
+      else others += PetscAbsScalar(values[c]);
+    }
+    PetscCall(MatRestoreRow(t->Bf, i, &nc, &columns, &values));
+    x[i] = 0.0;
+    if (others > 0.0) rows[(*n)++] = i;
+    else x[i] = rf[i] / own;
   }
   PetscFunctionReturn(0);
 }
 
-/* Assembles the scaled matrix; its columns have length m + k */
-static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscReal N[])
+/* a = B_v a with the rows' scale; a has length m */
+static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
 {
-  const PetscInt m = t->m, k = s->k, ld = m + k;
+  PetscScalar *z;
 
   PetscFunctionBegin;
-  PetscCall(TermDenseMultiply(t, m, t->C, 1.0, t->scale, ld, N));
-  PetscCall(TermDenseMultiply(t, k, s->JZ, -1.0, NULL, ld, N + (size_t)m * (size_t)ld));
-  for (PetscInt i = 0; i < m; i++) {
+  PetscCall(VecPlaceArray(t->r, a));
+  PetscCall(MatMult(t->Bv, t->r, t->z));
+  PetscCall(VecResetArray(t->r));
+  PetscCall(VecGetArray(t->z, &z));
+  for (PetscInt i = 0; i < t->m; i++) a[i] = t->scale[i] * PetscRealPart(z[i]);
+  PetscCall(VecRestoreArray(t->z, &z));
+  PetscFunctionReturn(0);
+}
+
+/* Assembles the scaled matrix of n rows and of the directions; its columns have length n + k */
+static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
+  PetscReal N[])
+{
+  const PetscInt k = s->k, ld = n + k;
+  PetscInt      *place;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < ld; j++) {
+    const PetscReal *from   = j < n ? t->C + (size_t)rows[j] * (size_t)t->m : s->JZ + (size_t)(j - n) * (size_t)t->m;
+    const PetscReal  factor = j < n ? t->scale[rows[j]] : -1.0;
+
+    for (PetscInt i = 0; i < t->m; i++) t->v[i] = factor * from[i];
+    PetscCall(TermDenseMultiply(t, t->v));
+    for (PetscInt i = 0; i < n; i++) N[i + (size_t)j * (size_t)ld] = t->v[rows[i]];
+    for (PetscInt i = 0; i < k; i++)
+      N[n + i + (size_t)j * (size_t)ld] =
+        j < n ? factor * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
+  }
+  PetscCall(PetscMalloc1(t->m, &place));
+  for (PetscInt i = 0; i < t->m; i++) place[i] = -1;
+  for (PetscInt i = 0; i < n; i++) place[rows[i]] = i;
+  for (PetscInt i = 0; i < n; i++) {
     const PetscInt    *columns;
     const PetscScalar *values;
     PetscInt           nc;
 
-    PetscCall(MatGetRow(t->Bf, i, &nc, &columns, &values));
-    for (PetscInt c = 0; c < nc; c++)
-      N[i + (size_t)columns[c] * (size_t)ld] += t->scale[i] * t->scale[columns[c]] * PetscRealPart(values[c]);
-    PetscCall(MatRestoreRow(t->Bf, i, &nc, &columns, &values));
-    for (PetscInt j = 0; j < k; j++) N[m + j + (size_t)i * (size_t)ld] = t->scale[i] * s->JZ[i + (size_t)j * (size_t)m];
+    PetscCall(MatGetRow(t->Bf, rows[i], &nc, &columns, &values));
+    for (PetscInt c = 0; c < nc; c++) {
+      if (place[columns[c]] >= 0)
+        N[i + (size_t)place[columns[c]] * (size_t)ld] +=
+          t->scale[rows[i]] * t->scale[columns[c]] * PetscRealPart(values[c]);
+    }
+    PetscCall(MatRestoreRow(t->Bf, rows[i], &nc, &columns, &values));
   }
-  for (PetscInt j = 0; j < k; j++)
-    PetscCall(PetscArraycpy(N + m + (size_t)(m + j) * (size_t)ld, s->T + j * s->kmax, k));
+  PetscCall(PetscFree(place));
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution. *solved: false if the matrix is singular */
+/* Subtracts from r_f and r_y what the known forces x contribute */
+static PetscErrorCode TermDenseSubtract(IPTermSystem *t, const IPReducedSystem *s, const PetscReal x[], PetscReal rf[],
+  PetscReal ry[])
+{
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < t->m; i++) any = (PetscBool)(any || x[i] != 0.0);
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(t->f, x, t->m));
+  PetscCall(IPTermSystemApplyCompliance(t, t->f, t->v));
+  PetscCall(TermDenseMultiply(t, t->v));
+  for (PetscInt i = 0; i < t->m; i++) {
+    rf[i] -= t->v[i] / t->scale[i];
+    for (PetscInt j = 0; j < s->k; j++) ry[j] -= s->JZ[i + (size_t)j * (size_t)t->m] * x[i];
+  }
+  PetscCall(VecPlaceArray(t->r, x));
+  PetscCall(VecPlaceArray(t->z, t->v));
+  PetscCall(MatMult(t->Bf, t->r, t->z));
+  PetscCall(VecResetArray(t->z));
+  PetscCall(VecResetArray(t->r));
+  for (PetscInt i = 0; i < t->m; i++) rf[i] -= t->v[i];
+  PetscFunctionReturn(0);
+}
+
+/* Overwrites r_f and r_y with the solution; *solved is false where the matrix is singular */
 PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {
-  const PetscInt m = t->m, k = s->k;
-  PetscReal     *N, *x;
-  PetscBLASInt   n, one = 1, info, *pivots;
+  PetscInt     n, *rows;
+  PetscReal   *N, *x, *known;
+  PetscBLASInt nb, one = 1, info, *pivots;
 
   PetscFunctionBegin;
   PetscCall(TermDenseMakeCompliance(t));
-  PetscCall(PetscBLASIntCast(m + k, &n));
-  PetscCall(PetscMalloc3((size_t)n * (size_t)n, &N, n, &x, n, &pivots));
-  PetscCall(TermDenseAssemble(t, s, N));
-  for (PetscInt i = 0; i < m; i++) x[i] = t->scale[i] * rf[i];
-  PetscCall(PetscArraycpy(x + m, ry, k));
-  PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&n, &n, N, &n, pivots, &info));
+  PetscCall(PetscMalloc2(t->m, &rows, t->m, &known));
+  PetscCall(TermDenseFindCoupled(t, rf, &n, rows, known));
+  PetscCall(TermDenseSubtract(t, s, known, rf, ry));
+  PetscCall(PetscBLASIntCast(n + s->k, &nb));
+  PetscCall(PetscMalloc3((size_t)nb * (size_t)nb, &N, nb, &x, nb, &pivots));
+  PetscCall(TermDenseAssemble(t, s, n, rows, N));
+  for (PetscInt i = 0; i < n; i++) x[i] = t->scale[rows[i]] * rf[rows[i]];
+  PetscCall(PetscArraycpy(x + n, ry, s->k));
+  info = 0;
+  if (nb) PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&nb, &nb, N, &nb, pivots, &info));
   *solved = (PetscBool)!info;
   if (*solved) {
-    PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &n, &one, N, &n, pivots, x, &n, &info));
-    for (PetscInt i = 0; i < m; i++) rf[i] = t->scale[i] * x[i];
-    PetscCall(PetscArraycpy(ry, x + m, k));
+    if (nb) PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &nb, &one, N, &nb, pivots, x, &nb, &info));
+    PetscCall(PetscArraycpy(rf, known, t->m));
+    for (PetscInt i = 0; i < n; i++) rf[rows[i]] = t->scale[rows[i]] * x[i];
+    PetscCall(PetscArraycpy(ry, x + n, s->k));
   }
   PetscCall(PetscFree3(N, x, pivots));
+  PetscCall(PetscFree2(rows, known));
   PetscFunctionReturn(0);
 }

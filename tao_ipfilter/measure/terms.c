@@ -8,9 +8,7 @@
 */
 #include "measureimpl.h"
 
-#define IP_HARD \
-  1e3 /* stiffness of a sticking term in the condensed matrix, as a multiple of the stiffness that
-                       resists it */
+#define IP_HARD 1e3 /* stiffness of a term without a bound, as a multiple of the stiffness that resists it */
 
 PetscErrorCode IPTermsDestroy(IPTerms *terms)
 {
@@ -233,7 +231,8 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
     const PetscReal size = PetscSqrtReal(PetscSqr(PetscAbsScalar(v[2 * i])) + PetscSqr(PetscAbsScalar(v[2 * i + 1])));
 
     if (size > 0.0 && PetscRealPart(rho[i]) > 0.0)
-      *sum += PetscMin(PetscRealPart(b[i]), IP_HARD * PetscRealPart(rho[i]) * size) * size;
+      *sum +=
+        size * (PetscRealPart(b[i]) < PETSC_INFINITY ? PetscRealPart(b[i]) : IP_HARD * PetscRealPart(rho[i]) * size);
   }
   PetscCall(VecRestoreArrayRead(terms->rho, &rho));
   PetscCall(VecRestoreArrayRead(value, &v));
@@ -241,6 +240,38 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscCall(VecDestroy(&value));
   PetscCall(VecDestroy(&bounds));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* stiffness of the terms' rows: what resists the terms that stick; 0 for the others. force: M lambda */
+PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
+{
+  IPTerms           *terms  = &((TAO_IPFILTER *)tao->data)->terms;
+  const PetscReal    inside = 0.99;
+  const PetscScalar *b, *tau, *rho;
+  PetscScalar       *d;
+  PetscInt           n;
+  Vec                bounds;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(terms->rho, &bounds));
+  PetscCall(TermsGetBounds(tao, force, bounds));
+  PetscCall(VecGetLocalSize(bounds, &n));
+  PetscCall(VecGetArrayRead(bounds, &b));
+  PetscCall(VecGetArrayRead(terms->force, &tau));
+  PetscCall(VecGetArrayRead(terms->rho, &rho));
+  PetscCall(VecGetArrayWrite(stiffness, &d));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal size =
+      PetscSqrtReal(PetscSqr(PetscAbsScalar(tau[2 * i])) + PetscSqr(PetscAbsScalar(tau[2 * i + 1])));
+
+    d[2 * i] = d[2 * i + 1] = size < inside * PetscRealPart(b[i]) ? rho[i] : 0.0;
+  }
+  PetscCall(VecRestoreArrayWrite(stiffness, &d));
+  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
+  PetscCall(VecRestoreArrayRead(terms->force, &tau));
+  PetscCall(VecRestoreArrayRead(bounds, &b));
+  PetscCall(VecDestroy(&bounds));
   PetscFunctionReturn(0);
 }
 

@@ -158,14 +158,34 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionReturn(0);
 }
 
+/* What the model's solution leaves of the laws of norm terms: sum of b |v| + tau v, 0 where the laws hold; sum: that of
+   b |v| */
+static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal *slack)
+{
+  IPTerms    *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  PetscScalar work;
+  Vec         v;
+
+  PetscFunctionBegin;
+  *slack = 0.0;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(terms->t, &v));
+  PetscCall(IPTermsValue(tao, x, v));
+  PetscCall(VecDot(v, terms->force, &work));
+  PetscCall(VecDestroy(&v));
+  *slack = PetscMax(0.0, sum + PetscRealPart(work));
+  PetscFunctionReturn(0);
+}
+
 /* Line search: halves the step until the penalized objective falls. The objective includes the norm terms with the
-   weights of the model's multipliers. The violation that the model itself has at d is subtracted in proportion to
-   the step. *ok: false if the objective does not fall, or the model is not convex along d */
+   weights of the model's multipliers. The violation that the model itself has at d, and what it leaves of the laws of
+   norm terms, are subtracted in proportion to the step. *ok: false if the objective does not
+   fall, or the model is not convex along d */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo = 1e-4, least = 1e-4;
-  PetscReal       nu = 0.0, violation, left, rounding = 0.0, terms[2], slope, alpha;
+  PetscReal       nu = 0.0, violation, left, slack, rounding = 0.0, terms[2], slope, alpha;
   PetscScalar     gd;
 
   PetscFunctionBegin;
@@ -177,7 +197,8 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscCall(IPTermsSum(tao, tao->solution, force, &terms[0]));
   PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
   PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-  slope              = PetscRealPart(gd) - nu * violation + terms[1] - terms[0];
+  PetscCall(NewtonModelSlack(tao, ip->trial.x, terms[1], &slack));
+  slope              = PetscRealPart(gd) - nu * violation + terms[1] - terms[0] - slack;
   ip->search.ntrials = 0;
   *ok                = PETSC_FALSE;
   for (alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
@@ -191,7 +212,7 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(NewtonViolation(tao, ip->trial.c, &rest));
     PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] <=
+    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] - alpha * slack <=
                       ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
   }
   PetscFunctionReturn(0);

@@ -11,7 +11,7 @@ PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
   PetscCall(IPBasisDestroy(&kept->basis));
   PetscCall(IPReducedDestroy(&kept->reduced));
   kept->K_id = 0;
-  kept->held = PETSC_FALSE;
+  kept->held = kept->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -135,7 +135,7 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, Petsc
   PetscCall(KeptGetWhole(K, (PetscBool)!factored, &whole));
   PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
   PetscCall(MatDestroy(&whole));
-  kept->held = PETSC_FALSE;
+  kept->held = kept->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -157,19 +157,16 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* A += T^T D T for the norm terms that can carry a force; D: stiffness of the bodies */
-static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
+/* D of the norm terms' rows: what resists the terms that can carry a force; 0 for the others */
+static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
 {
   IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
   const Vec          most[2] = {terms->limit, terms->coefficient};
   const PetscScalar *rho;
   PetscScalar       *d;
   PetscInt           n;
-  Mat                DT, TtDT;
-  Vec                D;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(terms->t, &D));
   PetscCall(VecGetLocalSize(terms->rho, &n));
   PetscCall(VecGetArrayRead(terms->rho, &rho));
   PetscCall(VecGetArrayWrite(D, &d));
@@ -185,13 +182,29 @@ static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
   }
   PetscCall(VecRestoreArrayWrite(D, &d));
   PetscCall(VecRestoreArrayRead(terms->rho, &rho));
-  PetscCall(MatDuplicate(terms->T, MAT_COPY_VALUES, &DT));
-  PetscCall(MatDiagonalScale(DT, D, NULL));
-  PetscCall(MatTransposeMatMult(terms->T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
-  PetscCall(MatAXPY(A, 1.0, TtDT, DIFFERENT_NONZERO_PATTERN));
+  PetscFunctionReturn(0);
+}
+
+/* A = K + J^T D J + T^T D_t T; D_t: NULL without norm terms */
+PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
+{
+  TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscInt systems = ip->rec.nsystems, filtered = ip->rec.nfiltered;
+  Mat            DT, TtDT;
+
+  PetscFunctionBegin;
+  PetscCall(IPCondenseMatrix(tao, D));
+  ip->rec.nsystems  = systems; /* restores the count: these are not Newton systems */
+  ip->rec.nfiltered = filtered;
+  *A                = ip->cond.A;
+  ip->cond.A        = NULL;
+  if (!Dt) PetscFunctionReturn(0);
+  PetscCall(MatDuplicate(ip->terms.T, MAT_COPY_VALUES, &DT));
+  PetscCall(MatDiagonalScale(DT, Dt, NULL));
+  PetscCall(MatTransposeMatMult(ip->terms.T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
+  PetscCall(MatAXPY(*A, 1.0, TtDT, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&TtDT));
   PetscCall(MatDestroy(&DT));
-  PetscCall(VecDestroy(&D));
   PetscFunctionReturn(0);
 }
 
@@ -199,22 +212,22 @@ static PetscErrorCode KeptHoldTerms(Tao tao, Mat A)
    bodies */
 PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
-  TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscInt systems = ip->rec.nsystems, filtered = ip->rec.nfiltered;
-  Vec            D;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           D, Dt = NULL;
+  Mat           A;
 
   PetscFunctionBegin;
   PetscCall(
     PetscInfo(tao, "The Hessian is singular: its preconditioner is built from the Hessian and the constraints\n"));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
-  PetscCall(IPCondenseMatrix(tao, D));
-  ip->rec.nsystems  = systems; /* restores the count: these are not Newton systems */
-  ip->rec.nfiltered = filtered;
+  if (ip->terms.n) PetscCall(VecDuplicate(ip->terms.t, &Dt));
+  if (ip->terms.n) PetscCall(KeptStiffnessOfTerms(tao, Dt));
+  PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
+  PetscCall(VecDestroy(&Dt));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
-  if (ip->terms.n) PetscCall(KeptHoldTerms(tao, ip->cond.A));
-  PetscCall(KeptSetUpPC(tao, kept, ip->cond.A, ip->hess.H, possible));
-  PetscCall(MatDestroy(&ip->cond.A));
+  PetscCall(KeptSetUpPC(tao, kept, A, ip->hess.H, possible));
+  PetscCall(MatDestroy(&A));
   kept->held = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
@@ -265,7 +278,7 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
   }
   if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
     kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
-    if (!kept->held) PetscCall(KeptSetUpFree(tao, kept, K, possible));
+    if (!kept->held || kept->negative) PetscCall(KeptSetUpFree(tao, kept, K, possible));
     if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));
     PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
     PetscCall(IPBasisMultiply(&kept->basis, K));

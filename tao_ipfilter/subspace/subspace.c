@@ -161,9 +161,9 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular up to rounding along a preconditioned residual d. In a quadratic program also if K is
-   negative along d, since K plus constraints may be positive. */
-static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
+/* Whether K is singular up to rounding, or negative, along a preconditioned residual d: K plus constraints may be
+   positive, as for bodies under pressure that only contact holds */
+static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal rounding = 1e-11;
@@ -178,7 +178,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
   PetscCall(VecDot(d, Kd, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
-  if (IPFilteredOf(tao)->newton && PetscRealPart(energy) < -rounding * PetscRealPart(size)) *singular = PETSC_FALSE;
+  *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
   PetscFunctionReturn(0);
 }
 
@@ -187,14 +187,15 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular)
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  PetscBool     singular = PETSC_FALSE;
+  PetscBool     singular = PETSC_FALSE, negative = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
   if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
-  PetscCall(FilteredIsSingular(tao, d, &singular));
+  PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
   if (!singular) PetscFunctionReturn(0);
   PetscCall(IPSubspaceStateHold(tao, kept, definite));
+  kept->negative = negative;
   if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
   PetscFunctionReturn(0);
 }
@@ -260,6 +261,63 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
+/* Sets up the reduced problem with a Hessian K */
+static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K, PetscBool *possible)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(IPReducedSetUp(f->reduced, ip->laws, K, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c,
+    basis, possible));
+  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, &ip->terms, ip->rows.inequality));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*
+   The same with K + J^T D J + T^T D_t T. D is not zero in rows that are closed, D_t in terms that stick: there they are
+   stiffer than the bodies. A tangent K_WW may be indefinite although contact holds its unknowns. These springs start
+   from the present point. They change no solution in which the same rows stay closed and stick. They touch W alone, so
+   that directions and their products with K stay.
+*/
+static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool *possible)
+{
+  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
+  const IPPair      *slack   = &ip->pair[IP_SLACK];
+  const PetscReal    stiffer = 10.0;
+  const PetscScalar *z, *c;
+  PetscScalar       *d;
+  PetscInt           n;
+  Vec                D, Dt, force;
+  Mat                A;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, slack->z, slack->w));
+  PetscCall(VecDuplicate(ip->terms.t, &Dt));
+  PetscCall(IPTermsStiffness(tao, force, Dt));
+  PetscCall(VecScale(Dt, stiffer));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(VecPointwiseMult(D, ip->stiff.rho, slack->w));
+  PetscCall(VecGetLocalSize(D, &n));
+  PetscCall(VecGetArray(D, &d));
+  PetscCall(VecGetArrayRead(slack->z, &z));
+  PetscCall(VecGetArrayRead(ip->at.c, &c));
+  for (PetscInt i = 0; i < n; i++) d[i] = PetscRealPart(z[i]) > 0.0 || PetscRealPart(c[i]) < 0.0 ? stiffer * d[i] : 0.0;
+  PetscCall(VecRestoreArrayRead(ip->at.c, &c));
+  PetscCall(VecRestoreArrayRead(slack->z, &z));
+  PetscCall(VecRestoreArray(D, &d));
+  PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
+  PetscCall(VecDestroy(&Dt));
+  PetscCall(FilteredSetUpReduced(tao, basis, A, possible));
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
+
 /* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
    what belongs to this solve only. *possible is false if K_WW is not positive definite */
 PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
@@ -270,11 +328,8 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
   f->reduced = &kept->reduced;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(f->reduced, ip->laws, ip->hess.H, ip->jac.inequality, &ip->terms, f->W, tao->solution,
-    ip->at.c, &kept->basis, possible));
-  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, &ip->terms, ip->rows.inequality));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
+  PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess.H, possible));
+  if (!*possible && f->newton && ip->terms.n) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);
 }

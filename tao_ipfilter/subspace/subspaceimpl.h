@@ -101,6 +101,7 @@ typedef struct {
   PC               pc;            /* the Krylov method's preconditioner, set up with K alone */
   PetscBool        held;          /* whether it was set up with K + J^T D J instead, for bodies that only constraints
                                      hold */
+  PetscBool        negative;      /* held only while K stays: K was negative along a direction */
   PetscBool        changing;      /* K has changed since it was first seen */
   PetscInt         napplications; /* applications of the preconditioner in the last solve */
   PetscObjectId    K_id;
@@ -172,6 +173,7 @@ PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Ve
 PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
 PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
+PETSC_INTERN PetscErrorCode IPSubspaceStateCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);

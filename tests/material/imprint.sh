@@ -1,0 +1,31 @@
+# A rigid ball is pressed into a block that yields and taken away again: its imprint stays; the same on two ranks.
+contact=$AMGF_DIR/bin/contact
+cat > brinell.yaml <<'YAML'
+problem: brinell
+bodies:
+  - block: {lower: [0, 0, -2], upper: [2, 2, 0], cells: [6, 6, 6], grading: [4, 4, 0.25], material: j2, young: 200000, poisson: 0.3, yield: 200, element: bbar}
+  - ball: {shape: ball, center: [0, 0, 1], octant: [1, 1, -1], radius: 1, patches: [6, 6, 6], layers: 1, material: rigid}
+symmetry: [block.xmin, block.ymin]
+displacements:
+  - floor: {face: block.zmin, value: [0, 0, 0]}
+  - press: {body: ball, value: [0, 0, -0.05]}
+contact:
+  - imprint: {mortar: ball.surface, nonmortar: block.zmax}
+probes:
+  - middle: {point: [0, 0, 0], body: block}
+load: {factors: [0.5, 1, 0]}
+YAML
+for n in 1 2; do
+  mpiexec --oversubscribe -n $n "$contact" brinell.yaml -quiet -summary ranks$n.json 2> /dev/null || echo "$n ranks: exit code $?"
+done
+"$PYTHON" - <<'PY'
+from summaries import load, say
+one, two = (load("ranks%d" % n)["steps"] for n in (1, 2))
+force = [step["pairs"][0]["normal_force"] for step in one]
+depth = [-step["probes"][0]["displacement"][2] for step in one]
+say("the ball leaves the block", force[2] == 0 and force[1] > force[0] > 0, force)
+say("most of the imprint stays, and some springs back", 0.8 * depth[1] < depth[2] < depth[1], depth)
+say("taken away without plastic work, to 1 %", abs(one[2]["plastic_work"] / one[1]["plastic_work"] - 1) < 1e-2, [step["plastic_work"] for step in one])
+say("mean pressure 2 to 4 times the yield stress", 2 < force[1] / one[1]["pairs"][0]["area"] / 200 < 4, force[1] / one[1]["pairs"][0]["area"] / 200)
+say("two ranks: the same", all(abs(a[key] / b[key] - 1) < 1e-5 for a, b in zip(one, two) for key in ("plastic_work", "plastic_strain")), [[s["plastic_work"] for s in run] for run in (one, two)])
+PY
