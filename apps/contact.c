@@ -573,7 +573,7 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
 }
 
 /* Large arrays of the AMG and of matrices are freed and allocated again. glibc would serve up to 32 MB of them from a
-   heap, which fragments: two_block on mesh 2 would need 0.6 of 5.0 kB an unknown more. This sends them to mmap() */
+   heap, which fragments: two_block on mesh 2 would need 0.6 of 5.0 kB per unknown more. This sends them to mmap() */
 static void AppLimitHeap(void)
 {
 #if defined(__GLIBC__)

@@ -1,6 +1,6 @@
 /*
    Elasticity of the bodies of a mesh: energy, internal force and tangent of hexahedra and tetrahedra.
-   Vectors are the DM's global vectors (3 components a vertex). Prescribed rows stay in the tangent: rows and
+   Vectors are the DM's global vectors (3 components per vertex). Prescribed rows stay in the tangent: rows and
    columns zeroed, diagonal kept at the stiffness's scale.
 */
 #ifndef ELASTICITY_H

@@ -207,7 +207,7 @@ typedef struct {
   PetscBool smooth;            /* measure the gap between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
-static inline PetscBool SceneContactPairRubs(const SceneContactPair *pair)
+static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair)
 {
   return (PetscBool)(pair->friction > 0.0 && pair->shear_limit > 0.0);
 }

@@ -20,7 +20,7 @@ typedef struct {
   PetscReal   coarseness;       /* size of the nonmortar facets / size of the mortar facets in contact; 0: no contact */
   PetscBool   narrow;           /* the contact zone is only one nonmortar facet wide */
   PetscReal   penetration_rounding; /* accuracy of penetration on curved faces [length] */
-  PetscBool   rubs;                 /* has friction */
+  PetscBool   frictional;           /* has friction */
   PetscReal   shear_force;          /* sum of the magnitudes of the friction forces of all rows [force] */
   PetscReal   stick_area;           /* covered area about the vertices that stick [length^2]; 0 without friction */
   PetscReal   slip_area;            /* covered area about the vertices that slip [length^2]; 0 without friction */

@@ -37,7 +37,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 }
 
 /*MC
-   PCAMGF - algebraic multigrid with a filter: a small subspace is solved exactly, the rest is left to the AMG
+   PCAMGF - algebraic multigrid with filtering: a small subspace is solved exactly, the rest is preconditioned by an AMG
 
    Options Database Keys:
 +  -pc_amgf_cycle <fbf>             - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
@@ -60,10 +60,10 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    Level: intermediate
 
    Notes:
-   For symmetric, or complex Hermitian, positive definite A (n x n) that multigrid handles well but for a
-   subspace of small dimension n_c, the range of P: contact or penalty rows, interface conditions, inclusions of high
-   contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by (I-QA)(I-BA)(I-QA)
-   in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
+   For symmetric (or complex Hermitian) positive definite A (n x n) for which multigrid converges well except on a
+   subspace of small dimension n_c, the range of P. Examples: contact or penalty rows, interface conditions, inclusions
+   of high contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by
+   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
 
    If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff
    part, the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1, to
@@ -71,36 +71,36 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
 
    The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat`
-   composed on the Pmat under "amgf_filter", which the next application takes up if it comes later than the set-up;
-   `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B; where none was
-   named or detected that is said once, unless `PCAMGFSetFilterOptional()`.
+   composed on the Pmat under "amgf_filter" (if it is composed after the set-up, the next application uses it);
+   `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B. If no subspace
+   was given or detected, one warning is printed, unless `PCAMGFSetFilterOptional()`.
 
    The default AMG is that of hypre's BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at
-   most 4 entries a row, no aggressive level, one sweep of Gauss-Seidel, forward down and backward up, strength
+   most 4 entries per row, no aggressive level, one sweep of Gauss-Seidel, forward down and backward up, strength
    threshold 0.25, or 0.7 for block size 3. With real scalars and an operator of type AIJ, BAIJ or SBAIJ its cycle is
-   that of `PCBLOCKAMG`, in single precision. It is hypre's own, in double precision and with l1 Gauss-Seidel, with
-   other types; where positive diagonal entries of coupled rows differ by a factor of more than 1e7 (`bfb`: 1e4), as
-   single precision does not hold such operators; under `-amgf_amg_pc_type hypre`; and where an option of hypre's own
-   cycle is given, say `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
+   that of `PCBLOCKAMG`, in single precision. hypre's own cycle, in double precision and with l1 Gauss-Seidel, is used
+   instead with other matrix types; where positive diagonal entries of coupled rows differ by a factor of more than 1e7
+   (`bfb`: 1e4), too large for single precision; with `-amgf_amg_pc_type hypre`; and if an option of hypre's own cycle
+   is given, for example `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
 
-   Without hypre the default AMG is `PCGAMG`, unsmoothed with complex scalars, for its restriction does not conjugate,
-   and a smoothed interpolation would make a B that is not Hermitian.
+   Without hypre the default AMG is `PCGAMG`. With complex scalars its interpolation is not smoothed: the restriction of
+   `PCGAMG` is the transpose without conjugation, and B would not be Hermitian.
 
    The default filter solver is `KSPPREONLY` with Cholesky, with complex scalars LU, by MUMPS, on the first few ranks
-   where it is small (`PCAMGFSetFilterRanks()`); if PETSc has none, by PETSc itself, on several ranks each for itself on
-   the gathered matrix (`PCREDUNDANT`). What the user sets wins.
+   where it is small (`PCAMGFSetFilterRanks()`); if PETSc has no MUMPS, by PETSc's own factorization, on several ranks
+   redundantly on every rank (`PCREDUNDANT`). Options set by the user take precedence.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix
    in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
 
-   If the subspace and the nonzero pattern of the operator stay, new values are filled into the old structures and the
-   symbolic factorization is kept.
+   If the subspace and the nonzero pattern of the operator do not change, matrices and symbolic factorization are
+   reused.
 
-   The operator may be AIJ, BAIJ or (real scalars) SBAIJ, on any number of ranks, as far as the AMG takes them
-   (`PCHYPRE` takes all three, `PCGAMG` AIJ only).
+   The operator may be AIJ, BAIJ or (real scalars) SBAIJ, on any number of ranks, if the AMG supports the type
+   (`PCHYPRE` supports all three, `PCGAMG` AIJ only).
 
-   The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle lacks most smoothers: there B
-   is taken to be symmetric.
+   The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle does not support most smoothers:
+   there B is assumed to be symmetric.
 
    If an inner set-up fails, the owner `KSP` ends with `KSP_DIVERGED_PC_FAILED`, or with an error under
    `-ksp_error_if_not_converged`.

@@ -304,9 +304,9 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   Level: intermediate
 
   Notes:
-  For operators that need the filter at times only. While it is off the subspace is neither looked for nor set up nor
-  solved. What was set up before is kept: when the
-  filter is switched on again, and subspace and nonzero pattern have stayed, the symbolic factorization is reused.
+  For operators that do not always need the filter. While it is off, the subspace is not determined, set up or solved.
+  Earlier set-ups are kept: when the filter is switched on again and subspace and nonzero pattern have not changed, the
+  symbolic factorization is reused.
 
   `PCAMGFGetFilterSize()` gives the dimension of the last set-up with the filter on.
 
@@ -322,7 +322,7 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 }
 
 /*@
-  PCAMGFSetFilterOptional - says whether a set-up without a subspace is meant
+  PCAMGFSetFilterOptional - sets whether a set-up without a subspace is intended
 
   Logically Collective
 
@@ -334,8 +334,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
   Level: intermediate
 
   Note:
-  For programs that use `PCAMGF` for operators with and without a stiff part. A subspace that was named and is empty
-  is never warned of.
+  For programs that use `PCAMGF` for operators with and without a stiff part. There is never a warning for a subspace
+  that was given but is empty.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
 @*/
@@ -472,7 +472,7 @@ PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
 }
 
 /*@
-  PCAMGFGetCounts - gets what the preconditioner has done since it was created
+  PCAMGFGetCounts - gets the numbers of set-ups and applications since the preconditioner was created
 
   Not Collective
 

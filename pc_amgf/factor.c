@@ -120,7 +120,7 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
   const PetscReal   single = 1.6e-9, other = 1e-8;       /* time of an application per entry [s]: PCBLOCKAMG;
                                                             BoomerAMG */
   const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* caller's work: per entry, and per application [s] */
-  const PetscReal   cached       = 2e6;                  /* with more entries an application takes twice as long */
+  const PetscReal   cached       = 2e6;                  /* with more entries per application takes twice as long */
   const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* time per entry of the factors: factorization, solve [s] */
   MatInfo           info;
   PetscReal         rate;
@@ -284,15 +284,14 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 
   Options Database Keys:
 + -pc_amgf_factor <false>     - `false`, `true` or `auto`
-- -pc_amgf_factor_share <0.4> - auto: share of the memory of the ranks' machines, or of what control groups leave of
-                                it, which the factors may take by MUMPS's estimate
+- -pc_amgf_factor_share <0.4> - auto: largest share of the memory of the ranks' machines (or of the limit of their
+                                control groups) that the factors may need, as estimated by MUMPS
 
   Level: intermediate
 
   Notes:
-  Real scalars only. Where the factorization fails so does the preconditioner.
-
-  With `auto` the AMG is taken until `PCAMGFExpect()` tells how much is to come.
+  Real scalars only. If the factorization fails, the set-up of the preconditioner fails. With `auto` the AMG is used
+  until `PCAMGFExpect()` gives the number of applications.
 
 .seealso: `PCAMGF`, `PCAMGFFactorUse`, `PCAMGFExpect()`, `PCAMGFGetFactored()`
 @*/
@@ -306,15 +305,15 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 }
 
 /*@
-  PCAMGFExpect - tells how often the preconditioner of the present operator will be applied, so that
+  PCAMGFExpect - sets how often the preconditioner of the present operator will be applied, so that
   `PC_AMGF_FACTOR_AUTO` can choose
 
   Collective
 
   Input Parameters:
 + pc           - the preconditioner, with its operators
-. applications - applications of an AMG that are to come
-- solves       - solves that would be to come with a factorization in its place
+. applications - expected number of applications of an AMG
+- solves       - expected number of solves with a factorization instead
 
   Level: advanced
 

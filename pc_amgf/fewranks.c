@@ -276,10 +276,9 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
   Level: advanced
 
   Notes:
-  Of the default solver, a factorization by MUMPS. A solver that the user chose for the filter, with
-  `-amgf_filter_pc_type` or on its `KSP`, has all ranks.
-
-  The factors of some thousand rows are of little work: on many ranks it is their messages that take the time.
+  Applies to the default solver, a factorization by MUMPS. A solver that the user chose, with `-amgf_filter_pc_type` or
+  on its `KSP`, uses all ranks. Factors of a few thousand rows need little work: on many ranks the messages would
+  dominate the time.
 
 .seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`, `PCAMGFGetFilterSize()`
 @*/
@@ -301,8 +300,8 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 . pc - the preconditioner, of type `PCAMGF`, after its set-up
 
   Output Parameter:
-. negative - their number, that of negative eigenvalues of the matrix; -1 where it is not known, for it was not factored
-             by Cholesky with MUMPS
+. negative - their number, equal to the number of negative eigenvalues of the matrix; -1: not known, since the matrix
+             was not factored by Cholesky with MUMPS
 
   Level: advanced
 

@@ -258,9 +258,9 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
   Level: intermediate
 
   Notes:
-  The vectors are copied. They need not be positive: each pair is moved onto the central path of its constraint,
-  keeping s - z/rho with the constraint's stiffness rho, and mu is taken from the average of s_i z_i, or from a
-  fraction of the products s_i z_i would have off the solution if that is larger.
+  The vectors are copied. They need not be positive: each pair is moved to the central path of its constraint, so that s
+  - z/rho does not change, where rho is the stiffness of the constraint. The barrier parameter mu is the average of s_i
+  z_i, or a fraction of the products s_i z_i expected away from the solution, whichever is larger.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`,
           `TaoIPFilterSetWarmStartBounds()`
@@ -315,8 +315,8 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
   Level: intermediate
 
   Notes:
-  The vectors are copied. The solution vector is then not pushed away from its bounds, but for variables whose distance
-  to a bound and its multiplier have next to no product. Where there are inequality constraints,
+  The vectors are copied. The solution vector is then not moved away from its bounds, except variables for which the
+  product of distance to the bound and multiplier is close to zero. Where there are inequality constraints,
   `TaoIPFilterSetWarmStart()` must give theirs, too.
 
   With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
@@ -347,8 +347,8 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
   Level: intermediate
 
   Note:
-  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one where that is
-  alone or the lower one is more than a million times as large; zero where there is none, or both are equal.
+  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one if there is no
+  lower one, or the lower one is more than a million times as large; zero for a row without bounds or with equal bounds.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/
@@ -476,8 +476,8 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 
   Output Parameters:
 + systems  - condensed matrices A = H + Sigma + J^T D J that were assembled; may be NULL
-- filtered - those for which `PCAMGF` solved the subspace of the constraints exactly, the others being left to the AMG
-             alone; 0 with another `PC`; may be NULL
+- filtered - those for which `PCAMGF` solved the subspace of the constraints exactly; the others were preconditioned by
+             the AMG only; 0 with another `PC`; may be NULL
 
   Options Database Key:
 . -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0:
@@ -496,8 +496,8 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 }
 
 /*@
-  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` had to be shifted to be convex
-  enough
+  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` was shifted because it was not
+  convex enough
 
   Not Collective
 
@@ -506,7 +506,7 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 
   Output Parameters:
 + steps   - Newton steps taken with H + delta M_u, delta > 0; may be NULL
-. retries - linear systems solved in vain to find the shifts; may be NULL
+. retries - failed linear solves in the search for the shifts; may be NULL
 - largest - largest delta a step was taken with, in units of the Hessian over those of M_u; may be NULL
 
   Level: intermediate
@@ -528,8 +528,8 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
 }
 
 /*@
-  TaoIPFilterGetFallbacks - Gets what the linear algebra of the last `TaoSolve()` had to do beyond one Krylov solve a
-  system
+  TaoIPFilterGetFallbacks - Gets the numbers of remedies (refinements, filters, MUMPS) that the linear solves of the
+  last `TaoSolve()` needed
 
   Not Collective
 
@@ -545,7 +545,7 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
   Level: intermediate
 
   Note:
-  All counts are zero in a solve without difficulties, but for refinements.
+  In a solve without difficulties all counts except those of refinements are zero.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterFallbacks`, `TaoIPFilterGetReason()`, `PCAMGFSetAMGLag()`,
           `PCAMGFSetFilterActive()`

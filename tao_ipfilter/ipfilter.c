@@ -40,22 +40,24 @@ static PetscErrorCode DestroyType(Tao tao)
   Options Database Keys:
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
                                                               `TaoSetTolerances()` sets it; 0: machine precision
-. -tao_ipfilter_tol <1e-8>                                  - the same by another name
+. -tao_ipfilter_tol <1e-8>                                  - alias of `-tao_gatol`
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
-. -tao_ipfilter_scaling <problem> (problem,gradient,none)   - constants that follow the units, those of IPOPT after a
+. -tao_ipfilter_scaling <problem> (problem,gradient,none)   - scaling: `problem`: constants adapt to the units of the
+                                                              problem; `gradient`: IPOPT's constants, after scaling by
+                                                              the gradients at the start; `none`: IPOPT's constants, no
                                                               scaling
-                                                              by the gradients at the start, or those as they stand
 . -tao_ipfilter_dual_inf_tol <-1>                           - limit of the stationarity residual's entries at
                                                               convergence, in the caller's units; negative: 1 with
                                                               gradient, else none
-. -tao_ipfilter_constr_viol_tol <-1>                        - the same of the constraint violation; negative: 1e-4, or
+. -tao_ipfilter_constr_viol_tol <-1>                        - the same for the constraint violation; negative: 1e-4, or
                                                               none
-. -tao_ipfilter_compl_inf_tol <-1>                          - the same of slacks times multipliers; negative: 1e-4, or
-                                                              none
-. -tao_ipfilter_monitor                                     - a line an iteration, in IPOPT's columns
-. -tao_ipfilter_start <warm> (cold,predict,warm)            - slacks and multipliers to start from: constants, predicted
-                                                              by a step of the penalized problem, or those of
-                                                              `TaoIPFilterSetWarmStart()` where given, else predicted
+. -tao_ipfilter_compl_inf_tol <-1>                          - the same for the products of slacks and multipliers;
+                                                              negative: 1e-4, or none
+. -tao_ipfilter_monitor                                     - prints one line per iteration, with IPOPT's columns
+. -tao_ipfilter_start <warm> (cold,predict,warm)            - initial slacks and multipliers: `cold`: constants;
+                                                              `predict`: from a step of the penalized problem; `warm`:
+                                                              those of `TaoIPFilterSetWarmStart()`, if given, else as
+                                                              `predict`
 . -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
 . -tao_ipfilter_slack_init <1>                              - cold start: slacks
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
@@ -75,119 +77,125 @@ static PetscErrorCode DestroyType(Tao tao)
 . -tao_ipfilter_ksp_max_it <10000>                          - limit of Krylov iterations in a linear solve, and of all
                                                               directions
                                                               of the filtered subspace method in a `TaoSolve()`
-. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - there, a factorization of the Hessian in place of the AMG
-. -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with its inertia, from the
-                                                              start
+. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - filtered subspace method: a factorization of the Hessian
+                                                              instead of the AMG
+. -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with inertia correction, from
+                                                              the first system on
 . -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
                                                               where the Krylov method fails; 0: never
 . -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
-. -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints in an augmented system that MUMPS
-                                                              factors, or condensed with proximal updates
-. -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness that resists
-                                                              them, as a fraction of their weights
+. -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints: `augmented`: in an augmented system,
+                                                              factored by MUMPS; `condensed`: eliminated, with proximal
+                                                              updates of the multipliers
+. -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness of the Hessian
+                                                              in their direction, as a fraction of their weights
 - -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; `MATSOLVERMUMPS` takes
                                                               approximate minimum fill (-mat_mumps_icntl_7 2)
 
   Level: beginner
 
   Notes:
-  Slacks, multipliers and bounds are eliminated from the Newton system, which leaves A = H + Sigma + J^T D J, solved
-  by a Krylov method.
-  The unknowns that J touches are composed on A as an IS under `PCAMGF_FILTER_KEY`, where `PCAMGF` finds them.
+  Slacks, multipliers and bounds are eliminated from the Newton system, which leaves A = H + Sigma + J^T D J, solved by
+  a Krylov method. The unknowns in nonzero columns of J are composed on A as an IS under `PCAMGF_FILTER_KEY`, which
+  `PCAMGF` uses as filter.
 
-  Equality constraints go to the symmetric augmented system of A and their Jacobian, which is factored by MUMPS, which
-  must be there.
-  Constraints that depend on one another are regularized, by proximal terms that leave nothing of them in the solution.
+  Equality constraints are kept in the symmetric augmented system of A and their Jacobian, which is factored by MUMPS.
+  PETSc must have MUMPS. Linearly dependent constraints are regularized by proximal terms, which vanish at the solution.
 
-  Equality constraints that touch no more than a tenth of the unknowns, as ties and interface conditions do, need no
-  factorization of the whole: where `PCAMGF` preconditions and there are 1,000 unknowns or more, their rows are
-  condensed into A with the others, with weights W far above the stiffness that resists them, their unknowns are
-  filtered, and proximal updates y <- y + W (J_E dx + c_E) of the multipliers make the step exact. Dependent constraints
-  do no harm, and the Hessian need be convex on the constraints alone. Where the updates do not reach the constraints,
-  or the Krylov method fails, the augmented system takes over for the rest of the solve, unless
-  `-tao_ipfilter_direct_memory` is 0; `TaoIPFilterGetFallbacks()` counts that as a system by MUMPS.
-  `-tao_ipfilter_equality` chooses otherwise, `-tao_view` says which was taken.
+  Equality constraints with nonzeros in at most a tenth of the unknowns (ties, interface conditions) do not need this
+  factorization if the preconditioner is `PCAMGF` and there are at least 1,000 unknowns. Then their rows are condensed
+  into A too, with weights W much larger than the stiffness of the Hessian in their direction. Their unknowns are
+  filtered, and proximal updates y <- y + W (J_E dx + c_E) of the multipliers make the step exact. Linearly dependent
+  constraints are allowed, and the Hessian must be convex only on the null space of the constraints. If the updates do
+  not converge, or the Krylov method fails, the augmented system is used for the rest of the solve, unless
+  `-tao_ipfilter_direct_memory` is 0; `TaoIPFilterGetFallbacks()` counts that as a system solved by MUMPS.
+  `-tao_ipfilter_equality` sets the method, `-tao_view` prints which was used.
 
   `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()`
-  returns; without it gradients are differenced, up to 1,000 unknowns. Beyond, without equality constraints, a
-  `MATLMVMBFGS` learns from the steps of the solve, whose options have the prefix `-tao_ipfilter_`; the matrix that is
-  assembled and preconditioned has a multiple of the identity in its place, the Krylov method multiplies with all of it.
-  A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are taken as they are; others that have entries,
-  as nests and `MATIS` do, are converted to AIJ at every evaluation. Where a Hessian or Jacobian routine leaves a matrix
-  alone that is not converted, that costs nothing: what depends on it is kept. A Hessian that gives products alone, as
-  `MATSHELL` does, serves with `-tao_ipfilter_pc_type` none, jacobi, shell or a type of your own, which then gets a
-  `MATSHELL` of the condensed matrix; its diagonal is taken from `MATOP_GET_DIAGONAL`, or else estimated. With another
-  preconditioner, or with equality constraints that are not condensed, it is read column by column up to 1,000 unknowns,
-  as are Jacobians that give products alone; with more unknowns that is an error.
+  returns; without it the Hessian is computed by finite differences of gradients, up to 1,000 unknowns. With more
+  unknowns, and no equality constraints, a limited-memory BFGS matrix (`MATLMVMBFGS`, options prefix `-tao_ipfilter_`)
+  is used. The assembled matrix, for the preconditioner, then contains a multiple of the identity instead; the Krylov
+  method multiplies with the full BFGS matrix. A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are
+  used without conversion; other assembled types, as nests and `MATIS`, are converted to AIJ at every evaluation. If a
+  Hessian or Jacobian routine does not change a matrix (of a type without conversion), everything that depends on it is
+  reused. A Hessian that only supports products, as `MATSHELL`, can be used with `-tao_ipfilter_pc_type` none, jacobi,
+  shell or a type of your own, which then gets a `MATSHELL` of the condensed matrix; its diagonal comes from
+  `MATOP_GET_DIAGONAL`, or is estimated. With another preconditioner, or with equality constraints that are not
+  condensed, the matrix is computed column by column, up to 1,000 unknowns; so are Jacobians that only support products.
+  With more unknowns this is an error.
 
-  An error of a library inside the Krylov method or its preconditioner, hypre's say, is a failure of that solve.
+  An error of a library inside the Krylov method or its preconditioner (for example hypre) counts as a failure of that
+  solve.
 
-  The true residual b - A d of every solve is checked. Where it is too large the solve is continued from the attained
-  iterate. Where the Krylov method fails, an AMG kept from an older matrix is rebuilt, then the constraints' unknowns
-  are filtered, then their neighbours too, then MUMPS factors the whole matrix within `-tao_ipfilter_direct_memory` (its
-  options have the prefix `-tao_ipfilter_direct_`); else the solve ends. `TaoIPFilterGetFallbacks()` counts this.
+  The true residual b - A d of every solve is checked. If it is too large the solve is continued from the last iterate.
+  If the Krylov method fails, these remedies are tried in turn: an AMG of an older matrix is rebuilt; the unknowns of
+  the constraints are filtered; their neighbours are filtered too; MUMPS factors the whole matrix, if that needs at most
+  `-tao_ipfilter_direct_memory` (its options have the prefix `-tao_ipfilter_direct_`); otherwise the solve ends.
+  `TaoIPFilterGetFallbacks()` counts the remedies.
 
-  With `-tao_ipfilter_subspace` a quadratic objective under linear inequalities that touch few unknowns W is minimized
-  over span{e_i, i in W} + span(P), exactly, by an active set method on the first rank; the residual that is left,
-  preconditioned by the `PC` of the Krylov method for H alone, is the next direction in P. With
-  `-tao_ipfilter_pc_amgf_factor` auto a factorization takes the place of the AMG there once it is estimated to be the
-  cheaper for what is to come: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. Another objective
-  under such constraints is minimized by Newton's method, whose quadratic models are solved so, to a fraction of the
-  present residual; products of the directions with the new Hessian are made anew, an indefinite one is shifted, and a
-  line search on the objective, penalized where constraints are violated, takes the step. Such a step counts as an
-  iteration; a direction counts against the limit of `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`. The
-  directions serve all later solves with the same Hessian, whatever constraints and loads: `TaoIPFilterSetSubspace()`.
-  The end is judged as ever, by the KKT error made of the caller's gradient. auto takes it where the routine of the
-  Jacobian leaves its matrix alone, W is no more than half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing,
-  or a factorization, which is then made of H, once, and nothing but the default is asked of start and measure. Where it
-  does not converge the interior point method goes on from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
+  With `-tao_ipfilter_subspace` a quadratic objective with linear inequalities that involve few unknowns, the set W, is
+  minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first rank. The remaining residual,
+  preconditioned by the `PC` of the Krylov method for H, is the next direction in P. With `-tao_ipfilter_pc_amgf_factor`
+  auto a factorization replaces the AMG there as soon as it is estimated to be cheaper for the expected number of
+  solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. A nonquadratic objective with such
+  constraints is minimized by Newton's method, whose quadratic models are solved by this method to a fraction of the
+  current residual. The products of the directions with the new Hessian are computed again, an indefinite Hessian is
+  shifted, and a line search on the objective, with a penalty for violated constraints, gives the step length. Each
+  Newton step counts as an iteration; a direction counts towards the limit of `KSPSetTolerances()`, not that of
+  `TaoSetMaximumIterations()`. The directions are reused in all later solves with the same Hessian, for any constraints
+  and loads: `TaoIPFilterSetSubspace()`. Convergence is tested as in the interior point method, by the KKT error with
+  the caller's gradient. `auto` uses this method if the routine of the Jacobian does not change its matrix, W has at
+  most half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing or a factorization (then of H, computed once),
+  and start and KKT measure have their defaults. If it does not converge, the interior point method continues from the
+  best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
-  An objective that is infinite or NaN at a trial point rejects it; with `TaoSetObjective()` and `TaoSetGradient()` no
-  constraint and no derivative is asked for there. Where the Hessian is indefinite a multiple of the identity, or of
+  A trial point at which the objective is infinite or NaN is rejected; with `TaoSetObjective()` and `TaoSetGradient()`
+  constraints and derivatives are not evaluated there. Where the Hessian is indefinite a multiple of the identity, or of
   `TaoIPFilterSetPrimalMass()`, is added: `TaoIPFilterGetRegularizations()` tells how often.
 
   `TaoComputeDualVariables()` gives the multipliers of the bounds, those of upper bounds negative, so that
   grad f + J_E^T DE - J^T DI = DL + DU.
 
-  Bounds on variables enter the diagonal of A alone. Variables with equal bounds keep that value; their entries of the
+  Bounds on variables only change the diagonal of A. Variables with equal bounds keep that value; their entries of the
   gradient that `TaoGetGradient()` returns are zero. Rows of the inequality constraints may have two bounds,
-  `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. Where the bounds are equal it is an
-  equality constraint; infinite ones are none.
+  `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. A row with equal bounds is an equality
+  constraint; infinite bounds are ignored.
 
-  The KKT error of `-tao_ipfilter_kkt relative` is measured twice, and both must be within the tolerance; with
-  `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective. First by sizes
-  of a kind: the norm of the stationarity residual r over that of the gradient, the largest violation over the largest
-  constraint value, the largest product of a slack s or distance t and its multiplier over the largest length times the
-  largest multiplier. Where one of these sizes vanishes, a small fraction of its first value, or of what the Hessian's
-  diagonal makes of x, takes its place, and a gradient of nothing but rounding is none. Second by what residuals are
-  worth in the objective, each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| and sum_i m_i
-  t_i z_i, where l_j is the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over twenty
-  times 1e-6 of the terms sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In
-  these sums no row, bound or unknown is measured by the size of another, a far bound counts no more than a near one,
-  and many bounds count as much as the error they make: 2e-7 of the objective at the default tolerance. A number added
-  to the objective changes the second measure, not the first.
+  The KKT error of `-tao_ipfilter_kkt relative` has two measures, which both must be within the tolerance. With
+  `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective. The first
+  measure is relative to the largest value of the same kind: the norm of the stationarity residual r over that of the
+  gradient, the largest violation over the largest constraint value, the largest product of a slack s or distance t and
+  its multiplier over the largest length times the largest multiplier. If such a reference value is zero, it is replaced
+  by a small fraction of its initial value, or of the value from the Hessian's diagonal and x. A gradient that consists
+  of rounding errors counts as zero. The second measure is the change of the objective that the residuals correspond to:
+  each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| and sum_i m_i t_i z_i, where l_j is
+  the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over twenty times 1e-6 of the terms
+  sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In these sums each row, bound
+  and unknown is measured by its own size, so distant bounds have no larger weight than near ones. At the default
+  tolerance the error of the objective is about 2e-7. A constant added to the objective changes the second measure, not
+  the first.
 
-  With `none` and `gradient` the residuals count as they are, with `gradient` after the objective and each row are
-  divided by what brings their gradients at the start down to 100. Absolute limits, in the
-  caller's units, hold beside any of these.
+  With `none` and `gradient` the residuals are absolute; with `gradient` the objective and each row are first scaled so
+  that their gradients at the start are at most 100. The absolute limits, in the caller's units, apply in addition.
 
-  Where the iterates show that inequalities have no interior they are relaxed by a hundredth of the tolerance times
-  their size, or by the tolerance if that was not enough, and the sentence says by how much; what that is worth in the
-  objective beyond the tolerance makes the result acceptable only. A solve that fails returns the least infeasible of
-  its points, and of those within the tolerance the one of the smallest KKT error.
+  If the iterates show that the inequalities have no interior, they are relaxed by a hundredth of the tolerance times
+  their size, or by the tolerance if that is not enough; the sentence of `TaoIPFilterGetReason()` states by how much. If
+  this changes the objective by more than the tolerance, the result is only acceptable (`TAO_CONVERGED_STEPTOL`). A
+  solve that fails returns the point with the smallest violation, or, among the points within the tolerance, the one
+  with the smallest KKT error.
 
-  Of `TaoSetTolerances()` gatol alone counts. TAO means it to be absolute; here it bounds the KKT error, which with
-  `-tao_ipfilter_kkt relative` is dimensionless, and `-tao_view` says so. Where `TaoSetConstraintTolerances()` has been
-  called (or `-tao_catol`, `-tao_crtol` given), convergence asks for a largest violation of the constraints within
-  catol, and a relative one within crtol, besides; 0 is none. `TaoSetConvergenceTest()` replaces
+  Of `TaoSetTolerances()` only gatol is used. In TAO it is absolute; here it is the limit of the KKT error, which is
+  dimensionless with `-tao_ipfilter_kkt relative`. Where `TaoSetConstraintTolerances()` has been called (or
+  `-tao_catol`, `-tao_crtol` given), convergence also requires that the largest violation of the constraints is within
+  catol, and the largest relative one within crtol; 0: no such limit. `TaoSetConvergenceTest()` replaces
   `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance),
-  `TAO_CONVERGED_STEPTOL` (only within the acceptable tolerance), `TAO_CONVERGED_MINF` (below `-tao_fmin`),
+  `TAO_CONVERGED_STEPTOL` (only the acceptable tolerance was reached), `TAO_CONVERGED_MINF` (below `-tao_fmin`),
   `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the constraints may be infeasible), `TAO_DIVERGED_USER` (no direction,
   or the objective seems unbounded), `TAO_DIVERGED_NAN`, `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`;
   `TaoIPFilterGetReason()` gives a sentence.
 
-  Errors where a PETSc without MUMPS meets equality constraints that are not condensed, where a matrix cannot be read,
-  where a lower bound exceeds an upper one, and where the sizes of the masses do not fit. Scalars must be real.
+  Errors: equality constraints that are not condensed need MUMPS, but PETSc has none; a matrix cannot be read; a lower
+  bound exceeds an upper one; the sizes of the masses do not match. Scalars must be real.
 
   References:
 + * - A. Waechter and L. T. Biegler, "On the implementation of an interior-point filter line-search algorithm for
@@ -205,7 +213,7 @@ static PetscErrorCode DestroyType(Tao tao)
         systems", SIAM Journal on Scientific Computing 28, 2006.
 - * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27,
       2009:
-        truncated nonsmooth Newton multigrid, the nearest relative of the filtered subspace method.
+        truncated nonsmooth Newton multigrid, the published method most similar to the filtered subspace method.
 
 .seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
           `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,

@@ -90,7 +90,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(
     PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "Largest number of reductions of mu at the first iteration",
       TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
-  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections a step", TAOIPFILTER,
+  PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections per step", TAOIPFILTER,
     opt->max_soc, &opt->max_soc, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
     "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,

@@ -39,10 +39,10 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
       "equalities %" PetscInt_FMT ", condensed, with %" PetscInt_FMT " proximal updates\n", ip->me, ip->prox.nupdates));
   else if (ip->me)
     PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", in the augmented system\n", ip->me));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "KKT error %g, %s, which gatol %g is held against; in the problem's units %g; mu %g\n", (double)ip->kkt.error,
-    ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance", (double)tao->gatol,
-    (double)ip->kkt.unscaled, (double)ip->mu));
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, "KKT error %g (%s), compared with gatol %g; in the problem's units %g; mu %g\n",
+      (double)ip->kkt.error, ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance",
+      (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
   PetscCall(ViewConstraints(tao, viewer));
   if (ip->qn.B)
     PetscCall(

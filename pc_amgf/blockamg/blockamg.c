@@ -36,20 +36,21 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    level and hypre's copy is freed. Each level holds the strictly lower triangle L of A = L + D + L^T in blocks of
    floats, and the inverses of the diagonal blocks: blocks of 3 x 3 on the finest level where the block size of the
    matrix is a multiple of 3, else of 4 x 4. The cycle has one forward Gauss-Seidel sweep down and one backward sweep
-   up. A row of L serves both the sweep and the residual while it is in the cache, so that a cycle reads half of every
+   up. A row of L is used for both the sweep and the residual while it is in the cache, so a cycle reads half of every
    matrix twice. Levels of at most 256 unknowns are solved by a dense inverse.
 
-   With several ranks each sweeps over its own rows; to the diagonal is added a quarter of the absolute sum of a row's
-   entries in columns of other ranks, or half of what that sum exceeds the diagonal by, if that is more.
+   With several ranks each rank sweeps over its own rows. Let a be the sum of the absolute entries of a row in columns
+   of other ranks: max(a/4, (a - d)/2) is added to its diagonal entry d.
 
    The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it
    attains the same residuals as with one in double precision. Matrices and vectors are scaled by powers of 2, so units
-   have no influence. Rows that are 1e7 times as stiff as others they are coupled with lose the soft ones in rounding:
-   take `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
+   have no influence. If coupled rows differ in stiffness by a factor of 1e7, the contribution of the soft rows is lost
+   in rounding: use `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
 
-   Where the operator is indefinite, inverses of diagonal blocks are those of their absolute values: the preconditioner
-   stays positive definite, and `KSPCG` ends with `KSP_DIVERGED_INDEFINITE_MAT`. A diagonal entry of zero, or one that
-   is not finite, makes the set-up fail: `KSP_DIVERGED_PC_FAILED`, or an error under `-ksp_error_if_not_converged`.
+   For an indefinite operator, negative eigenvalues of diagonal blocks are replaced by their absolute values: the
+   preconditioner stays positive definite, and `KSPCG` ends with `KSP_DIVERGED_INDEFINITE_MAT`. A diagonal entry of
+   zero, or one that is not finite, makes the set-up fail: `KSP_DIVERGED_PC_FAILED`, or an error under
+   `-ksp_error_if_not_converged`.
 
 .seealso: `PCAMGF`, `PCHYPRE`, `PCGAMG`, `KSPCG`
 M*/

@@ -41,7 +41,7 @@ PetscErrorCode PCView_BlockAMG(PC pc, PetscViewer viewer)
     if (i == 0) unknowns = l->unknowns;
     PetscCall(ViewLevel(h, i, viewer));
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  levels=%d, memory=%.1f MB, %.0f bytes an unknown\n", n, bytes / 1e6,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  levels=%d, memory=%.1f MB, %.0f bytes per unknown\n", n, bytes / 1e6,
     bytes / PetscMax(unknowns, 1.0)));
   PetscFunctionReturn(0);
 }

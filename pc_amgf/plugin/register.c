@@ -44,7 +44,7 @@ PetscErrorCode PetscAMGFInitializePackage(void)
 }
 
 /*@C
-  PetscAMGFFinalizePackage - forgets that the package was initialized, so that it can be again after another
+  PetscAMGFFinalizePackage - marks the package as not initialized, so that it can be initialized again after another
   `PetscInitialize()`
 
   Logically Collective

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What an effect costs that a scene does not call for: a scene in which it is switched off, with what belongs to it left in the file,
-over one that never had it. One command, one table; effects.md is such a one.
+"""Cost of effects that a scene does not use. Compares a scene that contains the keys of an effect, with values that switch it off,
+with a scene without these keys. One command makes one table; effects.md contains such a table.
 
     share/bench/effects.py [--contact bin/contact] [--refine 2] [--repeat 5]             wall time and peak memory
     share/bench/effects.py --instructions [--before OTHER/bin/contact] [--refine 1]      instructions, by valgrind, and peak memory
 
-Runs alternate, so that a change of the machine's speed meets both; ratios are those of the medians. Instructions are the same each
-time to 0.1 %: one run each is enough, and one that never had any. With --before there is a row for another build, and the scene that never had any effect.
+Runs of both scenes alternate, so that changes of the machine's speed affect both; ratios are ratios of medians. Counts of instructions
+are reproducible to 0.1 %, so one run each is sufficient. --before adds a row for another build.
 """
 import argparse
 import functools

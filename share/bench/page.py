@@ -41,9 +41,9 @@ def span_sentence(panel, runs):
     first, final = runs[0], runs[-1]
     name = lambda row: " ".join(part for part in (row["series"], row["value"]) if part)  # noqa: E731
     error, quantity = lead_error(first)
-    text = f"{panel.title}: from {name(first)} to {name(final)} the run takes {number(first['seconds'])} and {number(final['seconds'])} s"
-    text += f" with {first['applications']:,} and {final['applications']:,} AMG applications"
-    return text + (f"; the error in {quantity} goes from {percent(error)} to {percent(lead_error(final)[0])}." if error is not None else ".")
+    text = f"{panel.title}: the first run, {name(first)}, takes {number(first['seconds'])} s, the last, {name(final)}, {number(final['seconds'])} s;"
+    text += f" AMG applications: {first['applications']:,} and {final['applications']:,}"
+    return text + (f"; error in {quantity}: {percent(error)} and {percent(lead_error(final)[0])}." if error is not None else ".")
 
 
 def floor_sentence(runs):
@@ -55,8 +55,8 @@ def floor_sentence(runs):
     name = lambda row: " ".join(part for part in (row["series"], row["value"]) if part)  # noqa: E731
     good = [row for row, error in known if error <= NEAR * least]
     cheap, dear = min(good, key=lambda r: r["seconds"]), max(good, key=lambda r: r["seconds"])
-    text = f"The smallest error, {percent(least)}, is reached to within a tenth by {name(cheap)} in {number(cheap['seconds'])} s"
-    return text + (f"; {name(dear)} takes {number(dear['seconds'] / cheap['seconds'])} times as long for no more." if dear is not cheap else ", and by nothing else.")
+    text = f"The smallest error is {percent(least)}. The quickest run with an error at most 10 % larger is {name(cheap)}, {number(cheap['seconds'])} s"
+    return text + (f"; the slowest such run is {name(dear)}, {number(dear['seconds'] / cheap['seconds'])} times as long." if dear is not cheap else "; there is no other such run.")
 
 
 def failed_sentence(runs):
@@ -120,9 +120,9 @@ def default_section(studies, rows):
     if not entries:
         return ""
     better = [e for e in entries if e["time"] < 0.95]
-    text = "Where every value of a knob leads to the same answer, the one that is built in should be the quickest over the problems. "
-    text += "It is, to within 5 % of the time." if not better else "It is not everywhere: " + ", ".join(f"{e['value']} takes {e['time']:.2f} of the time of {e['default']} ({e['study']})" for e in better) + "."
-    columns = [("knob", field("study")), ("built in", field("default")), ("against it", field("value")), ("time, geometric mean", field("time")), ("AMG applications", field("applications")), ("converged", field("converged"))]
+    text = "For parameters that do not change the result, the default should be the quickest value on average over the problems. "
+    text += "It is, to within 5 % of the time." if not better else "Exceptions: " + ", ".join(f"{e['value']} takes {e['time']:.2f} times the time of {e['default']} ({e['study']})" for e in better) + "."
+    columns = [("parameter", field("study")), ("default", field("default")), ("other value", field("value")), ("time relative to the default, geometric mean", field("time")), ("AMG applications relative to the default", field("applications")), ("converged", field("converged"))]
     return "## The defaults\n\n" + text + "\n\n" + table(columns, entries)
 
 
@@ -160,7 +160,7 @@ def baseline_table(study, rows):
         runs = of_panel(rows, study, panel)
         ours = next((row for row in runs if row["series"] == "defaults" and row["status"] == "converged"), None)
         columns = [(panel.title, field("series")), ("time [s]", field("seconds")), ("of the defaults'", lambda r: time_ratio(r, ours)), ("in load steps", lambda r: step_ratio(r, ours))]
-        columns += [("Newton", field("newton")), ("PCG", field("pcg")), ("AMG applications", field("applications")), ("memory an unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else "")]
+        columns += [("Newton", field("newton")), ("PCG", field("pcg")), ("AMG applications", field("applications")), ("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else "")]
         columns += [("energy, same mesh", field("same mesh energy", 2)), ("ended", lambda r: r["status"] + (f": {r['said']}".replace("|", "/") if r["status"] != "converged" else ""))]
         text.append(table(columns, runs))
     return "\n".join(text)
@@ -188,8 +188,8 @@ def growth_words(entries):
 
 
 def growth_rows(rows):
-    columns = [("", field("series")), ("unknowns", field("unknowns")), ("time [s]", field("seconds")), ("time an unknown [ms]", lambda r: number(1e3 * r["seconds"] / r["unknowns"]) if r.get("unknowns") else ""), ("AMG applications", field("applications"))]
-    columns += [("memory an unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else ""), ("AMG set-up and apply", lambda r: percent(r["amg_share"]) if r.get("amg_share") is not None else ""), ("neither AMG nor filter", lambda r: percent(r["own_share"]) if r.get("own_share") is not None else ""), ("ended", field("status"))]
+    columns = [("", field("series")), ("unknowns", field("unknowns")), ("time [s]", field("seconds")), ("time per unknown [ms]", lambda r: number(1e3 * r["seconds"] / r["unknowns"]) if r.get("unknowns") else ""), ("AMG applications", field("applications"))]
+    columns += [("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else ""), ("AMG set-up and apply", lambda r: percent(r["amg_share"]) if r.get("amg_share") is not None else ""), ("neither AMG nor filter", lambda r: percent(r["own_share"]) if r.get("own_share") is not None else ""), ("ended", field("status"))]
     return table(columns, select(rows, study="growth"))
 
 
@@ -224,16 +224,17 @@ def head(results):
     return f"""# What accuracy costs in time
 {small}
 `{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
-One rank unless said otherwise. Times are of the whole run, mesh and assembly included; runs below {results["short"]:g} s are repeated, the quickest
-of three counts. Errors are relative: against Hertz's solution, or against an extrapolation of careful runs (last section). Hertz's
-half-space is itself some 0.2 % off this ball in force and energy. Rows and keys of all runs: `bench.csv`, `bench.json`.
+Runs are on one rank unless stated otherwise. Times are of the whole run, including mesh and assembly; runs below {results["short"]:g} s are
+repeated three times, and the shortest time is given. Errors are relative to Hertz's solution, or to a value extrapolated from
+fine meshes (last section). Force and energy of Hertz's solution, for a half-space, differ from those of this ball by about 0.2 %.
+Data of all runs: `bench.csv`, `bench.json`.
 
-    make bench             # three hours at most: page, tables and figures in build/bench; interrupted, it goes on where it stopped
+    make bench             # three hours at most: page, tables and figures in build/bench; an interrupted bench continues where it stopped
     make bench-quick       # ten minutes on two cores
-    make bench-page        # takes the page and its figures into share/bench
-    make bench BENCH="--only tolerance forcing"     # some studies; BENCH=--plan says what would be run, BENCH=--no-run draws what has been
-    share/bench/effects.py                          # what an effect costs that a scene does not call for: effects.md
-    make bench-calculix                             # the two-block problem beside CalculiX: calculix.md
+    make bench-page        # copies the page and its figures to share/bench
+    make bench BENCH="--only tolerance forcing"     # some studies; BENCH=--plan lists the runs, BENCH=--no-run only makes the page of completed runs
+    share/bench/effects.py                          # the cost of effects that a scene does not use: effects.md
+    make bench-calculix                             # the two-block problem compared with CalculiX: calculix.md
 """
 
 
@@ -260,7 +261,7 @@ def write(path, studies, results, drawn, skipped):
         parts.append("## All together\n\n![front](pareto.png)\n")
     parts += [text for study in studies if (text := section(study, results, drawn))]
     parts += [text] if (text := default_section(studies, results["rows"])) else []
-    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench BENCH="--only references"` works them out anew.\n\n' + reference_table(results["references"]))
+    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench BENCH="--only references"` computes them again.\n\n' + reference_table(results["references"]))
     parts += ["## Not run\n\n" + "".join(f"- {line}\n" for line in skipped)] if skipped else []
     with open(path, "w") as file:
         file.write("\n".join(parts))

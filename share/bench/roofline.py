@@ -16,7 +16,7 @@ def product(events, fine):
 
 
 def cycle_bytes(fine, complexity):
-    """A V(1,1)-cycle reads every level's matrix three times (sweep, residual, sweep) and every interpolation twice; ten entries of vectors a row"""
+    """A V(1,1)-cycle reads every level's matrix three times (sweep, residual, sweep) and every interpolation twice; ten entries of vectors per row"""
     operator, interpolation = complexity["operator"], complexity["memory"] - complexity["operator"]
     return POINT_ENTRY * fine["entries"] * (3 * operator + 2 * interpolation) + 80 * fine["rows"] * complexity["grid"]
 

@@ -8,7 +8,7 @@
 
    Output:
       converged: TRUE
-      at most 15 linear iterations a Newton step: TRUE
+      at most 15 linear iterations per Newton step: TRUE
       beyond the wall by at most 1e-6: TRUE
 */
 #include <petscsnes.h>

@@ -84,7 +84,7 @@ def pcg_of_newton(step):
 
 
 def row(problem, mesh, record):
-    """n, largest n_c and m, mean interior point iterations a load step, mean PCG iterations a system, the bound"""
+    """n, largest n_c and m, mean interior point iterations per load step, mean PCG iterations per system, the bound"""
     done = steps(record)
     systems = [its for step in done for its in pcg_of_newton(step)]
     bound = record.get("contact_free", {}).get("bound")
@@ -114,7 +114,7 @@ def cell(ours, theirs):
 
 def iteration_tables(cases, records, reference, explanations):
     columns = ("n", "n_c_max", "m_max", "ip_iterations_avg", "amgf_pcg_iterations_avg", "amgf_bound")
-    heads = ("unknowns n", "filtered n_c", "constraints m", "interior point iterations a load step", "PCG iterations a system", "bound")
+    heads = ("unknowns n", "filtered n_c", "constraints m", "interior point iterations per load step", "PCG iterations per system", "bound")
     for problem, title in TITLES.items():
         meshes = [mesh for other, mesh in cases if other == problem]
         if not meshes:
@@ -250,7 +250,7 @@ def page(cases, records, omitted, clock):
     yield "The bound is that of the condition number, from the contact-free problem: PCG iterations of AMG on K times sqrt(2 (beta + 3) / beta).\n"
     yield from iteration_tables(cases, records, reference, explanations)
     yield "## PCG iterations and the barrier\n"
-    yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published. Its curve ends where the time limit ended the run.\n"
+    yield f"AMG alone is stopped at {AMG_LIMIT} iterations per system, as published. Its curve ends where the time limit ended the run.\n"
     yield "![PCG iterations and ratio of the weights against the Newton system](curves.png)\n"
     yield "## Speed-up of AMGF over AMG\n"
     yield "Published: 4 to more than 10.\n"

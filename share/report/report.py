@@ -182,7 +182,7 @@ def time_and_memory(run):
     rows = [[name, seconds, 100 * seconds / total if total else None] for name, seconds in phases]
     yield table(["phase", "time [s]", "share [%]"], rows)
     memory = run["peak_memory_bytes"]
-    yield f"<p>Peak memory: {memory / 1e6:.0f} MB, {memory / 1e3 / max(run['dofs'], 1):.2f} kB an unknown.</p>\n"
+    yield f"<p>Peak memory: {memory / 1e6:.0f} MB, {memory / 1e3 / max(run['dofs'], 1):.2f} kB per unknown.</p>\n"
 
 
 def page(base, run, scene, command, versions):

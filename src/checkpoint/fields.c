@@ -12,18 +12,18 @@ const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
 };
 
 /*@C
-   CheckpointNamePairField - The name of what a checkpoint keeps of a contact pair
+   CheckpointNamePairField - Gets the name of a field of a contact pair in a checkpoint
 
    Not Collective
 
    Input Parameters:
 +  pair   - the pair
-.  kind   - which of CheckpointPairFields
+.  kind   - one of CheckpointPairFields
 -  length - of the name
 
    Output Parameters:
 +  name - of the field
--  kept - whether it is kept of this pair
+-  kept - whether checkpoints contain this field for this pair
 
    Level: developer
 
@@ -35,24 +35,24 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
   const CheckpointPairField *field = &CheckpointPairFields[kind];
 
   PetscFunctionBegin;
-  *kept = (PetscBool)(!field->friction || SceneContactPairRubs(pair));
+  *kept = (PetscBool)(!field->friction || SceneContactPairHasFriction(pair));
   PetscCall(PetscSNPrintf(name, length, "%s_%s", field->name, pair->name));
   PetscFunctionReturn(0);
 }
 
 /*@C
-   CheckpointAddField - Adds zeros at the vertices that this rank owns
+   CheckpointAddField - Adds a field to a checkpoint, with zeros at the vertices that this rank owns
 
    Not Collective
 
    Input Parameters:
 +  checkpoint - the checkpoint
 .  name       - of the field
-.  components - values a vertex
+.  components - values per vertex
 -  nvertices  - vertices of this rank, or other records
 
    Output Parameter:
-.  values - to be filled, borrowed
+.  values - array of the field's values, to be filled by the caller; owned by the checkpoint
 
    Level: developer
 
@@ -86,13 +86,13 @@ PetscErrorCode CheckpointFindField(Checkpoint checkpoint, const char name[], con
 }
 
 /*@C
-   CheckpointGetField - The values of a field
+   CheckpointGetField - Gets the values of a field of a checkpoint
 
    Not Collective
 
    Input Parameters:
 +  checkpoint - the checkpoint
--  name       - of the field; one that is not there is an error
+-  name       - name of the field; a missing field is an error
 
    Output Parameter:
 .  values - borrowed
@@ -112,7 +112,7 @@ PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], cons
 }
 
 /*@C
-   CheckpointCheck - Whether the numbers of a checkpoint can be those of a state
+   CheckpointCheck - Checks that the numbers of a checkpoint are consistent and finite
 
    Not Collective
 

@@ -141,8 +141,9 @@ PetscErrorCode CheckpointGetPlastic(MPI_Comm comm, Elasticity elasticity, Checkp
   PetscCall(PetscFree(index.found));
   PetscCall(PetscFree(places));
   PetscCheck(!counts[0], comm, PETSC_ERR_USER_INPUT,
-    "the run cannot continue from the checkpoint: plastic strains are not carried to another mesh, and %" PetscInt_FMT
-    " of %" PetscInt_FMT " quadrature points are not among its own",
+    "the run cannot continue from the checkpoint: plastic strains cannot be transferred to another mesh, and "
+    "%" PetscInt_FMT " of the %" PetscInt_FMT
+    " quadrature points are not in the checkpoint; use the mesh of the checkpoint",
     counts[0], counts[1]);
   PetscFunctionReturn(0);
 }

@@ -324,7 +324,7 @@ static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt
 
 static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
 {
-  PetscBool rubs = PETSC_FALSE, yields = PETSC_FALSE;
+  PetscBool frictional = PETSC_FALSE, yields = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < r->scene->nbodies; ++b)
@@ -333,11 +333,12 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
     PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
     PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, checkpoint));
   }
-  for (PetscInt p = 0; p < r->scene->npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&r->scene->pairs[p]));
+  for (PetscInt p = 0; p < r->scene->npairs; ++p)
+    frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "previous_displacement", 3, PETSC_FALSE, checkpoint));
   PetscCall(RestartReadField(r, "outside_force", 3, PETSC_TRUE, checkpoint));
-  if (rubs || (r->scene->npairs && SceneIsDynamic(r->scene)))
+  if (frictional || (r->scene->npairs && SceneIsDynamic(r->scene)))
     PetscCall(RestartReadField(r, "contact_force", 3, PETSC_TRUE, checkpoint));
   if (SceneIsDynamic(r->scene)) {
     PetscCall(RestartReadField(r, "velocity", 3, PETSC_FALSE, checkpoint));
@@ -440,26 +441,27 @@ static PetscErrorCode RestartDestroy(Restart *r)
 }
 
 /*@C
-   CheckpointRead - Reads a state from which a run can go on
+   CheckpointRead - Reads a checkpoint, from which a run can continue
 
    Collective
 
    Input Parameters:
-+  scene - the scene; its load program may go on otherwise, and it may be refined
++  scene - the scene; its later load program and its refinement may differ from those of the checkpoint
 .  dm    - its mesh
 -  file  - the HDF5 file
 
    Output Parameters:
 +  checkpoint - the state on this mesh; free with CheckpointDestroy()
--  same       - whether the vertices are those of the file in the same order; else its fields were interpolated
+-  same       - true: the mesh has the vertices of the file in the same order; false: the fields were interpolated
 
    Level: intermediate
 
    Notes:
-   Vertices that the mesh has in common with the file's keep their values to rounding, on any number of ranks.
-   Every rank holds the vertices of the whole file meanwhile, unless they are the same.
+   Vertices that both meshes contain keep their values to rounding, on any number of ranks. If the meshes differ, every
+   rank temporarily holds all vertices of the file.
 
-   Errors: PETSC_ERR_FILE_OPEN for no file; PETSC_ERR_USER_INPUT for one of another scene, or no checkpoint at all.
+   Errors: PETSC_ERR_FILE_OPEN if the file cannot be read; PETSC_ERR_USER_INPUT if it belongs to another scene or is not
+   a checkpoint.
 
 .seealso: `CheckpointWriterWrite()`, `SimulationSetCheckpoint()`
 @*/

@@ -90,7 +90,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
 }
 
 /*@C
-   SimulationGetCheckpoint - Takes the state of a simulation, after a load step or one that was interrupted
+   SimulationGetCheckpoint - Gets the state of a simulation, after a load step or after an interruption
 
    Collective
 
@@ -103,7 +103,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
    Level: intermediate
 
    Note:
-   What the optimizer keeps of its Krylov spaces is not in it: the first load step that goes on from it finds it again.
+   It does not contain the directions that the optimizer keeps: the first load step after a restart computes them again.
 
 .seealso: `SimulationSetCheckpoint()`, `CheckpointWriterWrite()`
 @*/
@@ -139,7 +139,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 }
 
 /*@C
-   SimulationSetCheckpoint - Puts a simulation into a state, from which load steps go on
+   SimulationSetCheckpoint - Sets the state of a simulation from a checkpoint; load steps continue from it
 
    Collective
 
@@ -148,13 +148,13 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 -  checkpoint - the state, of this simulation's mesh
 
    Output Parameter:
-.  step - the load step to go on with, from 0
+.  step - number of the next load step, from 0
 
    Level: intermediate
 
    Note:
-   On another mesh the forces from outside are those of the mesh that they were found on, and so is their part
-   of the work in the first solve.
+   If the checkpoint is of another mesh, external forces at its state, and their work in the first solve, are
+   interpolated from that mesh.
 
 .seealso: `SimulationGetCheckpoint()`, `CheckpointRead()`
 @*/

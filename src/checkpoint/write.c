@@ -95,14 +95,14 @@ static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
 }
 
 /*@C
-   CheckpointWriterCreate - Prepares to write states from which a run can go on
+   CheckpointWriterCreate - Creates a writer of checkpoints
 
    Collective
 
    Input Parameters:
 +  scene - the scene that is simulated; must outlive the writer
 .  dm    - its mesh
--  file  - the HDF5 file; it is not touched before there is a state
+-  file  - the HDF5 file; it is not changed before the first checkpoint is written
 
    Output Parameter:
 .  writer - the writer
@@ -123,22 +123,23 @@ PetscErrorCode CheckpointWriterCreate(Scene scene, DM dm, const char file[], Che
 }
 
 /*@C
-   CheckpointWriterWrite - Writes a state, in the place of the one before
+   CheckpointWriterWrite - Writes a checkpoint, which replaces the previous one
 
    Collective
 
    Input Parameters:
 +  writer     - the writer
--  checkpoint - the state, which is needed no longer afterwards
+-  checkpoint - the state; the caller may free it after the call
 
    Level: intermediate
 
    Notes:
-   The state is written to another file. A thread of the first rank brings it to the disk and gives it its name
-   then, while the caller goes on: the one before stays until then, whatever happens. The next call, or
-   CheckpointWriterDestroy(), waits for it.
+   The state is written to a temporary file. A thread of the first rank then flushes it to disk and renames it, while
+   the caller continues. The previous checkpoint is kept until the rename. The next call, or CheckpointWriterDestroy(),
+   waits for the thread.
 
-   Errors: PETSC_ERR_FILE_WRITE where there is no room, for this state or the one before.
+   Errors: PETSC_ERR_FILE_WRITE if this checkpoint or the previous one could not be written, for example because the
+   disk is full.
 
 .seealso: `CheckpointWriterCreate()`, `CheckpointWriterDestroy()`, `SimulationGetCheckpoint()`
 @*/
@@ -165,7 +166,7 @@ PetscErrorCode CheckpointWriterWrite(CheckpointWriter writer, Checkpoint checkpo
    Level: intermediate
 
    Note:
-   Errors: PETSC_ERR_FILE_WRITE where the disk did not take it.
+   Errors: PETSC_ERR_FILE_WRITE if the last checkpoint could not be written to disk.
 
 .seealso: `CheckpointWriterCreate()`, `CheckpointWriterWrite()`
 @*/

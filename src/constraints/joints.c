@@ -26,7 +26,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
     PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
-      "ties \"%s\" and \"%s\" tie vertices that their nonmortar faces share: swap mortar and nonmortar of one of them",
+      "ties \"%s\" and \"%s\" have common vertices on their nonmortar faces: swap mortar and nonmortar of one of them",
       c->bodies.scene->ties[twice].name, tie->name);
     if (*all) {
       PetscCall(MatAXPY(*all, 1.0, rows, DIFFERENT_NONZERO_PATTERN));

@@ -110,7 +110,8 @@ static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes no
   PetscFunctionReturn(0);
 }
 
-/* Creates C; NULL if there are no inclined planes. prescribed and follows: of this rank's rows */
+/* Creates C; NULL if there are no inclined planes. prescribed, follows: flags of the rows of this rank: the
+   displacement is prescribed, or follows from the other components by C */
 PetscErrorCode PlanesCreate(const Constraints *constraints, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt    n, rstart;

@@ -100,7 +100,7 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   Collective
 
   Input Parameters:
-+ dm     - the mesh, as `MeshCreate()` gives it: 3 displacement components a vertex, face labels, "body" label
++ dm     - the mesh, as `MeshCreate()` gives it: 3 displacement components per vertex, face labels, "body" label
 . npairs - number of contact pairs, 0 or more
 - pairs  - the pairs, the same on all ranks; a face may be in several
 
@@ -137,12 +137,12 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
     PetscCall(PetscStrallocpy(ContactPairName(&pairs[p]), &c->pairs[p].name));
-    c->pairs[p].gap    = pairs[p].gap;
-    c->pairs[p].given  = pairs[p].distance;
-    c->pairs[p].smooth = pairs[p].smooth;
-    c->pairs[p].rubs   = SceneContactPairRubs(&pairs[p]);
-    c->pairs[p].sticks = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
-    c->rubs            = (PetscBool)(c->rubs || c->pairs[p].rubs);
+    c->pairs[p].gap        = pairs[p].gap;
+    c->pairs[p].given      = pairs[p].distance;
+    c->pairs[p].smooth     = pairs[p].smooth;
+    c->pairs[p].frictional = SceneContactPairHasFriction(&pairs[p]);
+    c->pairs[p].sticks     = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
+    c->frictional          = (PetscBool)(c->frictional || c->pairs[p].frictional);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
   }
@@ -164,15 +164,16 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 . contact - the contact
 
   Options Database Keys:
-+ -contact_gap <mortar,node>         - how the gap of every pair is measured, whatever the pair says
-. -contact_smooth <true,false>       - whether the gap of every pair is that of the smooth surfaces its facets stand
-                                       for, whatever the pair says
++ -contact_gap <mortar,node>         - how the gap of every pair is measured; overrides the setting of the pairs
+. -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
+                                       facets; overrides the setting of the pairs
 . -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the
                                        normals of the facets
-. -contact_quadrature <5>            - degree of polynomials, 1 to 8, that the mortar integrals are exact for on every
-                                       triangle of an overlap
-- -contact_search_depth <length>     - facets deeper in one another do not pair; 0: the mean thickness of the thinner
-                                       body, or the pair's own distance up to 0.9 of what both bodies are thick
+. -contact_quadrature <5>            - degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the
+                                       mortar integrals
+- -contact_search_depth <length>     - facets that penetrate deeper than this are not paired. 0: the mean thickness of
+                                       the thinner body, or the pair's search distance, at most 0.9 times the thickness
+                                       of both bodies
 
   Level: beginner
 
@@ -204,7 +205,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(!contact->rubs || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
+  PetscCheck(!contact->frictional || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
     "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
     "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
@@ -218,15 +219,15 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 }
 
 /*@C
-  ContactSetDisplacements - Tells a contact which faces are held, so that smooth surfaces go on beyond the planes they
-  end on
+  ContactSetDisplacements - Sets the prescribed displacements, by which smooth surfaces are continued across symmetry
+  planes
 
   Logically Collective
 
   Input Parameters:
 + contact       - the contact
 . n             - number of prescribed displacements
-- displacements - the prescribed displacements; they must stay until the contact is destroyed
+- displacements - the prescribed displacements; not copied, they must exist until the contact is destroyed
 
   Level: intermediate
 
@@ -247,7 +248,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
 }
 
 /*@
-  ContactGetFrictionless - At how many nodes of a pair friction cannot act, though the faces slide there
+  ContactGetFrictionless - Counts the nodes of a pair at which friction cannot act although the faces slide there
 
   Collective
 
@@ -256,8 +257,9 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
 - pair    - number of the pair
 
   Output Parameters:
-+ nfrictionless - nodes, on all ranks, whose pair sticks while both of its faces are driven there, unlike one another
-- nnodes - nodes of the nonmortar face, on all ranks
++ nfrictionless - number of nodes, on all ranks, of a pair with full stick at which both faces have different prescribed
+                  displacements
+- nnodes - number of nodes of the nonmortar face, on all ranks
 
   Level: intermediate
 
@@ -274,7 +276,7 @@ PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *
 }
 
 /*@
-  ContactGetReach - How far apart, and how deep in one another, facets pair
+  ContactGetReach - Gets the largest distance and the largest penetration depth at which facets are paired
 
   Not Collective
 
@@ -282,8 +284,9 @@ PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *
 . contact - the contact
 
   Output Parameters:
-+ distance - the least distance of all pairs whose own was not given, `PETSC_MAX_REAL` if every pair's was [length]
-- depth    - the largest depth of all pairs [length]
++ distance - the smallest search distance of the pairs without a given one; `PETSC_MAX_REAL` if all pairs have one
+             [length]
+- depth    - the largest search depth of all pairs [length]
 
   Level: intermediate
 
@@ -302,20 +305,21 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
 }
 
 /*@
-  ContactSetReach - Lets facets pair that are farther apart, or deeper in one another, than usual: where a load step
-  moves them far
+  ContactSetReach - Increases the distance and the penetration depth at which facets are paired, for load steps with
+  large motions
 
   Logically Collective
 
   Input Parameters:
 + contact  - the contact
-. distance - the least distance of pairs whose own was not given, 0 for the usual [length]
-- depth    - the least depth of all pairs, 0 for the usual [length]
+. distance - lower limit of the search distance of pairs without a given one; 0: the default [length]
+- depth    - lower limit of the search depth of all pairs; 0: the default [length]
 
   Level: intermediate
 
   Note:
-  With a depth, facets pair whatever the angle of their opposing normals: to measure, not to linearize for a solve.
+  With a depth, opposing facets are paired at any angle between their normals. Such a linearization is for measuring
+  only, not for a solve.
 
 .seealso: `ContactGetReach()`, `ContactLinearize()`
 @*/
@@ -329,18 +333,19 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
 }
 
 /*@
-   ContactSetDual - Takes the mortar gaps of all pairs by dual functions, as those of pairs with gap GAP_DUAL are
+   ContactSetDual - Sets whether all mortar pairs use dual shape functions, as pairs with gap GAP_DUAL do
 
    Logically Collective
 
    Input Parameters:
 +  contact - the contact
--  dual    - true: all of them; false: those that were given so
+-  dual    - true: all mortar pairs; false: only pairs with gap GAP_DUAL
 
    Level: developer
 
    Note:
-   Contact forces may then stand at the edges of faces: to find out whether any balance a load, of other pairs too.
+   With dual shape functions the resultant of the contact forces can act at the edges of faces. This is used for the
+   test whether any contact forces balance a load.
 
 .seealso: `ContactSetReach()`, `ContactLinearize()`
 @*/
@@ -352,7 +357,7 @@ PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
 }
 
 /*@
-  ContactView - Prints a contact: its pairs, what is searched, and the rows of the last linearization
+  ContactView - Prints a contact: its pairs, the search parameters, and the rows of the last linearization
 
   Collective
 

@@ -149,13 +149,13 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
 }
 
 /*@
-  ContactCheckDepth - Makes sure that no bodies overlap, undeformed, deeper than contact looks
+  ContactCheckDepth - Checks that no undeformed bodies overlap by more than the search depth
 
   Collective
 
   Input Parameters:
 + contact - the contact
-- usual   - the gap linearized at zero displacement
+- usual - the gap linearized at zero displacement, with the default search depth
 
   Level: intermediate
 

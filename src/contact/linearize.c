@@ -46,10 +46,10 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
 
   Input Parameters:
 + contact - the contact
-- u       - global displacement vector, 3 components a vertex [length]
+- u       - global displacement vector, 3 components per vertex [length]
 
   Output Parameter:
-. lin - the linearized gap; may have no rows at all
+. lin - the linearized gap; it may have no rows
 
   Level: beginner
 

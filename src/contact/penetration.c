@@ -57,25 +57,25 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
 }
 
 /*@
-  ContactGetPenetration - How deep vertices of the two faces of each pair are in one another
+  ContactGetPenetration - Computes how deep the vertices of each pair's faces penetrate the other face
 
   Collective
 
   Input Parameters:
 + contact - the contact
-- u       - global displacement vector, 3 components a vertex [length]
+- u       - global displacement vector, 3 components per vertex [length]
 
   Output Parameters:
-+ depth    - of each pair, that of the deepest vertex of either face below the other one [length]; 0: there is none
-- rounding - of each pair, what a depth is known to: a tenth of what its smooth surfaces stand off their facets
-             [length]; 0: its faces are plane
++ depth    - largest penetration of a vertex of either face, one value per pair [length]; 0: no penetration
+- rounding - uncertainty of the depth, one value per pair: a tenth of the distance between smooth surfaces and facets
+             [length]; 0: plane faces
 
   Level: developer
 
   Notes:
-  The gap of a mortar pair is a mean over the shape function of a nonmortar vertex. This is that of the vertices
-  themselves, of both sides, along the normal of the other face; of a smooth pair the surfaces are the smooth ones. A
-  vertex beside the other face has none.
+  The gap of a mortar pair is a mean, weighted by the shape function of a nonmortar vertex. Here the depth of each
+  single vertex of both sides is measured along the normal of the other face; smooth pairs use the smooth surfaces. A
+  vertex that does not project onto the other face has no depth.
 
 .seealso: `ContactLinearize()`
 @*/

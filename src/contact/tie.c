@@ -225,13 +225,14 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 }
 
 /*@C
-  ContactTieCreate - The displacements of the vertices of one face as means of those of another that it is tied to
+  ContactTieCreate - Computes the weights of a tie: vertex displacements of one face as weighted means of those of
+  another face
 
   Collective
 
   Input Parameters:
 + dm   - the mesh
-. what - the kind of thing that joins the faces, for an error
+. what - the name of the tie, for error messages
 - tie  - the two faces
 
   Output Parameter:
@@ -241,7 +242,7 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
   Level: intermediate
 
   Note:
-  It is an error where the mortar face does not cover the nonmortar one, undeformed.
+  It is an error if the undeformed mortar face does not cover the nonmortar face.
 
 .seealso: `ContactCreate()`
 @*/

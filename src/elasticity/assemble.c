@@ -102,7 +102,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 
   Input Parameters:
 + elasticity - the context
-. u          - displacement, global, 3 components a node [length]; may be `NULL` (no displacement)
+. u          - displacement, global, 3 components per node [length]; may be `NULL` (no displacement)
 - tangent    - matrix from `ElasticityCreateTangent()`
 
   Output Parameter:
@@ -116,7 +116,7 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
   type without `MatZeroRows()` (sbaij).
 
-  A cell turned inside out, whose energy is infinite, has the stiffness of zero displacement: the matrix holds no NaN.
+  An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so the matrix contains no NaN.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `ElasticityForce()`, `ElasticityGetAssemblies()`
 @*/
@@ -156,7 +156,7 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
 - body       - the body, from 0
 
   Output Parameter:
-. assemblies - number of assemblies, into whichever matrix
+. assemblies - number of assemblies, into any matrix
 
   Level: intermediate
 

@@ -2,7 +2,7 @@
 #include "elasticityimpl.h"
 
 /*@
-  ElasticityIsLinear - Whether no body's tangent depends on the displacement
+  ElasticityIsLinear - Gets whether the tangents of all bodies are independent of the displacement
 
   Not Collective
 

@@ -55,7 +55,8 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
 
     PetscCall(DMLabelGetValue(label, start + c, &e->cellbody[c]));
     PetscCheck(e->cellbody[c] >= 0 && e->cellbody[c] < e->nbodies, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "Some cells belong to no body: their label \"%s\" is not below the number of materials, %" PetscInt_FMT,
+      "Some cells belong to no body: the value of their label \"%s\" is not below the number of materials, "
+      "%" PetscInt_FMT,
       MESH_BODY_LABEL, e->nbodies);
     PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
     PetscCall(ElasticitySetBasis(e, n, &e->bodies[e->cellbody[c]]));

@@ -8,7 +8,7 @@
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . energy - stored energy of all bodies [force length]
@@ -54,7 +54,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . force - dE/du on all rows; on prescribed rows it is the reaction [force]

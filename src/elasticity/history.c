@@ -18,18 +18,18 @@ PetscErrorCode ElasticitySetUpHistory(Elasticity e)
 }
 
 /*@
-  ElasticityCommit - Makes the plastic strains at a displacement those from which the next step goes on
+  ElasticityCommit - Stores the plastic strains at a displacement as the start of the next load step
 
   Collective
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node; a state of equilibrium [length]
+- u          - displacement, global, 3 components per node; a state of equilibrium [length]
 
   Level: developer
 
   Notes:
-  Energy, force and stress at u stay the same. Without a law that has a history nothing is done.
+  Energy, force and stress at u do not change. If no law has a history, nothing is done.
 
 .seealso: `ElasticityEnergy()`, `ElasticityPlasticWork()`
 @*/
@@ -58,7 +58,7 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
 }
 
 /*@
-  ElasticityHasYielded - Whether any point has a plastic strain
+  ElasticityHasYielded - Gets whether any quadrature point has a plastic strain
 
   Collective
 
@@ -269,7 +269,7 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
 + npoints - number of such points of this rank
 . places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`.
             `NULL` on every rank if no law has a history
-- history - MATERIAL_HISTORY values a point, borrowed: they may be written
+- history - MATERIAL_HISTORY values per point, borrowed: they may be written
 
   Level: developer
 

@@ -123,8 +123,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 }
 
 /*@
-  ElasticitySetNearNullSpace - Gives a tangent the rigid body modes of the reference geometry, which smoothed
-  aggregation and nodal AMG build on
+  ElasticitySetNearNullSpace - Attaches the rigid body modes of the reference geometry to a tangent, for smoothed
+  aggregation and nodal AMG
 
   Collective
 

@@ -19,7 +19,7 @@ static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *functio
 }
 
 /*@
-   RankErrorBegin - Begins work that is not collective, and whose failure on one rank all ranks are to know
+   RankErrorBegin - Begins work that is not collective, whose failure on one rank must be reported on all ranks
 
    Not Collective
 

@@ -44,14 +44,14 @@ static PetscErrorCode FileTry(MPI_Comm comm, const char file[], const FilePart *
 }
 
 /*@C
-   OutputCheckWritable - Finds out before long work whether a file will be writable, and says so in one sentence if not
+   OutputCheckWritable - Checks before a long run that a file can be written; raises an error with one sentence if not
 
    Collective
 
    Input Parameters:
 +  comm - the communicator; its first rank writes
--  file - the file; it is not touched, a neighbour FILE.PID.part is made and removed, unless it is a link or a
-         device
+-  file - the file; it is not changed. A test file FILE.PID.part is created beside it and removed, unless FILE is a link
+          or a device
 
    Level: intermediate
 

@@ -246,12 +246,12 @@ static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char
 }
 
 /*@C
-  MaterialCheckHardening - Whether there is a law of plasticity with such a hardening
+  MaterialCheckHardening - Checks that hardening constants are valid
 
   Not Collective
 
   Input Parameters:
-+ hardening - what is given; with a table, yield is its first stress
++ hardening - the constants; with a table, yield is its first stress
 - length    - of why
 
   Output Parameters:

@@ -8,7 +8,7 @@ const char *const MaterialTypes[] = {MATERIAL_LAWS(MATERIAL_NAME) "MaterialType"
 static const MaterialLaw *const laws[] = {MATERIAL_LAWS(MATERIAL_ENTRY)};
 
 /*@
-  MaterialGetModuli - Gets what a material's law is evaluated with
+  MaterialGetModuli - Gets the moduli of a material's law
 
   Not Collective
 
@@ -17,8 +17,7 @@ static const MaterialLaw *const laws[] = {MATERIAL_LAWS(MATERIAL_ENTRY)};
 
   Output Parameters:
 + moduli    - the moduli [force/length^2]
-- isochoric - those that leave the law without kappa/2 theta^2, the energy of its dilatation; `NULL` if not wanted
-              [force/length^2]
+- isochoric - moduli of the law without its volumetric energy kappa/2 theta^2; `NULL` if not wanted [force/length^2]
 
   Level: developer
 
@@ -42,13 +41,13 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
 }
 
 /*@
-  MaterialSetScale - Sets Young's modulus of a material whose law has other constants, for what asks only how stiff it
-  is
+  MaterialSetScale - Sets an equivalent Young's modulus of a material whose law has other constants, as a measure of its
+  stiffness
 
   Not Collective
 
   Input Parameter:
-. material - the material; one whose law has a Young's modulus stays as it is
+. material - the material; unchanged if its law has a Young's modulus
 
   Level: developer
 

@@ -29,7 +29,8 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
 }
 
 /* Adds friction at the vertices: to the forces, and to closing[2] the force of slipping rows */
-static PetscErrorCode PairVerticesRub(Simulation sim, PetscInt pair, const PairRows *rows, PairVertices *vertices)
+static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, const PairRows *rows,
+  PairVertices *vertices)
 {
   PetscReal   *slipping;
   PetscScalar *f;
@@ -77,7 +78,7 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 0, vertices->closing));
   PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->closing));
   PetscCall(PairPlaceForces(sim, rows, vertices->force));
-  if (rows->rubs) PetscCall(PairVerticesRub(sim, pair, rows, vertices));
+  if (rows->frictional) PetscCall(PairVerticesAddFriction(sim, pair, rows, vertices));
   PetscFunctionReturn(0);
 }
 
@@ -132,7 +133,7 @@ static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt fi
 
 /* Sets friction stress and slip of the points from number `first` on. Slip is the mean over the covered area before
    agglomeration (alone) */
-static PetscErrorCode PairRubPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
+static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone)
 {
   PetscSection          global;
@@ -252,7 +253,7 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
   report->normal_force = sums[0];
   report->area         = sums[1];
   report->slip_area    = sums[2];
-  report->stick_area   = rows->rubs ? sums[1] - sums[2] : 0.0;
+  report->stick_area   = rows->frictional ? sums[1] - sums[2] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -275,7 +276,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(VecCopy(vertices.carried, alone));
     PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
     PetscCall(PairAppendPoints(sim, p, &rows, &vertices, alone));
-    if (rows.rubs) PetscCall(PairRubPoints(sim, p, first, &vertices, alone));
+    if (rows.frictional) PetscCall(PairAddFrictionPoints(sim, p, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
     PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));

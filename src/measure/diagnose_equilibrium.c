@@ -319,7 +319,7 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
 
 /* Reports the motion of the bodies that contact does not hold; left: unbalanced load on the free motions */
 static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone *cone, const PetscReal left[],
-  PetscBool rubs, StepReport *report)
+  PetscBool frictional, StepReport *report)
 {
   PetscReal *motion, whole = ConeDot(m->n, left, left);
   Vec        w;
@@ -330,7 +330,7 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   ConeSlide(cone, motion);
   PetscCall(VecDuplicate(m->x, &w));
   PetscCall(FreeMotionsDisplace(m, ConeDot(m->n, motion, motion) > 1e-6 * whole ? motion : left, w));
-  if (rubs) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
+  if (frictional) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
   PetscCall(RigidMotionReport(m->sim, w, "nothing stops it", report));
   PetscCall(VecDestroy(&w));
   PetscCall(PetscFree(motion));

@@ -97,8 +97,8 @@ PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
   report->npairs  = scene->npairs;
   report->nbodies = scene->nbodies;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    report->pairs[p].name = scene->pairs[p].name;
-    report->pairs[p].rubs = SceneContactPairRubs(&scene->pairs[p]);
+    report->pairs[p].name       = scene->pairs[p].name;
+    report->pairs[p].frictional = SceneContactPairHasFriction(&scene->pairs[p]);
   }
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) (void)ForcesFindFace(report, scene->displacements[d].face);
   for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b].name = scene->bodies[b].name;

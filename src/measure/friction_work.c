@@ -14,7 +14,7 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
     "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
     "not be negative",
     pair->name, (double)factor, (double)time);
-  if (!SceneContactPairRubs(pair)) *coefficient = 0.0;
+  if (!SceneContactPairHasFriction(pair)) *coefficient = 0.0;
   else *coefficient = pair->friction < PETSC_INFINITY ? factor * pair->friction : PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -78,7 +78,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   PetscCall(PetscCalloc1(2 * m->npairs, &sums));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
-    if (!report->pairs[p].rubs) continue;
+    if (!report->pairs[p].frictional) continue;
     PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
   }
@@ -110,7 +110,7 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
   PetscCall(ArcsGetWays(&bodies, sim->path.u, u, way));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
-    if (!SceneContactPairRubs(&sim->scene->pairs[p])) continue;
+    if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) continue;
     PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v];
     PetscCall(VecGetArrayRead(force, &now));

@@ -152,7 +152,7 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
 }
 
 /*@C
-   StepDescribeContact - Prints how the faces of a scene's contact pairs stand to each other at the start
+   StepDescribeContact - Prints initial gaps and mesh sizes of a scene's contact pairs
 
    Collective on the viewer
 
@@ -164,8 +164,7 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
    Level: beginner
 
    Note:
-   Bodies that overlap deeper than contact looks are an error, as in a run. So a scene is known to be sound
-   before it is solved.
+   Bodies that overlap by more than the search depth are an error, as in a run.
 
 .seealso: `SceneDescribe()`, `ContactCheckDepth()`
 @*/

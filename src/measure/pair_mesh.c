@@ -158,7 +158,7 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal force
   return turns;
 }
 
-static PetscErrorCode PairWarnOfSwing(Simulation sim, PetscInt p)
+static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
   PetscReal               forces[2] = {0.0, 0.0};
@@ -166,10 +166,9 @@ static PetscErrorCode PairWarnOfSwing(Simulation sim, PetscInt p)
   PetscFunctionBegin;
   if (PairLoadTurns(&sim->report) || PairCountTurns(&sim->report, p, forces) < 2) PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report,
-    "contact pair \"%s\" is one facet of %s wide, and its force swings with the place of the facets, as from %.3g to "
-    "%.3g: refine that face where the contact passes, to some seven facets across, or take the face that moves with "
-    "the "
-    "contact as the nonmortar one",
+    "contact pair \"%s\": the contact is only one facet of %s wide, and its force oscillates as it moves over the "
+    "facets, for example from %.3g to %.3g: refine that face to about seven facets across the contact, or make the "
+    "face that moves with the contact the nonmortar one",
     pair->name, pair->nonmortar, (double)forces[0], (double)forces[1]));
   PetscFunctionReturn(0);
 }
@@ -191,7 +190,7 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   if (!softer && coarseness > PAIR_COARSE)
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "contact pair \"%s\": facets of the nonmortar face %s are %.2g times as large as those of the mortar face %s, "
-      "whose vertices are left free between its constraints: exchange the two faces, or refine %s",
+      "whose vertices can penetrate between its constraints: swap the two faces, or refine %s",
       pair->name, pair->nonmortar, (double)coarseness, pair->mortar, pair->nonmortar));
   PetscFunctionReturn(0);
 }
@@ -202,7 +201,7 @@ PetscErrorCode PairMeshWarn(Simulation sim)
   PetscFunctionBegin;
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscCall(PairWarnOfCoarseness(sim, p));
-    PetscCall(PairWarnOfSwing(sim, p));
+    PetscCall(PairWarnOfRotation(sim, p));
   }
   PetscFunctionReturn(0);
 }

@@ -230,7 +230,7 @@ PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRow
         rows->length[r] = length[r];
       }
     }
-    if (rows->rubs) PetscCall(ResolveFriction(sim, rows, mark, pressure, sides));
+    if (rows->frictional) PetscCall(ResolveFriction(sim, rows, mark, pressure, sides));
   }
   PetscCall(PetscFree2(mark, pressure));
   PetscFunctionReturn(0);

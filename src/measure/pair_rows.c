@@ -36,7 +36,7 @@ PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, Petsc
 }
 
 /* Sets friction and slip; a row slips if its slip exceeds the rounding of displacements */
-static PetscErrorCode PairRowsRub(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
+static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;
   ContactLinearization lin      = sim->linearization;
@@ -67,7 +67,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
   PetscReal              *force;
 
   PetscFunctionBegin;
-  *rows       = (PairRows){.n = n, .rubs = (PetscBool)(sim->linearization->slip && SceneContactPairRubs(faces))};
+  *rows = (PairRows){.n = n, .frictional = (PetscBool)(sim->linearization->slip && SceneContactPairHasFriction(faces))};
   rows->young = PetscMin(SceneFaceMaterial(sim->scene, faces->mortar)->young,
     SceneFaceMaterial(sim->scene, faces->nonmortar)->young);
   PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
@@ -91,7 +91,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
       rows->closed[r] = rows->presses[r] = 1.0;
   }
   PetscCall(PetscFree(force));
-  if (rows->rubs) PetscCall(PairRowsRub(sim, pair, mass, rows));
+  if (rows->frictional) PetscCall(PairRowsSetFriction(sim, pair, mass, rows));
   PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
   PetscFunctionReturn(0);
 }
@@ -99,7 +99,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 PetscErrorCode PairRowsDestroy(PairRows *rows)
 {
   PetscFunctionBegin;
-  if (rows->rubs) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
+  if (rows->frictional) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
   PetscCall(PetscFree3(rows->own, rows->facing, rows->presses));
   PetscCall(PetscFree7(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
   PetscFunctionReturn(0);

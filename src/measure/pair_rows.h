@@ -18,8 +18,8 @@ typedef struct {
   PetscReal *own;     /* size of the facets around the row [length] */
   PetscReal *facing;  /* size of the mortar facets that the row faces [length] */
   PetscReal *length;  /* facet size to which the row's gap belongs; of the coarser side where only that is resolved */
-  PetscBool  rubs;    /* the pair has friction */
-  PetscReal *slips;   /* 1: the row slips */
+  PetscBool  frictional; /* the pair has friction */
+  PetscReal *slips;      /* 1: the row slips */
   PetscReal *shear,
     *way; /* friction stress on the mortar side [force/length^2], and slip [length]; n values per component */
 } PairRows;

@@ -56,8 +56,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
         "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is closed %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
         node ? "at the nonmortar vertices" : "in the mean",
-        node ? "exchange the two faces, or refine the nonmortar one there"
-             : "use gap: node, or refine the faces there"));
+        node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));
   }
   PetscFunctionReturn(0);
 }

@@ -36,10 +36,10 @@ PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
       continue;
     sim->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
-      "body \"%s\" is %s by %.2g %s in the mean in load step %" PetscInt_FMT
-      ", and its law is that of small strains: its forces are wrong by about as much; take material: neohookean, or "
-      "another law of finite strain",
-      scene->bodies[b].name, turned ? "turned" : "strained",
+      "body \"%s\" is %s by %.2g %s on average in load step %" PetscInt_FMT
+      ", but its material law is for small strains: its forces have an error of about that size; use material: "
+      "neohookean or another finite-strain law",
+      scene->bodies[b].name, turned ? "rotated" : "strained",
       (double)(turned ? values[b][1] * 180.0 / PETSC_PI : 100.0 * values[b][0]), turned ? "degrees" : "%", step + 1));
   }
   PetscCall(PetscFree(values));

@@ -2,8 +2,8 @@
 #include "meshimpl.h"
 
 /*@
-  MeshCheckBody - Checks the parameters of a body's shape, or that its mesh file has its volume, and the parts of its
-  faces
+  MeshCheckBody - Checks the parameters of a body's shape (for a mesh file: that it contains the named volume) and the
+  parts of its faces
 
   Collective
 

@@ -541,7 +541,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
-    if (SceneContactPairRubs(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
+    if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
     else PetscCall(SupportAddPair(&support, pair));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
@@ -554,7 +554,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 }
 
 /*@
-  MeshGetUnheld - Finds the bodies that move freely: weak springs may hold them
+  MeshGetUnheld - Finds the bodies that have free rigid body motions, which weak springs may restrain
 
   Collective
 
@@ -563,7 +563,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 - scene - the scene
 
   Output Parameter:
-. unheld - of each body whether any of its rigid motions is free
+. unheld - one value per body: whether any of its rigid body motions is free
 
   Level: intermediate
 
@@ -578,7 +578,7 @@ PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
 }
 
 /*@
-  MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is held
+  MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is supported
 
   Collective
 
@@ -589,7 +589,7 @@ PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
   Level: intermediate
 
   Notes:
-  A body is held if none of its rigid motions is free. Contact pairs count as if they were closed.
+  A body is supported if none of its rigid body motions is free. Contact pairs count as closed.
 
 .seealso: `MeshCreate()`, `SceneLoad()`
 @*/

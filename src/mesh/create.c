@@ -74,11 +74,11 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
     nvertices += meshes[b].nvertices;
   }
   PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The %" PetscInt64_FMT " level 0 vertices are too many for this PETSc's integers", nvertices);
+    "The %" PetscInt64_FMT " level 0 vertices are too many for PETSc's integer type", nvertices);
   finecells = *ncells;
   for (PetscInt l = 0; l < refine; ++l) {
     PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for this PETSc's integers",
+      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for PETSc's integer type",
       refine, *ncells);
     finecells *= 8;
   }
@@ -230,7 +230,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   Input Parameters:
 + comm  - communicator
 . scene - the scene, the same on all ranks
-- marks - cells marked on meshes made before, which are refined after the others; `NULL` where none are to be marked
+- marks - cells marked on earlier meshes, which are refined after the others; `NULL`: none
 
   Output Parameter:
 . dm - the mesh, a `DMPLEX` with one component a body

@@ -126,7 +126,7 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
   PetscInt *assignment, *weights = NULL, *points, *next;
 
   PetscFunctionBegin;
-  PetscCheck(!targetsection, comm, PETSC_ERR_SUP, "Partitioner metis makes parts of equal weight only");
+  PetscCheck(!targetsection, comm, PETSC_ERR_SUP, "The partitioner metis supports only parts of equal weight");
   PetscCall(PetscMalloc3(nv, &assignment, vertexsection ? nv : 0, &weights, nparts, &next));
   if (vertexsection) {
     for (PetscInt v = 0; v < nv; ++v) PetscCall(PetscSectionGetDof(vertexsection, v, &weights[v]));

@@ -138,12 +138,12 @@ PetscReal ExpressionEvaluate(Expression *e)
 }
 
 /*@C
-   SceneEvaluatePlace - Evaluates an expression of the place
+   SceneEvaluatePlace - Evaluates an expression of the position
 
    Not Collective
 
    Input Parameters:
-+  expression - the text, of x, y, z, as a scene that was loaded has it
++  expression - the expression in x, y, z, as a loaded scene holds it
 -  x          - the place [length]
 
    Output Parameter:

@@ -76,8 +76,7 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
 }
 
 /*@C
-   OptionsCheckValues - Raises an error for an option of ours that has no value though it needs one, or a value of
-   another kind than it needs
+   OptionsCheckValues - Raises an error if an option of this library lacks its value, or its value has the wrong type
 
    Collective
 
@@ -87,8 +86,8 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
    Level: intermediate
 
    Notes:
-   Call it before anything asks for options: PETSc takes an option without its value as not given, and does not name
-   the one whose value it cannot read. Options that have been asked for are passed over.
+   Call it before any option is read: PETSc treats an option without its value as not given, and its error for an
+   unreadable value does not name the option. Options that were already read are skipped.
 
    Error: PETSC_ERR_USER_INPUT, which names option and value.
 
@@ -107,8 +106,8 @@ PetscErrorCode OptionsCheckValues(MPI_Comm comm)
 }
 
 /*@C
-   OptionsCheck - Raises an error for an option that nothing will ask for, one that is neither ours nor begins as those
-   of PETSc do, and for one of ours with a wrong value
+   OptionsCheck - Raises an error for an unknown option (neither of this library nor with a prefix of PETSc's options),
+   and for a wrong value of an option of this library
 
    Collective
 
@@ -118,9 +117,9 @@ PetscErrorCode OptionsCheckValues(MPI_Comm comm)
    Level: intermediate
 
    Notes:
-   Call it once all options are in the database, from the command line, from files, PETSC_OPTIONS or a scene,
-   and before they are used. PETSc's own options, and those of our solvers' inner ones, cannot be known beforehand:
-   `-options_left` tells which of them nothing asked for.
+   Call it once all options are in the database, from the command line, from files, PETSC_OPTIONS or a scene, and before
+   they are used. PETSc's options and options of inner solvers cannot be checked beforehand: `-options_left` lists those
+   that were never used.
 
    Errors: PETSC_ERR_USER_INPUT, with the nearest known name.
 

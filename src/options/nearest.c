@@ -2,7 +2,7 @@
 #include "optionsimpl.h"
 
 /*@C
-   OptionsDistance - How many letters are to be inserted, left out or exchanged to make one name of another
+   OptionsDistance - Computes Levenshtein's distance of two names: the number of letters to insert, delete or replace
 
    Not Collective
 
@@ -43,7 +43,7 @@ PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
 }
 
 /*@C
-   OptionsNearest - The known name that is nearest to another: fewest letters to insert, leave out or exchange
+   OptionsNearest - Finds the known name with the smallest Levenshtein distance from another name
 
    Not Collective
 

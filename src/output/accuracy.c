@@ -2,7 +2,7 @@
 #include "outputimpl.h"
 
 /*@C
-   ReportViewAccuracy - Prints what -accuracy chose, and what each mesh attained
+   ReportViewAccuracy - Prints the choices of -accuracy and the errors of each mesh
 
    Collective on the viewer
 
@@ -13,9 +13,9 @@
    Level: intermediate
 
    Note:
-   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery;
-   `change` that of the results since the coarser mesh, from which the error of the mesh is extrapolated; where it is
-   `beyond recovery` the two disagree, and the change stands for the error.
+   Errors are relative, in energy and contact force. `recovery` is the error in energy by stress recovery; `change` is
+   the change of the results since the coarser mesh, from which the error of the mesh is extrapolated. `beyond recovery`
+   means that the change is larger than recovery explains; then the change is taken as the error.
 
 .seealso: `AccuracyAssess()`, `ReportView()`
 @*/
@@ -62,7 +62,7 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
 }
 
 /*@C
-   ReportViewNextMesh - Prints what the last mesh attained, and what comes next
+   ReportViewNextMesh - Prints the errors of the last mesh and the next refinement
 
    Collective on the viewer
 

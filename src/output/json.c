@@ -131,13 +131,13 @@ static PetscErrorCode JSONReport(FILE *stream, const void *ctx)
    Input Parameters:
 +  comm   - the communicator; its first rank writes
 .  report - the report, the same on every rank
--  file   - the file; an older one is replaced when the new one is whole
+-  file   - the file; an older one is replaced when the new one is complete
 
    Level: intermediate
 
    Note:
-   The keys are the members of RunReport, StepReport and what they hold, as src/output/schema.c lists them.
-   Numbers have full precision; NaN and infinity become null.
+   The keys are the members of RunReport, StepReport and the structures in them, listed in src/output/schema.c. Numbers
+   have full precision; NaN and infinity become null.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the file cannot be written.
 

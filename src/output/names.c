@@ -10,7 +10,7 @@ PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
 
   PetscFunctionBegin;
   PetscCheck(named, comm, PETSC_ERR_FILE_OPEN,
-    "\"%s\" is a folder; -output is what the names of the files begin with, as results/press", base);
+    "\"%s\" is a folder; -output needs the beginning of the files' names, for example results/press", base);
   PetscFunctionReturn(0);
 }
 

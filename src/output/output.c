@@ -29,12 +29,12 @@ static PetscErrorCode OutputBegin(Output output)
 }
 
 /*@C
-   OutputCreate - Prepares results on disk for ParaView
+   OutputCreate - Creates the writer of result files for ParaView
 
    Collective
 
    Input Parameters:
-+  dm        - mesh with 3 displacement components a node, as MeshCreate() makes it
++  dm        - mesh with 3 displacement components per node, as MeshCreate() makes it
 .  nbodies   - number of bodies
 .  bodynames - their names
 -  basename  - path of the files without ending
@@ -45,19 +45,18 @@ static PetscErrorCode OutputBegin(Output output)
    Level: intermediate
 
    Notes:
-   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every
-   cell; hexahedra of order 2 are cut by their nodes into 8, which have the values of the cell; where there are
-   tetrahedra, of 4 or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before
-   the nodes of each) and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends
-   at time k. Every file is written under another name and renamed when it is whole, and the .xmf comes last, so a run
-   that is killed, or finds the disk full, leaves what it has finished readable.
+   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell;
+   hexahedra of order 2 are cut by their nodes into 8, which have the values of the cell; where there are tetrahedra, of
+   4 or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before the nodes of
+   each) and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends at time k.
+   Every file is written under a temporary name and renamed when it is complete, and the .xmf is written last. So the
+   completed load steps stay readable if the run is killed or the disk is full.
 
-   The results of an earlier run of the same name stay as they are until the first load step is written: the mesh is
-   written then. The files of later steps that the earlier run left are removed. Without earlier results the mesh is
-   written at once.
+   The results of an earlier run of the same name are kept until the first load step is written; the mesh is written
+   then, and the earlier run's files of later steps are removed. Without earlier results the mesh is written at once.
 
-   Errors: PETSC_ERR_FILE_OPEN, on all ranks, where the files cannot be written, or another process writes them;
-   PETSC_ERR_FILE_WRITE where there is no room.
+   Errors: PETSC_ERR_FILE_OPEN, on all ranks, if the files cannot be written or another process is writing them;
+   PETSC_ERR_FILE_WRITE if the disk is full.
 
 .seealso: `OutputWrite()`, `OutputDestroy()`
 @*/
@@ -85,13 +84,13 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
 }
 
 /*@C
-   OutputSetUnits - Names the units of a run in its XDMF file
+   OutputSetUnits - Writes the units of a run into its XDMF file
 
    Not collective
 
    Input Parameters:
 +  output - the output, before OutputWrite()
--  units  - the scene's note, as "mm, N, MPa"; NULL: none
+-  units  - the scene's text, for example "mm, N, MPa"; NULL: none
 
    Level: intermediate
 
@@ -117,7 +116,7 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   output->moving = (PetscBool)(state->velocity != NULL);
   for (PetscInt p = 0; p < report->npairs; ++p)
-    output->friction = (PetscBool)(output->friction || report->pairs[p].rubs);
+    output->friction = (PetscBool)(output->friction || report->pairs[p].frictional);
   if (report->npairs < 2) PetscFunctionReturn(0);
   output->npairs = report->npairs;
   PetscCall(PetscMalloc1(output->npairs, &output->pairnames));
@@ -138,7 +137,7 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
 }
 
 /*@C
-   OutputContinue - Goes on with the files of a run that ended before its last load step
+   OutputContinue - Continues the files of a run that ended before its last load step
 
    Collective
 
@@ -151,7 +150,7 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
    Level: intermediate
 
    Note:
-   The history keeps the lines of those load steps, <basename>.xmf their files as far as they are there.
+   The history keeps the lines of those load steps. <basename>.xmf lists their files, if they exist.
 
 .seealso: `OutputCreate()`, `OutputWrite()`, `CheckpointRead()`
 @*/
@@ -200,12 +199,12 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    Level: intermediate
 
    Notes:
-   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure
-   [force/length^2], contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open),
-   contact_force [force]. Over the vertices of a side contact_pressure times contact_area sums to the pair's normal
-   force, contact_force to its force. The area is that which the other side covers about the vertex; a vertex that is
-   covered much less than its neighbours is counted with theirs and has neither area nor pressure. Away from contact
-   the gap and the status are NaN, which ParaView paints in its NaN colour, the others 0.
+   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure [force/length^2],
+   contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. Over the
+   vertices of a side contact_pressure times contact_area sums to the pair's normal force, contact_force to its force.
+   The area is the part of the vertex's area that the other side covers. A vertex that is covered much less than its
+   neighbours has area and pressure 0; its share is added to theirs. Away from contact the gap and the status are NaN,
+   which ParaView paints in its NaN colour, the others 0.
 
    With several pairs each has fields of its own, called contact_pressure_<pair> and so on; those without a name have,
    at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.

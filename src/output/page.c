@@ -2,7 +2,8 @@
 #include "src/output/outputimpl.h"
 
 /*@C
-   ReportPageCheck - Finds out before long work whether a page of the run can be made, and says in one sentence why not
+   ReportPageCheck - Checks before a long run that the HTML page of the run can be made; raises an error with one
+   sentence if not
 
    Collective
 
@@ -40,19 +41,19 @@ PetscErrorCode ReportPageCheck(MPI_Comm comm, const char file[])
 }
 
 /*@C
-   ReportPageMake - Makes the page of a run that has ended
+   ReportPageMake - Makes the HTML page of a completed run
 
    Not collective, one rank calls it; also after PetscFinalize()
 
    Input Parameter:
-.  page - its file, and what it is made from
+.  page - its file and its input files
 
    Output Parameters:
-+  sentence - why there is no page
++  sentence - the reason if the page was not made
 -  length   - of the sentence
 
    Returns:
-   0, or what is not 0 where there is no page
+   0; nonzero if the page was not made
 
    Level: intermediate
 

@@ -40,12 +40,12 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 /* Prints, if there is friction, the work of the loads since the start, where it went, and the imbalance of each step */
 static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
 {
-  const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
-  PetscBool         rubs = PETSC_FALSE;
+  const StepReport *last       = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
+  PetscBool         frictional = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; last && p < last->npairs; ++p) rubs = (PetscBool)(rubs || last->pairs[p].rubs);
-  if (!rubs) PetscFunctionReturn(0);
+  for (PetscInt p = 0; last && p < last->npairs; ++p) frictional = (PetscBool)(frictional || last->pairs[p].frictional);
+  if (!frictional) PetscFunctionReturn(0);
   PetscCall(ViewSteps(report, TABLE_BALANCE, 1, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);
@@ -83,7 +83,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     }
     if (linear->subspaces)
       PetscCall(PetscViewerASCIIPrintf(viewer,
-        "; the filtered subspace method gave up %" PetscInt_FMT " times and the interior point method took over",
+        "; the filtered subspace method failed %" PetscInt_FMT " times; the interior point method replaced it",
         linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
@@ -165,7 +165,7 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "\nPeak memory %.1f MB, %.2f kB an unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n",
+    "\nPeak memory %.1f MB, %.2f kB per unknown: program %.2f, mesh %.2f, stiffness %.2f, solvers %.2f\n",
     report->peak_memory_bytes / 1e6, report->peak_memory_bytes / n, report->memory.start / n,
     (report->memory.mesh - report->memory.start) / n, (report->memory.assembly - report->memory.mesh) / n,
     (report->peak_memory_bytes - report->memory.assembly) / n));
@@ -173,7 +173,7 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 }
 
 /*@C
-   ReportViewEffects - Prints what the scene called for and what it did not, why, and the share of the time
+   ReportViewEffects - Prints which effects the scene uses and which not, why, and their share of the run time
 
    Collective on the viewer
 
@@ -184,7 +184,8 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
    Level: intermediate
 
    Note:
-   An effect without a share is part of the phases it works in (an element's formulation, say, of the assembly).
+   An effect without a share has no phase of its own: its time is part of other phases (for example, the element's
+   formulation is part of the assembly).
 
 .seealso: `ReportView()`
 @*/

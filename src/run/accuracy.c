@@ -4,29 +4,28 @@
 #include <math.h>
 
 #define ACCURACY_RATE \
-  4.0 /* by which a uniform refinement divides the error in energy of trilinear elements where the solution is smooth \
-       */
+  4.0 /* factor by which a uniform refinement reduces the error in energy of trilinear elements for smooth solutions */
 #define ACCURACY_RAISED \
-  16.0 /* the same of order 2 in place of 1: measured are 11 on a ball, by the edge of contact, 26 on a cantilever, 80 \
-          on a cylinder */
+  16.0 /* the same for order 2 instead of 1; measured: 11 on a ball, limited by the edge of contact; 26 on a
+          cantilever; 80 on a cylinder */
 #define ACCURACY_UPDATES 20
 #define ACCURACY_REGULAR \
-  1.05 /* times what elements of order 1 have at best for so many unknowns, their power 2/3: recovery that falls by \
-          less has something singular left */
+  1.05 /* relative to the best rate of order 1 elements, error ~ unknowns^(-2/3): if the recovered error falls by
+          less, the solution has a singularity */
 #define ACCURACY_UNSEEN \
-  2.0 /* times the errors by recovery of both meshes: results that differ by more have an error which recovery does \
-         not see */
-#define ACCURACY_MINOR 1e-2 /* of the largest pair's force: a smaller one is held to the target relative to that */
+  2.0 /* relative to the recovered errors of both meshes: a larger difference of the results shows an error that
+         recovery does not see */
+#define ACCURACY_MINOR 1e-2 /* relative to the largest pair's force: smaller forces are compared with this value */
 #define ACCURACY_MARGIN \
-  0.5 /* of its share that the solver aims at: it leaves up to 1.3 times its tolerance, and a second run costs more \
-         than a Newton step */
+  0.5 /* fraction of its share at which the solver aims, since it leaves up to 1.3 times its tolerance, and a second
+         run costs more than a Newton step */
 
 /* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
 typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C
-   AccuracySetFromOptions - How accurate a run is to be
+   AccuracySetFromOptions - Reads the required accuracy of a run from the options
 
    Collective
 
@@ -42,10 +41,10 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
                                 largest pressure too;
                                 displacement: of energy and the displacements of the scene's probes
 .  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
-.  -accuracy_share <0.1>      - what of it the solver may leave
-.  -accuracy_order <2>        - order of all bodies from the second mesh on, which is the first one's but for that;
-                                default: as the scene has it
--  -accuracy_max_dofs <1e6>   - unknowns a mesh may have
+.  -accuracy_share <0.1>      - share of the target that the solver's error may have
+.  -accuracy_order <2>        - order of all bodies from the second mesh on. The second mesh then has the cells of the
+                                first. Default: the order of the scene
+-  -accuracy_max_dofs <1e6>   - largest number of unknowns of a mesh
 
    Level: beginner
 
@@ -68,8 +67,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
     ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
   PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only the cells where the error is", "AccuracyAssess",
     acc->adaptive, &acc->adaptive, NULL));
-  PetscCall(PetscOptionsReal("-accuracy_share", "Share of it that the solver may leave", "AccuracyPlan", acc->share,
-    &acc->share, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_share", "Fraction of the requested error that the solver may leave",
+    "AccuracyPlan", acc->share, &acc->share, NULL));
   PetscCall(
     PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
   PetscCall(PetscOptionsInt("-accuracy_order", "Element order of all bodies from the second mesh on", "AccuracyAssess",
@@ -95,7 +94,8 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscFunctionReturn(0);
 }
 
-/* Of order 1 before, and no element that is of order 1 alone; the probes that are to be accurate */
+/* Checks that -accuracy_order can be used (bodies of order 1, no element that exists for order 1 only), and that
+   there are probes if displacements must be accurate */
 static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
 {
   PetscInt npoints = 0;
@@ -131,7 +131,7 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Collective
 
    Input Parameters:
-+  acc   - what is asked for
++  acc   - the required accuracy
 -  scene - the scene; its contact_updates is raised, unless -contact_updates was given
 
    Input/Output Parameter:
@@ -140,10 +140,10 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
    Level: developer
 
    Notes:
-   The gap is linearized until it is true, so that load steps of any size end in the same state; with
-   -contact_updates 1 the accuracy is that of the problem with one linearization a load step. The optimizer's
-   tolerance starts at half of share x target and is tightened where that left too much. An option of the user's wins
-   over a tolerance, as over any other of a simulation; `AccuracyAssess()` learns of it after the run.
+   Contact is updated until the gap is consistent, so that load steps of any size end in the same state. With
+   -contact_updates 1 the accuracy refers to the problem with one linearization per load step. The optimizer's tolerance
+   starts at half of share x target and is tightened if the solver's error is too large. Tolerances given by the user as
+   options take precedence; `AccuracyAssess()` reads them after the run.
 
 .seealso: `AccuracySetFromOptions()`, `AccuracyAssess()`, `SimulationSetTolerances()`
 @*/
@@ -166,7 +166,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
   PetscFunctionReturn(0);
 }
 
-/* The largest difference of the load steps, relative to the largest value, but not to less than `least` */
+/* Largest difference over the load steps, relative to the largest value, which is taken as at least `least` */
 static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[],
   PetscReal least)
 {
@@ -179,7 +179,7 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
   return size > 0.0 ? difference / size : 0.0;
 }
 
-/* Of each probe, by size */
+/* Largest relative change of the magnitude of each probe's displacement */
 static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt nprobes)
 {
@@ -199,7 +199,8 @@ static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const Accu
   return change;
 }
 
-/* Of the energy, and of each pair's force by its size and by the sum of its rows', where they are asked for */
+/* Largest relative change of the energy, and of each pair's force (its magnitude, and the sum of its rows'), as far
+   as requested */
 static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
 {
@@ -214,7 +215,7 @@ static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const Acc
   return change;
 }
 
-/* Of each pair's largest pressure */
+/* Largest relative change of each pair's largest pressure */
 static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs)
 {
@@ -225,7 +226,7 @@ static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const Accuracy
   return change;
 }
 
-/* The last run on a coarser mesh than the last run's, NULL if there is none */
+/* The last run on a coarser mesh than that of the last run; NULL: none */
 static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
@@ -236,19 +237,19 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
-/* By which the error went down, at least: where strains are as singular as at a crack or an edge that presses, by the
-   width of uniform cells */
+/* Guaranteed reduction of the error: by the cell size of uniform meshes, as for the strongest singularity considered
+   (crack, edge of a punch) */
 static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now)
 {
   return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
 }
 
 /*
-   Of two meshes the errors go as those by recovery do, which gives the finer one's from the difference of the
-   results; no faster than they can, though recovery does on meshes that are too coarse for it. Where results hardly
-   differ by chance, a quarter of the recovered error stands, and all of it beside what is singular; where results
-   differ by more than recovery can tell, nothing of their difference is taken off. Pressures err with the stress,
-   whose error is the root of that of the energy
+   Estimates the error of the finer mesh from the difference of the results on two meshes. The ratio of the errors is
+   that of the recovered errors, limited by the best possible rate, since recovery may fall faster on meshes that are
+   too coarse for it. The estimate is at least a quarter of the recovered error, in case results agree by chance, and at
+   least all of it if the solution is singular. If results differ by more than recovery can explain, the whole
+   difference is the estimate. The error of pressures is that of the stress, the square root of that of the energy
 */
 static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
@@ -277,7 +278,7 @@ static void AccuracyRecordProbes(const StepReport *step, PetscReal displaced[])
   for (PetscInt i = 0; i < 3 * step->nprobes; ++i) displaced[i] = step->probes[i / 3].displacement[i % 3];
 }
 
-/* Of each pair in a load step */
+/* force, pressure: of each pair in a load step */
 static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[],
   PetscReal pressure[])
 {
@@ -292,8 +293,8 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
   PetscFunctionReturn(0);
 }
 
-/* What the solver leaves in the energy; where one linearization of the gap is asked for, the true gap is another
-   problem's, and no tolerance makes it truer */
+/* Error of the solver in the energy. With one contact update per load step the gap error is not included, because no
+   tolerance reduces it */
 static PetscReal AccuracySolverError(const Accuracy *acc, const StepReport *step)
 {
   return acc->updates == 1 ? step->algebraic_error - step->gap_error : step->algebraic_error;
@@ -336,8 +337,8 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refines once more, unless two meshes show that the error is within a factor 2 of the target, or the limit on
-   unknowns forbids it */
+/* Refines again, unless two meshes show an error within a factor 2 of the target, or the limit of unknowns is
+   reached */
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
@@ -355,7 +356,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   PetscFunctionReturn(0);
 }
 
-/* What an option of the user's has made of the plan */
+/* Adopts tolerances that options have set */
 static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
 {
   const PetscReal solver = acc->contact ? used->optimizer : used->linear;
@@ -365,7 +366,7 @@ static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
   acc->update_tolerance = used->gap_change;
 }
 
-/* More than its share from the solver: a tighter tolerance, twice at most on a mesh */
+/* If the solver's error exceeds its share, tightens the tolerance, at most twice per mesh */
 static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
   const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
@@ -386,7 +387,7 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   PetscFunctionReturn(0);
 }
 
-/* Of all bodies that have one */
+/* Sets the order of all bodies with an elastic law */
 static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 {
   PetscFunctionBegin;
@@ -397,15 +398,15 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 }
 
 /*@C
-   AccuracyAssess - Was the run accurate enough, and what is to be done if not?
+   AccuracyAssess - Estimates the error of a run, and chooses the next refinement if it is too large
 
    Collective
 
    Input Parameters:
-+  acc        - what is asked for
-.  tolerances - those that the run had
-.  report     - the run's
--  scene      - the scene; its refinement becomes that of the next run
++  acc        - the required accuracy
+.  tolerances - the tolerances of the run
+.  report - the report of the run
+-  scene      - the scene; its refinement is set to that of the next run
 
    Output Parameter:
 .  again - whether the scene is to be run again
@@ -413,29 +414,31 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    Level: developer
 
    Notes:
-   The first mesh's error in energy is that of stress recovery, which sees neither facets in place of curves
-   nor where the faces meet: no mesh is fine enough by itself, and a second one is always run. From then on the error
-   is extrapolated from the change of energy and of each pair's force between two meshes, whichever is largest, with
-   the rate that recovery shows, a factor of 4 at most, as trilinear elements have it; it is taken for a quarter of
-   recovery's at least, and for all of it where that falls by no more than a regular solution's, as beside singular
-   edges. A change beyond what recovery accounts for on both meshes is the error as it is. A pair's force is its size
-   and the sum of its rows' sizes, the first relative to the largest of all pairs.
+   The first mesh's error in energy is estimated by stress recovery, which does not include the errors of faceted curved
+   surfaces and of the edge of contact. Therefore a second mesh is always run. From then on the error is extrapolated
+   from the change of energy and of each pair's force between two meshes, whichever is largest, with the convergence
+   rate of the recovery estimate, at most a factor of 4, the rate of trilinear elements. The result is at least a
+   quarter of the recovery estimate, and at least all of it if the estimate falls more slowly than for a regular
+   solution, as near singular edges. If the change is larger than the recovery estimates of both meshes explain, the
+   change itself is taken as the error. A pair's force enters with two values: its magnitude, relative to the largest of
+   all pairs, and the sum of the magnitudes of its rows' forces.
 
    A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
-   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. A target that the first
-   mesh meets costs 8 times that mesh.
+   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. If the first mesh already
+   meets the target, the second one makes the cost 8 times that of the first.
 
-   Load steps of each mesh but the first start from what they ended with on the one before, see
+   Load steps of each mesh except the first start from the states at their ends on the previous mesh, see
    `SimulationSetForecast()`.
 
-   Adaptive refinement takes the same two meshes and more, each with the cells refined that `SimulationPropose()`
-   names; what is extrapolated follows the same rates, of the cube root of the growth of the unknowns at least.
+   Adaptive refinement uses at least two meshes too; each refines the cells chosen by `SimulationPropose()`. The error
+   is extrapolated with the same rates, where the ratio of cell sizes is at least the cube root of the ratio of
+   unknowns.
 
    With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too,
    and the error is extrapolated with a factor of 16 at most; later ones are refined.
 
-   Where the solver left more than its share, its tolerance is tightened, unless the user has given it; on the finest
-   mesh the run is repeated with it.
+   If the solver's error exceeds its share, its tolerance is tightened, unless the user has given it; on the finest mesh
+   the run is repeated with the new tolerance.
 
 .seealso: `AccuracyPlan()`, `ReportViewAccuracy()`
 @*/
@@ -460,7 +463,7 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 }
 
 /*@C
-   AccuracyDestroy - Frees what was recorded
+   AccuracyDestroy - Frees the record of the runs
 
    Not Collective
 

@@ -1,17 +1,19 @@
-/* Chooses the cells to refine for the next mesh: those that hold a fixed share of the error of all load steps, and
-   those at the contact of the last one */
+/* Chooses the cells to refine for the next mesh: those with the largest errors over all load steps, and those at the
+   contact in the last one */
 #include "runimpl.h"
 
-#define ADAPT_SHARE 0.8 /* share of the squared error that the refined cells hold; 0.4 of all remains */
+#define ADAPT_SHARE \
+  0.8 /* fraction of the squared error in the refined cells; after refinement about 0.4 of it
+                           remains */
 
 /*@C
-   SimulationSetMarks - Has the error of every cell kept, and cells refined that were marked before
+   SimulationSetMarks - Makes a simulation record the error of every cell and refine the cells marked before
 
    Collective
 
    Input Parameters:
 +  sim   - the simulation, before SimulationSetUp()
--  marks - the marks, which must outlive the simulation's set-up; none at the beginning
+-  marks - the marks, which must exist until the simulation is set up; initially empty
 
    Level: developer
 
@@ -40,7 +42,7 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* The errors of this rank's cells above a threshold, over the ranks */
+/* sum: errors of cells above a threshold, over all ranks */
 static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
 {
   PetscFunctionBegin;
@@ -50,8 +52,8 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
   PetscFunctionReturn(0);
 }
 
-/* The cells of the largest errors (Doerfler 1996). Thresholds are steps below the largest of all, not errors of
-   cells: equal ones by symmetry stay together, on any number of ranks */
+/* Marks the cells with the largest errors (Doerfler 1996). Thresholds are fractions of the largest error, not errors
+   of cells, so that cells which are equal by symmetry are treated equally on any number of ranks */
 static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 {
   const PetscReal step    = PetscPowReal(2.0, -0.125);
@@ -72,7 +74,7 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 }
 
 /*@C
-   SimulationPropose - Chooses the cells that the next mesh is to have refined
+   SimulationPropose - Chooses the cells to be refined in the next mesh
 
    Collective
 
@@ -80,14 +82,14 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 .  sim - the simulation, with marks and after its load steps
 
    Output Parameter:
-.  growth - how many times its unknowns the next mesh has, about
+.  growth - approximate ratio of the next mesh's unknowns to the present ones
 
    Level: developer
 
    Notes:
-   The cells of the largest errors, which hold 0.8 of the squared error by stress recovery of all load steps;
-   and, on both sides of what was in contact in the last one, what recovery does not see: all facets of curved faces,
-   and of plane ones those at the edge of contact.
+   Chooses the cells with the largest errors, which together have 0.8 of the squared recovery estimate over all load
+   steps. Because recovery does not include the errors of contact, cells on both sides of the contact area of the last
+   load step are added: on curved faces all of them, on plane faces those at the edge of contact.
 
 .seealso: `SimulationMark()`, `AccuracyAssess()`
 @*/
@@ -107,7 +109,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 }
 
 /*@C
-   SimulationMark - Marks the cells that were proposed
+   SimulationMark - Marks the cells chosen by SimulationPropose()
 
    Collective
 
@@ -115,7 +117,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 .  sim - the simulation, after SimulationPropose()
 
    Output Parameter:
-.  marks - the marks that it was made with; those for the next mesh are added
+.  marks - the marks of the present mesh; the marks for the next mesh are added
 
    Level: developer
 

@@ -1,18 +1,17 @@
-/* Chooses the cells at the contact to refine for the next mesh, as in the last load step: recovery sees neither the
-   facets of curved surfaces nor where the faces meet */
+/* Chooses cells at the contact in the last load step. Stress recovery sees neither the facets of curved surfaces nor
+   the edge of contact */
 #include "runimpl.h"
 #include <vector3.h>
 
-/* Of each vertex of a face, in its local vector */
+/* Values at each vertex of a face, in its local vector */
 typedef enum {
-  VERTEX_CLOSED, /* 1 where the pair presses */
-  VERTEX_ANGLE,  /* of the facets that meet there [rad]: 2 pi inside of a plane face */
-  VERTEX_HANGS   /* 1 where it follows others */
+  VERTEX_CLOSED, /* 1 if the pair has pressure there */
+  VERTEX_ANGLE,  /* sum of the facets' angles there [rad]: 2 pi inside a plane face */
+  VERTEX_HANGS   /* 1 for a hanging vertex */
 } VertexFact;
 
-#define ADAPT_PLANE \
-  1e-9 /* of a face's area: its facets' area vectors add up to all of it but for this where it is plane */
-#define ADAPT_INSIDE (1.9 * PETSC_PI) /* the angle about a vertex that is not on a face's border */
+#define ADAPT_PLANE  1e-9 /* a face is plane if its facets' area vectors add up to its area, within this fraction */
+#define ADAPT_INSIDE (1.9 * PETSC_PI) /* angle around a vertex that is not on the border of a face */
 
 static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
 {
@@ -71,7 +70,7 @@ static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
   return aa > 0.0 && bb > 0.0 ? PetscAcosReal(PetscClipInterval(ab / PetscSqrtReal(aa * bb), -1.0, 1.0)) : 0.0;
 }
 
-/* Twice the area vector of an undeformed facet */
+/* area: twice the area vector of an undeformed facet */
 static void FacetArea(PetscReal x[4][3], PetscReal area[3])
 {
   PetscReal d[3], e[3];
@@ -83,7 +82,7 @@ static void FacetArea(PetscReal x[4][3], PetscReal area[3])
   VectorCross(d, e, area);
 }
 
-/* Adds the angles about a face's vertices, and finds whether it is plane */
+/* Adds the angles around a face's vertices, and finds whether the face is plane */
 static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec facts, PetscBool *plane)
 {
   PetscSection    section;
@@ -128,7 +127,7 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscFunctionReturn(0);
 }
 
-/* Is a facet in contact, and, of a plane face, at the edge of contact: where it ends, or the face does? */
+/* errs: whether a facet is in contact and, on a plane face, at the edge of contact or of the face */
 static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar facts[], const PetscInt vertices[4],
   PetscBool plane, PetscBool *errs)
 {
@@ -150,7 +149,7 @@ static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar fac
   PetscFunctionReturn(0);
 }
 
-/* The cells of deformable bodies behind such facets */
+/* Marks the cells of deformable bodies behind such facets */
 static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local, PetscBool plane)
 {
   PetscSection       section;
@@ -184,8 +183,8 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
   PetscFunctionReturn(0);
 }
 
-/* Both sides of each pair. Under a plane face cells are refined where the error is: refined wherever faces touch,
-   they would be most of all */
+/* Marks cells on both sides of each pair. Under a plane face only cells at the edge of contact are marked; otherwise
+   most cells would be there */
 PetscErrorCode AdaptMarkContact(Simulation sim)
 {
   PetscFunctionBegin;

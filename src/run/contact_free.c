@@ -1,8 +1,8 @@
-/* Reference cost: what the same mesh and the same AMG cost without contact. */
+/* Reference cost: the same mesh and the same AMG without contact. */
 #include "runimpl.h"
 #include <petsctime.h>
 
-/* The optimizer's own, with its options: PCAMGF without a subspace is its AMG alone */
+/* Solver like the optimizer's, with its options; PCAMGF without a subspace is its AMG alone */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
   Tao tao;
@@ -17,7 +17,7 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
-  PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format that the optimizer's matrix has */
+  PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format of the optimizer's matrix */
   PetscCall(StiffnessSetModes(sim, *ksp, K));
   PetscCall(KSPSetOperators(*ksp, K, K));
   PetscCall(MatDestroy(&K));
@@ -25,8 +25,8 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 }
 
 /*
-   The load of the comparison: the step's own forces, which the prescribed displacements cause in the driven bodies, and
-   a uniform pressure over the contact faces of the same norm, so that every body is loaded as contact loads it
+   Load of the comparison: the first step's forces due to prescribed displacements, and a uniform pressure on the
+   contact faces with the same norm, so that every body is loaded as by contact
 */
 static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 {

@@ -1,4 +1,4 @@
-/* The effects of a scene: which are on, why, and what each costs. */
+/* Effects of a scene: which are on, why, and their cost. */
 #include "runimpl.h"
 #include <math.h>
 
@@ -93,7 +93,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
   PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs",
     scene->npairs));
-  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
   PetscCall(EffectSet(report, EFFECT_FRICTION, (PetscBool)(rubbing > 0),
     "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
   PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1),
@@ -148,7 +148,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscFunctionReturn(0);
 }
 
-/* The filter's use is known after the solve: it is built for the first system that needs it */
+/* Sets the times. Whether the filter is used is known after the solve only */
 PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
 {
   PetscInt systems = 0, filtered = 0;

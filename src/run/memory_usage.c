@@ -1,8 +1,8 @@
-/* The memory that the program holds: its resident set now, and at its peak. */
+/* Memory of the program: resident set size now, and its peak. */
 #include "runimpl.h"
 #include <sys/resource.h>
 
-/* Now, summed over ranks */
+/* Resident set size now, summed over ranks */
 PetscErrorCode MemoryUsageGet(MPI_Comm comm, PetscLogDouble *bytes)
 {
   PetscFunctionBegin;
@@ -11,8 +11,8 @@ PetscErrorCode MemoryUsageGet(MPI_Comm comm, PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-/* Peak of the resident set of this program. Linux gives it as VmHWM; getrusage() elsewhere may give the peak of the
-   process that started this one */
+/* Peak resident set size of this process. Linux gives it as VmHWM; elsewhere getrusage() may give the peak of the
+   parent process */
 static PetscErrorCode MemoryUsagePeakOfRank(PetscLogDouble *bytes)
 {
   FILE         *status = fopen("/proc/self/status", "r");
@@ -31,7 +31,7 @@ static PetscErrorCode MemoryUsagePeakOfRank(PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-/* At its peak, summed over ranks */
+/* Peak resident set size, summed over ranks */
 PetscErrorCode MemoryUsageGetPeak(MPI_Comm comm, PetscLogDouble *bytes)
 {
   PetscFunctionBegin;

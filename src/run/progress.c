@@ -1,4 +1,4 @@
-/* Progress of a run at intervals: load step, time so far, estimated rest. */
+/* Prints the progress of a run at intervals: load step, elapsed time, estimated remaining time. */
 #include "runimpl.h"
 #include <petsctime.h>
 
@@ -16,7 +16,7 @@ static PetscErrorCode ProgressDuration(PetscLogDouble seconds, char text[PROGRES
   PetscFunctionReturn(0);
 }
 
-/* Is it time? Of the first rank's clock, which is the one that speaks */
+/* Whether a report is due, by the clock of the first rank, which prints it */
 static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBool *due)
 {
   PetscFunctionBegin;
@@ -27,19 +27,17 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* A whole load step took so long */
+/* Records the duration of a whole load step */
 void ProgressRecord(Progress *p, PetscLogDouble duration)
 {
   p->last[p->nsteps++ % PROGRESS_STEPS] = duration;
 }
 
 /*
-   What is left lies between what the fastest and the slowest of the last load steps foretell, as long as the one under
-   way and those that follow are no faster and no slower. The mean of these two bounds is within a factor of two of
-   both where the larger is at most three times the smaller. Elsewhere, and where the step under way takes longer than
-   those before it, nothing is foretold. Nor is less than a second.
-
-   elapsed: in the load step under way; later: load steps after it
+   Estimates the remaining time. The bounds are the durations of the fastest and the slowest of the last load steps.
+   Their mean is within a factor of two of both if the slower is at most three times the faster. Otherwise, or if the
+   current step takes longer than the earlier ones, or if less than a second is left, there is no estimate (returns
+   false). elapsed: time in the current load step; later: number of load steps after it
 */
 PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *left)
 {
@@ -55,8 +53,8 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
   return (PetscBool)(p->nsteps >= 2 && elapsed <= most && high <= 3.0 * low && *left >= 1.0);
 }
 
-/* Of a mesh of -accuracy nothing is foretold: a finer one may follow it */
-static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char inside[])
+/* Prints a line. With -accuracy there is no estimate, since a finer mesh may follow */
+static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
   const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, nsteps);
   char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
@@ -72,7 +70,7 @@ static PetscErrorCode ProgressSay(Simulation sim, PetscLogDouble now, const char
   PetscFunctionReturn(0);
 }
 
-/* Before a load step; the first may go on from the midst of one */
+/* Called before a load step; after a restart the first may be partly done */
 static PetscErrorCode ProgressBegin(Simulation sim)
 {
   PetscFunctionBegin;
@@ -81,7 +79,7 @@ static PetscErrorCode ProgressBegin(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* The state has moved on */
+/* Called after each converged attempt */
 static PetscErrorCode ProgressReach(Simulation sim)
 {
   const PetscBool end        = (PetscBool)(sim->path.time == PetscFloorReal(sim->path.time));
@@ -95,11 +93,11 @@ static PetscErrorCode ProgressReach(Simulation sim)
   if (end) sim->progress.begun = now;
   if (!due || sim->path.time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
   if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
-  PetscCall(ProgressSay(sim, now, inside));
+  PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
 
-/* In the midst of a solve; goal: the error with which it ends */
+/* Called during a solve; goal: the error at which it ends */
 static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscReal error, PetscReal goal)
 {
   char           inside[96];
@@ -111,7 +109,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   if (!due) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e, %.0e ends it",
     iteration, (double)error, (double)goal));
-  PetscCall(ProgressSay(sim, now, inside));
+  PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
 

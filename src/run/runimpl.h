@@ -1,5 +1,5 @@
 /*
-   A whole analysis, private: what is built, looked at and chosen around the load steps.
+   Private header of the analysis: set-up, progress, effects and mesh adaptation around the load steps.
 */
 #ifndef RUNIMPL_H
 #define RUNIMPL_H
@@ -24,7 +24,6 @@ PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
-/* simulation.c, setup.c, contact_free.c, adapt.c, and accuracy.c on top of them, have no more than what step.h and
-   accuracy.h offer */
+/* simulation.c, setup.c, contact_free.c, adapt.c, accuracy.c: only the functions of step.h and accuracy.h */
 
 #endif

@@ -1,4 +1,4 @@
-/* Building what a scene calls for: mesh, elasticity, loads, contact, report. */
+/* Sets up a scene: mesh, elasticity, loads, contact, report. */
 #include "runimpl.h"
 
 static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
@@ -69,7 +69,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
   for (PetscInt p = 0; p < scene->npairs; ++p)
-    PetscCheck(sim->penalty == 0.0 || !SceneContactPairRubs(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
+    PetscCheck(sim->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
       "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
   PetscCall(ContactHistoryCreate(sim->dm, scene, &sim->history));
   PetscFunctionReturn(0);
@@ -99,8 +99,8 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 }
 
 /*@C
-   SimulationSetUp - Builds what the scene calls for: mesh, elastic bodies and their tangent, dead loads, and the
-   contact pairs if it names any; at time 0 with zero displacement
+   SimulationSetUp - Builds the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
+   at time 0 with zero displacement
 
    Collective
 

@@ -1,4 +1,4 @@
-/* The life of a simulation, and what its caller may set and ask. */
+/* Creation and destruction of a simulation, and its settings. */
 #include "runimpl.h"
 
 /*@C
@@ -36,7 +36,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 }
 
 /*@C
-   SimulationSetTolerances - What the solvers of a simulation are asked for, unless options say otherwise
+   SimulationSetTolerances - Sets the tolerances of a simulation's solvers, unless options set them
 
    Logically Collective
 
@@ -47,8 +47,8 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
    Level: intermediate
 
    Note:
-   `-tao_gatol` and `-tao_ipfilter_tol` win over that of the optimizer, `-elasticity_ksp_rtol` over the linear solver's,
-   `-contact_update_tol` and `-contact_gap_tol` over those of the gap.
+   These options take precedence: `-tao_gatol` and `-tao_ipfilter_tol` for the optimizer, `-elasticity_ksp_rtol` for the
+   linear solver, `-contact_update_tol` and `-contact_gap_tol` for the gap.
 
 .seealso: `SimulationGetTolerances()`, `AccuracyPlan()`
 @*/
@@ -60,7 +60,7 @@ PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tol
 }
 
 /*@C
-   SimulationGetTolerances - What the solvers of a simulation are asked for
+   SimulationGetTolerances - Gets the tolerances of a simulation's solvers
 
    Not Collective
 
@@ -68,7 +68,7 @@ PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tol
 .  sim - the simulation
 
    Output Parameter:
-.  tolerances - the tolerances; after a load step those that its solvers had, options included
+.  tolerances - the tolerances; after a load step those used, options included
 
    Level: intermediate
 
@@ -82,13 +82,14 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 }
 
 /*@C
-   SimulationSetMonitor - Whether to say why a load step is cut, and how the gap changes when it is linearized again
+   SimulationSetMonitor - Sets whether a run prints why a load step is cut, and how the gap changes in each contact
+   update
 
    Logically Collective
 
    Input Parameters:
 +  sim     - the simulation, before SimulationSetFromOptions()
--  monitor - the answer
+-  monitor - whether to print
 
    Level: intermediate
 @*/
@@ -100,8 +101,8 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 }
 
 /*@C
-   SimulationSetFields - Which fields the states that load steps leave are to have, beside displacement, contact and
-   the cells' mean stress
+   SimulationSetFields - Sets which fields the states of load steps have besides displacement, contact and mean stress
+   of the cells
 
    Logically Collective
 
@@ -123,7 +124,7 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 }
 
 /*@C
-   SimulationSetFromOptions - Takes what the options say
+   SimulationSetFromOptions - Sets a simulation's parameters from the options
 
    Collective
 
@@ -131,14 +132,15 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  sim - the simulation, before SimulationSetUp()
 
    Options Database Keys:
-+  -load_warm_start <bool>    - start a load step from the path and the pressures of the last one, or from what a
-                                coarser mesh ended with; default true
-.  -load_max_cuts <5>         - how often a load step that fails is halved
-.  -progress_every <10>       - seconds after which a run that is monitored says again how far it is; 0: never
++  -load_warm_start <bool>    - start a load step from an extrapolation of the last one and its pressures, or from the
+                                final state on a coarser mesh; default true
+.  -load_max_cuts <5>         - how often a failed load step is halved
+.  -progress_every <10>       - interval of progress messages of a monitored run [s]; 0: none
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
-.  -contact_update_tol <1e-6> - change of the gap, relative to the largest displacement, that ends its updates
-.  -contact_gap_tol <1e-5>    - the same, beyond which a load step has not converged, unless the scene allows one
-                                linearization
+.  -contact_update_tol <1e-6> - contact updates end when the gap changes by less than this, relative to the largest
+                                displacement
+.  -contact_gap_tol <1e-5>    - a load step has not converged if the last change of the gap is larger than this,
+                                relative to the largest displacement, unless the scene allows only one linearization
 -  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
                                 TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row.
                                 Its PETSc solvers have the prefix penalty_. The faces penetrate by about pressure times
@@ -152,8 +154,9 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
-  PetscCall(PetscOptionsBool("-load_warm_start", "Start a load step from the rate and the pressures of the last one",
-    "SimulationStep", sim->warm, &sim->warm, NULL));
+  PetscCall(PetscOptionsBool("-load_warm_start",
+    "Start a load step from the extrapolated displacements and the pressures of the last one", "SimulationStep",
+    sim->warm, &sim->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
     "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
@@ -179,7 +182,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 }
 
 /*@C
-   SimulationGetDM - The mesh of all bodies, borrowed.
+   SimulationGetDM - Gets the mesh of all bodies, owned by the simulation
 
    Not Collective
 
@@ -193,7 +196,7 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 }
 
 /*@C
-   SimulationGetReport - The report of the run so far: one entry a load step, time of the phases, memory.
+   SimulationGetReport - Gets the report of the run so far: one entry per load step, times of the phases, memory
 
    Collective
 
@@ -201,7 +204,7 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 .  sim - the simulation
 
    Output Parameter:
-.  report - a view; its arrays and strings are borrowed and end with the simulation
+.  report - the report; its arrays and strings are owned by the simulation
 
    Level: intermediate
 
@@ -222,7 +225,7 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 }
 
 /*@C
-   SimulationDestroy - Frees a simulation and its report.
+   SimulationDestroy - Frees a simulation and its report
 
    Collective
 

@@ -10,7 +10,7 @@ static const char *const free_keys[] = {"problem", "units", "probes", "load", "r
   "contact_updates", "displacement_bounds", "solver"};
 
 /*@C
-   SceneGetText - The scene as `SceneView()` prints it
+   SceneGetText - Gets the scene as text, as `SceneView()` prints it
 
    Not Collective
 
@@ -32,7 +32,7 @@ PetscErrorCode SceneGetText(Scene scene, char **text)
   FILE       *stream = open_memstream(&buffer, &length);
 
   PetscFunctionBegin;
-  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory for the text of a scene");
+  PetscCheck(stream, PETSC_COMM_SELF, PETSC_ERR_MEM, "not enough memory for the text of a scene");
   PetscCall(PetscViewerASCIIOpenWithFILE(PETSC_COMM_SELF, stream, &viewer));
   PetscCall(SceneView(scene, viewer));
   PetscCall(PetscViewerDestroy(&viewer));
@@ -78,7 +78,7 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
 }
 
 /*@C
-   SceneCompare - Finds what sets a scene apart from the one that a text was made of by `SceneGetText()`
+   SceneCompare - Compares a scene with the text of another one from `SceneGetText()`
 
    Not Collective
 
@@ -93,7 +93,7 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
    Level: developer
 
    Note:
-   Programs of the load, refinement, probes, model and options may differ.
+   Load programs, refinement, probes, model and options are not compared.
 
 .seealso: `SceneGetText()`
 @*/

@@ -418,7 +418,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   if (scene->npairs)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations",
       scene->contact_updates));
-  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairRubs(&scene->pairs[p]);
+  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
     scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));
@@ -437,7 +437,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: no displacement_bounds\n", "displacement bounds"));
   for (PetscInt o = 0; o < scene->noptions; ++o)
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name,
-      scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file wins)"));
+      scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file takes precedence)"));
   PetscFunctionReturn(0);
 }
 

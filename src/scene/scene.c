@@ -78,10 +78,11 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 
    Options Database Keys, each instead of what the file says:
 +  -refine <n>               - uniform refinements of level 0
-.  -load_steps <n>           - load steps: the whole program, every ramp of it, in n parts of equal time, linear in
-                               between
-.  -model <energy,quadratic> - what a load step minimizes
-.  -contact_updates <n>      - linearizations of the gap a load step at most; 1: one, whether its gap is true or not
+.  -load_steps <n>           - number of load steps: the load program, with all ramps, is divided into n equal time
+                               steps; ramps are interpolated linearly
+.  -model <energy,quadratic> - objective of a load step
+.  -contact_updates <n>      - largest number of linearizations of the gap per load step; 1: one, without a check of the
+                               gap
 -  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0:
                                none
 
@@ -90,11 +91,10 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
    Notes:
    share/scenes/README.md documents the format: every key, its unit and default, and an example of every effect.
 
-   The options under the key solver are set in the options database until `SceneDestroy()`, where it has not got them
-   yet.
+   The options under the key solver are set in the options database until `SceneDestroy()`, unless they are already set.
 
-   Every error is raised on all ranks: PETSC_ERR_FILE_OPEN and PETSC_ERR_FILE_READ for a file that is not there or no
-   YAML, PETSC_ERR_USER_INPUT for what it says.
+   Every error is raised on all ranks: PETSC_ERR_FILE_OPEN for a missing file, PETSC_ERR_FILE_READ for a file that is
+   not YAML, PETSC_ERR_USER_INPUT for errors in its contents.
 
 .seealso: `SceneView()`, `SceneDestroy()`, `PetscOptionsInsertStringYAML()`
 @*/

@@ -107,16 +107,16 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
-    SceneRequire(!SceneContactPairRubs(here) || !scene->displacement_bounds,
+    SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds,
       "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
     for (PetscInt q = 0; q < scene->npressures; ++q)
-      SceneRequire(!SceneContactPairRubs(here) || !scene->pressures[q].follows,
+      SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows,
         "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
         "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
         "be dead, or the pair without friction",
         file, here->name, scene->pressures[q].name);
     SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
-                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairRubs(here)),
+                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
       "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
       "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
       file, here->name);

@@ -98,7 +98,7 @@ static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const ch
 }
 
 /*@C
-   SceneView - Prints a scene as the YAML it can be read from, every number to full precision
+   SceneView - Prints a scene as YAML that can be read again, with all numbers to full precision
 
    Collective on the viewer
 

@@ -22,7 +22,7 @@ static PetscErrorCode KeyDescribeType(const SceneKey *row, char type[], size_t l
   else if (row->type == SCENE_EXPRESSION) PetscCall(PetscStrncpy(type, "an expression", length));
   else if (row->type == SCENE_BODY) PetscCall(PetscStrncpy(type, "a body's name", length));
   else if (row->type == SCENE_RAMP) PetscCall(PetscStrncpy(type, "a ramp's name", length));
-  else if (row->type == SCENE_OWN) PetscCall(PetscStrncpy(type, "see there", length));
+  else if (row->type == SCENE_OWN) PetscCall(PetscStrncpy(type, "see meaning", length));
   for (PetscInt i = 0; (row->type == SCENE_CHOICE || row->type == SCENE_AXIS) && row->names[i + 2]; ++i) {
     PetscCall(PetscStrlcat(type, i ? ", `" : "`", length));
     PetscCall(PetscStrlcat(type, row->names[i], length));

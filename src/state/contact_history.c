@@ -7,8 +7,8 @@ static const PetscReal open_share          = 1e-3; /* A row is open if its force
 
 PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
 {
-  const PetscInt npairs = scene->npairs;
-  PetscBool      rubs   = PETSC_FALSE;
+  const PetscInt npairs     = scene->npairs;
+  PetscBool      frictional = PETSC_FALSE;
   PetscInt       last;
   Vec            u;
 
@@ -21,8 +21,9 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   m->nowned = (last - m->first) / 3;
   PetscCall(
     PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
-  for (PetscInt p = 0; p < npairs; ++p) rubs = (PetscBool)(rubs || SceneContactPairRubs(&scene->pairs[p]));
-  if (rubs)
+  for (PetscInt p = 0; p < npairs; ++p)
+    frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&scene->pairs[p]));
+  if (frictional)
     PetscCall(PetscCalloc5(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
       3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);

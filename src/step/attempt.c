@@ -178,7 +178,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
 
 /* States in the report how much the gap still changes. With contact_updates: 1 the step counts as converged; with
    more updates allowed it has failed. */
-static PetscErrorCode AttemptSayUntrue(Simulation sim, PetscBool slid, StepReport *report)
+static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, StepReport *report)
 {
   char            reason[192];
   const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
@@ -265,7 +265,7 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *repor
 }
 
 /* Once a run */
-static PetscErrorCode AttemptSayDamped(Simulation sim, const StepReport *report)
+static PetscErrorCode AttemptWarnDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
 
@@ -302,7 +302,7 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
 
   PetscFunctionBegin;
   PetscCall(ContactUpdateSecantsAdvance(secants, report->untruth, u, u_linearized, &damped));
-  if (damped) PetscCall(AttemptSayDamped(sim, report));
+  if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
@@ -394,7 +394,7 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
 
 /* Tries the undeformed bodies as the solution of a step to zero load. rests: they are the solution;
    sim->linearization and `at_u` are then of the undeformed bodies. */
-static PetscErrorCode AttemptRest(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
+static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u, PetscBool *rests)
 {
   Simulation           sim = p->sim;
@@ -435,7 +435,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   report->contact_updates = 0;
   report->gap_untrue      = PETSC_FALSE;
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
-  PetscCall(AttemptRest(p, u, report, sol, at_u, &end));
+  PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report,
@@ -456,7 +456,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   PetscCall(ContactUpdateSecantsDestroy(&secants));
   report->gap_untrue =
     (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
-  if (report->gap_untrue) PetscCall(AttemptSayUntrue(sim, slid, report));
+  if (report->gap_untrue) PetscCall(AttemptReportGapError(sim, slid, report));
   PetscFunctionReturn(0);
 }
 

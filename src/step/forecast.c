@@ -6,7 +6,8 @@
 #include "stepimpl.h"
 
 /*@C
-   SimulationSetForecast - Has load steps start from what they ended with on another mesh, and leave what they end with
+   SimulationSetForecast - Makes load steps start from their final states on another mesh, and records their final
+   states
 
    Collective
 
@@ -14,15 +15,15 @@
 .  sim - the simulation, before SimulationSetUp()
 
    Input/Output Parameter:
-.  forecast - the states on the other mesh, zeros where there was none; those on this one as load steps end. It must
-              outlive the simulation
+.  forecast - on entry the states on the other mesh, or zeros; filled with the states on this mesh as load steps end. It
+              must exist until the simulation is destroyed
 
    Level: developer
 
    Notes:
-   It is a start and no more: results are those without it to the tolerances of the solvers, and a step that
-   fails with it is tried again without. It is left aside where one linearization of the gap is asked for, which is
-   that at the last state, and where displacements are bounded by the last increments.
+   It only sets the starting point: results agree with those without it to the tolerances of the solvers, and a step
+   that fails with it is repeated without it. It is not used if only one linearization of the gap is allowed (which must
+   be at the last state), or if displacements are bounded by the last increments.
 
 .seealso: `SimulationSetMarks()`, `StepForecastDestroy()`, `MeshEvaluate()`
 @*/
@@ -39,7 +40,7 @@ PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
    Collective
 
    Input Parameter:
-.  forecast - zeros then
+.  forecast - the forecast, set to zeros
 
    Level: developer
 

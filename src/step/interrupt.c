@@ -11,16 +11,16 @@ static void InterruptHandle(int sig)
 }
 
 /*@C
-   SimulationCatchSignals - From now on SIGINT, SIGTERM and SIGUSR1 end a simulation after the Newton step under way,
-   with the state of the last load step that converged
+   SimulationCatchSignals - Makes SIGINT, SIGTERM and SIGUSR1 end a simulation after the current Newton step, with the
+   state of the last converged load step
 
    Not Collective
 
    Level: intermediate
 
    Notes:
-   A second signal of the same kind ends the program at once. mpiexec passes SIGUSR1 on to the ranks and leaves
-   them alone; a SIGINT or SIGTERM it follows with SIGKILL after a second or so, set by the MPI.
+   A second signal of the same kind ends the program at once. mpiexec forwards SIGUSR1 to the ranks. After SIGINT or
+   SIGTERM it sends SIGKILL after about a second, depending on the MPI.
 
    A signal ends every simulation of the process until this function is called again.
 

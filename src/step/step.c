@@ -88,7 +88,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 }
 
 /*@C
-   SimulationStep - Solves the next load step.
+   SimulationStep - Solves the next load step
 
    Collective
 
@@ -97,19 +97,19 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 -  step - number of the step, from 0; steps are taken in order, each once
 
    Output Parameter:
-.  state - what the step left, borrowed until the next step. Look at state->report->converged: where it is false the
-           displacement is that of the last converged solve
+.  state - the state at the end of the step, owned by the simulation, valid until the next step. Check
+           state->report->converged: if it is false, the displacement is that of the last converged solve
 
    Level: beginner
 
    Notes:
-   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals; and as often
-   again at what was found as the scene's contact_updates allow, until it is true: to within `-contact_gap_tol`, or
-   the step has not converged, but where one linearization is all that is allowed. Linear bodies, and the scene's
-   `model quadratic`, make the step a quadratic program; else the true energy is minimized. A quadratic step without
-   contact pairs costs one PCG solve (options prefix -elasticity_) and neither search nor optimizer.
+   The gap is linearized at the state before the step: deformed mesh, search, mortar integrals. Contact updates
+   linearize it again at the solution, up to contact_updates times, until the linearized and the actual gap agree within
+   `-contact_gap_tol`. Otherwise the step has not converged, unless contact_updates is 1. With linear bodies, or `model:
+   quadratic` in the scene, the step is a quadratic program; otherwise the true energy is minimized. A quadratic step
+   without contact pairs is one PCG solve (options prefix -elasticity_).
 
-   A step that fails is halved, tried again from the last good state, and doubled after each success.
+   A step that fails is halved and repeated from the last converged state. After each success the step size is doubled.
 
    Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE
    for one that the scene does not have.

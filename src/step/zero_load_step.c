@@ -27,7 +27,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
   PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
-    stays = (PetscBool)(stays || SceneContactPairRubs(&p->sim->scene->pairs[k]));
+    stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->sim->scene->pairs[k]));
   *due =
     (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);

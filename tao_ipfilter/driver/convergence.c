@@ -97,7 +97,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
     const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
 
     PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
-      "%s: KKT error %g%s, which have no interior: the relaxation is worth %g times the tolerance",
+      "%s: KKT error %g%s, which have no interior; their relaxation changes the objective by %g times the tolerance",
       share <= trace ? "acceptable" : "no solution", (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
   } else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
@@ -162,11 +162,11 @@ PetscBool IPConstraintsMet(Tao tao)
 
   Notes:
   Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where nothing
-  better can be expected. A test of the caller's may call it.
+  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where no further
+  progress is possible. The caller's own test may call this function.
 
-  Whatever the test says, a residual or an objective that is no number, steps as small as rounding, and the limits of
-  `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()` end the solve.
+  Independently of the test, the solve ends if a residual or the objective is not a number, if steps are as small as
+  rounding errors, and at the limits of `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()`.
 
 .seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`,
           `TaoIPFilterGetReason()`
@@ -198,16 +198,18 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "multipliers grow without limit: bounded multipliers may not exist",
       (double)k->error));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF, "feasible, and the objective %g is below the given minimum %g",
-      (double)ip->at.f, (double)tao->fmin));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF,
+      "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,
+      (double)tao->fmin));
   } else if (unbounded) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
       (double)ip->first.f, (double)lowest));
     ip->rec.best_error = PETSC_INFINITY; /* this point, or the last step, shows that the objective is unbounded; the
                                             best iterate would not */
   } else if (ip->rec.nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL, "acceptable: KKT error %g stayed within %g, not within %g",
-      (double)IPBothErrors(ip), (double)IP_ACCEPTABLE_TOL, (double)ip->tol));
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),
+      (double)IP_ACCEPTABLE_TOL, (double)ip->tol));
   }
   PetscFunctionReturn(0);
 }
@@ -226,12 +228,14 @@ static PetscErrorCode TestLimits(Tao tao)
   if (ip->rec.ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps are as small as rounding at KKT error %g, but the violation %g, relative %g, is not within catol %g and "
+        "steps are as small as rounding at KKT error %g, but the constraint violation %g (relative %g) exceeds catol "
+        "%g or "
         "crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
     else if (IPAcceptable(ip))
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-        "acceptable: steps are as small as rounding at KKT error %g, not within %g", (double)error, (double)ip->tol));
+        "acceptable: steps are as small as rounding at KKT error %g; the tolerance is %g", (double)error,
+        (double)ip->tol));
     else if (Violated(ip))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
         "steps are as small as the rounding error of x, at constraint violation %g", (double)k->inf_pr));

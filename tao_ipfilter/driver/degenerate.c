@@ -25,7 +25,7 @@ PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 
 /* stands: whether the last step changed the objective by a negligible part of its magnitude. If multipliers do not
    exist, only this shows that the iteration has reached the solution */
-static PetscErrorCode DegenerateStands(Tao tao, PetscBool *stands)
+static PetscErrorCode DegenerateStagnates(Tao tao, PetscBool *stands)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscReal trace = 1e-6;
@@ -54,6 +54,6 @@ PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first.gradient) && k->dual_norm <= ip->tol * force);
-  if (*holds) PetscCall(DegenerateStands(tao, holds));
+  if (*holds) PetscCall(DegenerateStagnates(tao, holds));
   PetscFunctionReturn(0);
 }

@@ -227,12 +227,13 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
   else if (!solved)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "no direction of sufficient curvature, with the Hessian shifted by up to %g; last result of the linear solver: "
+      "no direction with enough curvature was found with the Hessian shifted by up to %g; last result of the linear "
+      "solver: "
       "%s",
       (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
   else if (violated)
-    PetscCall(
-      IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g", (double)ip->kkt.inf_pr));
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
+      (double)ip->kkt.inf_pr));
   else
     PetscCall(
       IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
@@ -452,7 +453,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPMeasureReach(tao));
   PetscCall(IPEqualityChoose(tao));
   PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "Norm terms: this library was built without the laws of friction (folder tao_ipfilter/friction)");
+    "norm terms are not available: this library was built without the folder tao_ipfilter/friction");
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
   PetscCall(BeginMethod(tao));

@@ -10,7 +10,7 @@ static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 }
 
 /* bounded: whether every unknown has two bounds or is fixed; the objective is then bounded */
-static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
+static PetscErrorCode UnboundedHasAllBounds(Tao tao, PetscBool *bounded)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscInt      n, nfixed = 0;
@@ -29,7 +29,7 @@ static PetscErrorCode UnboundedCannotBe(Tao tao, PetscBool *bounded)
 
 /* Whether the iterate shows an unbounded objective. It does not if constraints are violated, relative to their first
    values or to their own terms */
-static PetscErrorCode UnboundedHere(Tao tao, PetscBool *unbounded)
+static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const PetscReal fall = UnboundedFall(ip), small = 1e-3, trace = 1e-6;
@@ -122,12 +122,12 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 
   PetscFunctionBegin;
   *f = ip->at.f;
-  PetscCall(UnboundedCannotBe(tao, unbounded));
+  PetscCall(UnboundedHasAllBounds(tao, unbounded));
   if (*unbounded) {
     *unbounded = PETSC_FALSE;
     PetscFunctionReturn(0);
   }
-  PetscCall(UnboundedHere(tao, unbounded));
+  PetscCall(UnboundedAtIterate(tao, unbounded));
   PetscCall(UnboundedCount(tao, &fall));
   if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)
     PetscCall(UnboundedAlong(tao, fall, f, unbounded));

@@ -267,7 +267,7 @@ static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscR
 }
 
 /* Marks constraints with positive force as closed, and updates the list of active rows */
-static PetscErrorCode ConvexTell(IPTermSet *set, const IPReducedSystem *s)
+static PetscErrorCode ConvexMarkClosed(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(s->lambda[i] > 0.0);
@@ -299,7 +299,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
     ConvexSetBounds(set, s, &convex, (PetscBool)!k, late);
     PetscCall(PetscArraycpy(convex.multiplier, s->lambda, s->m));
     PetscCall(ConvexMinimize(set, s, &convex, fine * PetscMax(wanted, k ? off : 0.0), steps, solved));
-    PetscCall(ConvexTell(set, s));
+    PetscCall(ConvexMarkClosed(set, s));
     PetscCall(ConvexOff(set, s, &off));
     end   = (PetscBool)(off <= wanted || (late && off > fair * least));
     late  = (PetscBool)(late || (k > 1 && off > fair * least));

@@ -143,7 +143,7 @@ PetscReal IPTermLawsTrial(const IPTermSet *set, const IPReducedSystem *s, PetscI
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
-/* The term of a row, and `component`, which of its two rows it is; negative: a constraint's row */
+/* Gets the norm term that a row of the system belongs to, and its component (0 or 1); -1: the row of a constraint */
 PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component)
 {
   if (row < set->m) return -1;

@@ -25,7 +25,7 @@ static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBoo
 
 /* Friction bound of a term. If its constraint has just closed, the bound is estimated from the force that would
    remove the penetration if no other row moved. */
-static PetscReal TermSetForeseeBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
+static PetscReal TermSetPredictBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal gives = i < set->m ? set->system.gives[i] : 0.0;
 
@@ -43,7 +43,7 @@ static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
     PetscBool slips;
 
     if (!set->takes[IPTermLawsRow(set, i)]) continue;
-    slips         = (PetscBool)(IPTermLawsTrial(set, s, i, b) > TermSetForeseeBound(set, s, i));
+    slips         = (PetscBool)(IPTermLawsTrial(set, s, i, b) > TermSetPredictBound(set, s, i));
     changed       = (PetscBool)(changed || slips != set->slips[i]);
     set->slips[i] = slips;
   }

@@ -38,7 +38,7 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
 
 /* From the compliances of both rows and of their sum: the principal compliances of a term, and the unit direction
    `dead` of almost no compliance (zeros: none) */
-static void ResistanceFindDead(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
+static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {
   const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
                   half   = 0.5 * (first - second);
@@ -85,7 +85,7 @@ PetscErrorCode IPTermsResistance(Tao tao)
     PetscScalar    *d      = &dead[2 * i];
 
     rho[i] = larger > 0.0 ? 1.0 / larger : 0.0;
-    ResistanceFindDead(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]), PetscRealPart(b[i]), d);
+    ResistanceFindRigidDirection(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]), PetscRealPart(b[i]), d);
     if (PetscAbsScalar(d[0] * v[2 * i] + d[1] * v[2 * i + 1]) > unmoved * PetscMax(sizes[0], sizes[1]))
       d[0] = d[1] = 0.0;
   }

@@ -363,32 +363,33 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 
   Input Parameters:
 + tao         - the `TAOIPFILTER`
-. T           - two rows a term, `MATAIJ`, its columns laid out as the solution; NULL: no terms any longer
+. T           - two rows a term, `MATAIJ`, its columns laid out as the solution; NULL: remove the terms
 . t           - two entries a term, laid out as the rows of T
-. limit       - largest weight of each term, not negative; NULL: none
-- coefficient - of each term, not negative: its weight follows the force of the inequality constraint of the same
-                number on this rank; NULL: weights are the limits
+. limit - largest weight of each term, not negative; NULL: no limit
+- coefficient - coefficient of each term, not negative: its weight is the coefficient times the force of the inequality
+                constraint with the same number on this rank, at most the limit; NULL: the weights are the limits
 
   Level: intermediate
 
   Notes:
   b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives
-  it; `PETSC_INFINITY` is no limit, as a coefficient one with any force of the constraint whatever. With coefficients
-  there are as many terms as constraints.
+  it; a limit of `PETSC_INFINITY` means no limit, and a coefficient of `PETSC_INFINITY` an unlimited weight (stick)
+  whatever the force of the constraint. With coefficients there must be as many terms as constraints.
 
-  With limits alone this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's law,
-  which is none: the solution x, y, tau has grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i = -b_i v_i / |v_i| where
-  v_i = T_i x + t_i is not zero. For large coefficients there may be none, or several.
+  With limits only, this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's friction,
+  which is not a minimization: the solution x, y, tau satisfies grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i =
+  -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be no solution, or several.
 
-  The problem has inequality constraints, which are linear, and no others. It is solved by the filtered subspace method,
-  whose reduced problem, of the size of what T and the constraints touch, holds all that is not smooth; where the
-  objective is not quadratic by Newton's method on it. Residuals of the laws are part of the KKT error: the largest
-  length by which a projection to |tau_i| <= b_i is missed, over the resistance of what T_i moves.
+  Norm terms require that all constraints are linear inequalities. The problem is solved by the filtered subspace
+  method: its reduced problem, with the unknowns of T and of the constraints, contains all nonsmooth terms. A
+  nonquadratic objective is minimized by Newton's method with such reduced problems. The KKT error includes the
+  residuals of the laws: the largest distance of tau_i from its projection to |tau_i| <= b_i, divided by the stiffness
+  of the unknowns in T_i.
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 
-  Errors if sizes do not fit. Ends with `TAO_DIVERGED_USER` where the problem is of another kind, or no solution of
-  the laws is found.
+  Errors if sizes do not match. The solve ends with `TAO_DIVERGED_USER` if the problem is of another kind, or no
+  solution of the laws is found.
 
   References:
 + * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution
@@ -411,7 +412,7 @@ PetscErrorCode TaoIPFilterSetNormTerms(Tao tao, Mat T, Vec t, Vec limit, Vec coe
 }
 
 /*@
-  TaoIPFilterSetNormTermForces - Sets the forces of norm terms that a solve begins with
+  TaoIPFilterSetNormTermForces - Sets the initial forces of norm terms
 
   Logically Collective
 

@@ -18,7 +18,7 @@ PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
   *v = NULL;
   if (!layout) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->lent[space][k]) k++;
-  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d scratch vectors are in use",
+  PetscCheck(k < IP_MAX_WORK, PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB, "All %d work vectors are in use",
     IP_MAX_WORK);
   if (!work->v[space][k]) PetscCall(VecDuplicate(layout, &work->v[space][k]));
   work->lent[space][k] = PETSC_TRUE;
@@ -35,7 +35,7 @@ PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
   if (!*v) PetscFunctionReturn(0);
   while (k < IP_MAX_WORK && work->v[space][k] != *v) k++;
   PetscCheck(k < IP_MAX_WORK && work->lent[space][k], PetscObjectComm((PetscObject)tao), PETSC_ERR_PLIB,
-    "The vector is not a scratch vector in use");
+    "The vector is not a work vector in use");
   work->lent[space][k] = PETSC_FALSE;
   *v                   = NULL;
   PetscFunctionReturn(0);

@@ -203,7 +203,7 @@ static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corre
 }
 
 /* Prints (-info) how far apart the weights of the inequality rows are */
-static PetscErrorCode DirectionTellWeights(Tao tao, Vec D)
+static PetscErrorCode DirectionPrintWeights(Tao tao, Vec D)
 {
   PetscBool told;
   PetscReal least, largest;
@@ -227,7 +227,7 @@ static PetscErrorCode DirectionAssemble(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   if (ip->mi) {
     PetscCall(IPSlackSigma(tao, D));
-    PetscCall(DirectionTellWeights(tao, D));
+    PetscCall(DirectionPrintWeights(tao, D));
   }
   PetscCall(IPCondenseMatrix(tao, D));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));

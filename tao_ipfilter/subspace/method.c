@@ -48,8 +48,9 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* The unknowns of the constraints with their neighbours, and those of the solves before with the same K, so that W and
-   its factors stay where contact moves on. Without the neighbours if they are too many, or K may be indefinite there */
+/* Chooses W: the unknowns of the constraints, their neighbours, and W of earlier solves with the same K. So W and its
+   factors need not change when the contact area moves. Without the neighbours if there are too many of them, or if K
+   may be indefinite there */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

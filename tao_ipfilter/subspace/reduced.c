@@ -211,7 +211,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
 }
 
 /* Broadcasts the first rank's result; an error there is raised on all ranks */
-static PetscErrorCode ReducedTell(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
+static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {
   PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
 
@@ -241,7 +241,7 @@ static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
 {
   PetscFunctionBegin;
   *definite = PETSC_FALSE;
-  PetscCall(ReducedTell(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
+  PetscCall(ReducedBroadcast(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
   PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscFunctionReturn(0);
 }
@@ -401,7 +401,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
   if (!s->k) PetscCall(ReducedAppendCompanions(r));
   if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, JW, &r->laws, definite);
-  PetscCall(ReducedTell(r, error, definite));
+  PetscCall(ReducedBroadcast(r, error, definite));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
@@ -622,7 +622,7 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  PetscCall(ReducedTell(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
+  PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(r->n, &w));
   if (r->first) PetscCall(ReducedRecover(r, w));

@@ -332,7 +332,7 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
 {
   PetscFunctionBegin;
   PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-    "There is one solve to come at least, not %" PetscInt_FMT, n);
+    "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
   ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
   PetscFunctionReturn(0);
 }
@@ -351,23 +351,23 @@ PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 }
 
 /*@C
-  TaoIPFilterSetSubspace - Hands on what the filtered subspace method of another solver has kept
+  TaoIPFilterSetSubspace - Sets the preconditioner and directions of the filtered subspace method, from another solver
 
   Logically Collective
 
   Input Parameters:
 + tao   - the `TAOIPFILTER`, after `TaoSetFromOptions()`
-- space - what `TaoIPFilterGetSubspace()` of a solver with the same Hessian has given
+- space - the result of `TaoIPFilterGetSubspace()` of a solver with the same Hessian
 
   Level: advanced
 
   Notes:
-  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the directions found serve all later solves with
-  that Hessian, whatever their constraints and loads: after `TaoSolve()` again on the same solver by themselves, on
-  another one by this call. Directions are multiplied anew where the values of the Hessian have changed, and given up
-  with another Hessian or another type of `PC`.
+  With `-tao_ipfilter_subspace` the preconditioner of the Hessian and the computed directions are reused in all later
+  solves with that Hessian, for any constraints and loads: automatically in later calls of `TaoSolve()` on the same
+  solver, by this call on another solver. If the values of the Hessian have changed, its products with the directions
+  are computed again. With another Hessian matrix, or another type of `PC`, the directions are discarded.
 
-  The `PC` of `TaoGetKSP()` becomes the kept one, whose `PCAMGFGetCounts()` go on from where they were.
+  The `PC` of the solver's `KSP` is replaced by that preconditioner; its `PCAMGFGetCounts()` continue from their values.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSubspace()`
 @*/
@@ -381,7 +381,8 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 }
 
 /*@C
-  TaoIPFilterGetSubspace - Gets what the filtered subspace method keeps for later solves
+  TaoIPFilterGetSubspace - Gets the preconditioner and directions that the filtered subspace method keeps for later
+  solves
 
   Not Collective
 
@@ -389,7 +390,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 . tao - the `TAOIPFILTER`
 
   Output Parameter:
-. space - preconditioner and directions, owned by `tao`: reference it to have it outlive the solver
+. space - preconditioner and directions, owned by `tao`: reference it if it is needed after the solver is destroyed
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
@@ -411,8 +412,8 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
 }
 
 /*@
-  TaoIPFilterSetSolvesToCome - Tells how many solves with the same Hessian are to come, so that the filtered subspace
-  method can choose its preconditioner
+  TaoIPFilterSetSolvesToCome - Sets the expected number of solves with the same Hessian, by which the filtered subspace
+  method chooses its preconditioner
 
   Logically Collective
 
@@ -423,8 +424,8 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
   Level: advanced
 
   Note:
-  A factorization of the Hessian pays the sooner the more solves it serves: `PCAMGFSetFactor()`, which is
-  `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
+  A factorization of the Hessian becomes cheaper than the AMG if there are many solves: see `PCAMGFSetFactor()`, whose
+  setting is `PC_AMGF_FACTOR_AUTO` here unless `-tao_ipfilter_pc_amgf_factor` is given.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
 @*/

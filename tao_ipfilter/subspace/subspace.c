@@ -162,7 +162,8 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 }
 
 /* Whether K is singular up to rounding, or negative, along a preconditioned residual d: K plus constraints may be
-   positive, as for bodies under pressure that only contact holds */
+   positive, as for bodies under pressure that only contact holds. Newton's method without norm terms shifts a negative
+   K instead. */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -179,6 +180,7 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, Pe
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
   *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
+  if (*negative && IPFilteredOf(tao)->newton && !ip->terms.n) *singular = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 

@@ -221,7 +221,7 @@ static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
 
     PetscCall(MatGetRow(H, row, &nc, &c, &v));
     if (nc > max) {
-      PetscCheck(row % bs == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "Rows of one block row differ in length");
+      PetscCheck(row % bs == 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "The rows of a block row have different lengths");
       max = 2 * nc;
       PetscCall(PetscFree2(values, blocks));
       PetscCall(PetscMalloc2(bs * max, &values, max / bs + 1, &blocks));

@@ -13,7 +13,7 @@
 typedef struct {
   RunRecord record;
   int       problem, n;
-  double   *v;    /* five entries of K an unknown */
+  double   *v;    /* five entries of K per unknown */
   double   *load; /* b */
   double    constant;
 } Grid;

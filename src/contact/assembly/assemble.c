@@ -451,7 +451,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
-  if (contact->rubs) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
+  if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));

@@ -12,7 +12,7 @@ typedef struct {
   ContactSurface mortar, nonmortar;
   ContactRing    mortar_ring, nonmortar_ring; /* facets around the surfaces, for smooth pairs */
   GapType        gap;
-  PetscBool      rubs;          /* whether the pair has friction */
+  PetscBool      frictional;    /* whether the pair has friction */
   PetscBool      sticks;        /* whether friction allows no slip (`stick: true`) */
   PetscInt       nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; set
                                after the slip rows were created */
@@ -74,7 +74,7 @@ struct _n_Contact {
   MPI_Comm                 comm;
   PetscInt                 npairs;
   ContactPairData         *pairs;
-  PetscBool                rubs; /* whether any pair has friction */
+  PetscBool                frictional; /* whether any pair has friction */
   ContactRows              rows;
   ContactNormals           normals;
   PetscInt                 ndisplacements;

@@ -271,7 +271,7 @@ PetscErrorCode ContactFindHeld(Contact contact)
     HeldFace         mortar[3];
     PetscScalar      sum;
 
-    if (!pair->rubs) continue;
+    if (!pair->frictional) continue;
     PetscCall(VecZeroEntries(frictionless));
     for (PetscInt c = 0; c < 3; ++c) {
       PetscCall(HeldFaceCreate(contact, &pair->mortar, c, &mortar[c]));

@@ -125,7 +125,7 @@ static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const Pet
     const PetscInt *node;
     PetscInt        n;
 
-    if (!contact->pairs[lin->pair[k]].rubs) continue;
+    if (!contact->pairs[lin->pair[k]].frictional) continue;
     PetscCall(MatGetRow(couplings, rstart + kept[k], &n, &node, NULL));
     for (PetscInt b = 0; b < n; ++b) diagonal[2 * k] += 3 * (node[b] >= cstart && node[b] < cend);
     offdiagonal[2 * k]     = 3 * n - diagonal[2 * k];
@@ -157,7 +157,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
     const ContactPairData *pair = &contact->pairs[lin->pair[k]];
 
     SlipRowTangents(contact, kept[k], &lin->tangent[6 * k]);
-    if (!pair->rubs) continue;
+    if (!pair->frictional) continue;
     PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
       lin->slip, &lin->covered[k]));
     /* Dual functions have negative values, so that SlipCover(), a sum of magnitudes, would be too large */

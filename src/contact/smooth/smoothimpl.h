@@ -9,8 +9,8 @@
 /* patch.c: the smooth surface through a facet */
 typedef struct {
   PetscReal slope[4][2],
-    direction[4][3];    /* slopes of the edge from vertex e to the next, at both ends [length]; direction in which it
-                           bends */
+    direction[4][3]; /* edge from vertex e to the next is a cubic curve: its slopes at both ends [length] along the unit
+                           vector `direction` */
   PetscReal normal[12]; /* unit, at the vertices */
   PetscBool triangle;
 } ContactPatch;

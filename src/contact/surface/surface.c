@@ -15,7 +15,7 @@ static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, Pe
   PetscFunctionReturn(0);
 }
 
-/* x = values of a local vector of 3 components a vertex at n vertices */
+/* x = values of a local vector of 3 components per vertex at n vertices */
 static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[],
   PetscReal x[])
 {

@@ -66,18 +66,19 @@ void ThermalSubtract(const PetscReal fit[4], CellState *cell)
 }
 
 /*@C
-  ElasticityFitTemperature - Fits a temperature of one body by linear functions of the place, cell by cell
+  ElasticityFitTemperature - Fits the temperature of a body by a linear function of the position in each cell
 
   Not Collective
 
   Input Parameters:
 + elasticity  - the context
-. body        - the body, from 0; `PETSC_DECIDE` for every body that expands
-. temperature - gives the temperature at a place of the undeformed body
+. body        - the body, from 0; `PETSC_DECIDE` for every body with thermal expansion
+. temperature - function that gives the temperature at a position in the undeformed body
 - ctx         - its context
 
   Output Parameter:
-. fits - 4 values a local cell, added to: at the cell's centre, and the gradient [temperature, temperature/length]
+. fits - 4 values per local cell: temperature at the cell's centre, and its gradient; the fit is added to them
+         [temperature, temperature/length]
 
   Level: intermediate
 
@@ -107,14 +108,14 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
 }
 
 /*@
-  ElasticitySetTemperature - Sets the temperature above that of the bodies without stress
+  ElasticitySetTemperature - Sets the temperature relative to the stress-free temperature
 
   Not Collective
 
   Input Parameters:
 + elasticity - the context
-- fits       - 4 values a local cell, from `ElasticityFitTemperature()`, copied; `NULL`: none. Cells of bodies without
-               expansion must have zeros
+- fits       - 4 values per local cell, from `ElasticityFitTemperature()`, copied; `NULL`: no temperature. Values of
+               bodies without thermal expansion must be 0
 
   Level: intermediate
 

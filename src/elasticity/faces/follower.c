@@ -55,8 +55,8 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
 }
 
 /*@
-  ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and how it
-  changes
+  ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and its
+  derivative
 
   Collective
 
@@ -68,14 +68,14 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
 
   Output Parameters:
 + force - global vector; the load at u is added to it, on all rows [force]
-- slope - matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is
-          added to it but for prescribed unknowns; `NULL`: not wanted [force/length]
+- slope - matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is added
+          to it, except in rows and columns of prescribed unknowns; `NULL`: not computed [force/length]
 
   Level: intermediate
 
   Notes:
-  Over a closed surface, and over one whose edge is held or slides on planes of symmetry, the derivative is symmetric
-  as a whole.
+  For a closed surface, or a surface whose edge is fixed or slides on symmetry planes, the whole derivative is
+  symmetric.
 
   References:
   Schweizerhof and Ramm, Displacement dependent pressure loads in nonlinear finite element analyses, 1984.

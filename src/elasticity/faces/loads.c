@@ -210,7 +210,8 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 }
 
 /*@
-  ElasticityAddFacetAreas - Adds the normals times the areas of a face that are about its nodes
+  ElasticityAddFacetAreas - Adds the nodal area vectors of a face: the integral of each node's shape function times the
+  normal
 
   Collective
 

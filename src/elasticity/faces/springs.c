@@ -2,21 +2,22 @@
 #include "facesimpl.h"
 
 /*@
-  ElasticitySetSprings - Sets the stiffness of springs that hold the unknowns to the ground and to one another
+  ElasticitySetSprings - Sets the stiffness of springs from the unknowns to the ground and between unknowns
 
   Collective
 
   Input Parameters:
 + elasticity - the context
-. stiffness  - one a row, not negative, referenced; `NULL`: no springs to the ground [force/length]
-- between    - of springs between unknowns, symmetric and not negative, referenced; `NULL`: there are none
-               [force/length]
+. stiffness  - stiffness of the springs to the ground, one value per row, not negative, referenced; `NULL`: no such
+               springs [force/length]
+- between    - stiffness matrix of springs between unknowns, symmetric positive semidefinite, referenced; `NULL`: no
+               such springs [force/length]
 
   Level: intermediate
 
   Notes:
-  They are part of energy and force; those to the ground of the tangent too, whose pattern has no place for the
-  others. The next tangent is assembled completely.
+  Energy and force include all springs. The tangent includes only springs to the ground: its nonzero pattern has no
+  entries for the others. The next tangent is assembled completely.
 
 .seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
 @*/

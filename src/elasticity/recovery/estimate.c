@@ -121,7 +121,7 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components per vertex [length]
 
   Output Parameters:
 + bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
@@ -141,7 +141,7 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies
   of one layer of cells the estimate is rough.
 
-  Where a cell is turned inside out the estimate is infinite.
+  If a cell is inverted the estimate is infinite.
 
   References:
   Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.

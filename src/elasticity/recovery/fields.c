@@ -43,10 +43,10 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components per vertex [length]
 
   Output Parameter:
-. stress - 6 values a node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
+. stress - 6 values per node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
            `PetscFree()`
 
   Level: intermediate
@@ -94,18 +94,18 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components per vertex [length]
 
   Output Parameters:
 + npoints - quadrature points of all local cells
 . places  - 3 coordinates a point, undeformed, cell by cell [length]; free with `PetscFree()`
-- stress  - 6 values a point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+- stress  - 6 values per point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
 
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy, as that of `ElasticityCellStress()`, which is its mean. A point
-  turned inside out has `PETSC_INFINITY`.
+  The stress is the one that is conjugate to the element's strain. `ElasticityCellStress()` is its mean over a cell. An
+  inverted point has `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
 @*/
@@ -147,7 +147,7 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a vertex [length]
+- u          - displacement, global, 3 components per vertex [length]
 
   Output Parameter:
 . density - mean over each local cell, in the order of the mesh's cells [force/length^2]; free with `PetscFree()`
@@ -155,8 +155,7 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
   Level: intermediate
 
   Notes:
-  Density times volume sums to `ElasticityEnergy()`, less the plastic work. A cell turned inside out has
-  `PETSC_INFINITY`.
+  The sum of density times volume is `ElasticityEnergy()` minus the plastic work. An inverted cell has `PETSC_INFINITY`.
 
 .seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
 @*/

@@ -35,7 +35,7 @@ static void PrincipalRotate(PetscReal A[3][3], int p, int q)
   Level: intermediate
 
   Notes:
-  By Jacobi's method: equal values are as exact as others.
+  Uses Jacobi's method, which is as accurate for equal values as for distinct ones.
 
 .seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
 @*/

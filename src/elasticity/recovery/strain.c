@@ -40,23 +40,23 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
 }
 
 /*@
-  ElasticityMeasureStrain - Measures how far bodies of a small-strain law are strained and turned
+  ElasticityMeasureStrain - Computes mean strain and rotation of bodies with a small-strain law
 
   Collective
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
-. values - of each body the mean over its strain energy of the largest principal strain by its size, and the mean over
-           its volume of the angle of rotation [rad]; 0 of bodies of another law
+. values - two values per body: the largest absolute principal strain, averaged with the strain energy as weight, and
+           the rotation angle, averaged over the volume [rad]; 0 for bodies with other laws
 
   Level: developer
 
   Note:
-  Cells count with their mean. The energy's weight leaves out what is far from where a body is loaded, and does not
-  grow with the few cells beside a singular edge.
+  Strain and rotation are means over a cell. With the energy as weight, unloaded parts of a body have no influence, and
+  the few cells at a singular edge have little.
 
 .seealso: `ElasticityCellStress()`, `ElasticityCellEnergy()`
 @*/

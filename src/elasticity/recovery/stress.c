@@ -14,7 +14,7 @@ static PetscReal StressVonMises(const PetscReal s[6])
 
   Input Parameters:
 + elasticity - the context
-- u          - displacement, global, 3 components a node [length]
+- u          - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];

@@ -110,7 +110,7 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
 }
 
 /*@
-  MeshEvaluate - Evaluates fields of a mesh at points of the undeformed bodies, of each rank its own
+  MeshEvaluate - Evaluates fields of a mesh at points of the undeformed bodies; each rank has its own points
 
   Collective
 
@@ -124,12 +124,13 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
 
   Output Parameters:
 + values  - nfields x 3 a point, zeros where no cell is near
-- missing - of how many points, on all ranks, no cell is near
+- missing - number of points, on all ranks, without a cell near
 
   Level: developer
 
   Note:
-  A point on a curved surface may be outside of the facets: it has the values of the nearest place in a cell beside it.
+  A point on a curved surface may lie outside the facets: it gets the values of the nearest position in a neighbouring
+  cell.
 
 .seealso: `MeshLocate()`, `SimulationSetForecast()`
 @*/

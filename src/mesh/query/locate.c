@@ -402,7 +402,7 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   Level: developer
 
   Notes:
-  A point on a curved surface may be outside of the facets: it has the nearest place in a cell beside it.
+  A point on a curved surface may lie outside the facets: it gets the nearest position in a neighbouring cell.
 
 .seealso: `MeshCreate()`, `MeshGetCellVertices()`
 @*/

@@ -202,7 +202,7 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
 }
 
 /*@
-  MeshGetFacetPieces - Gets the facets of four nodes that a boundary facet is cut into by its nodes
+  MeshGetFacetPieces - Gets the four-node facets into which the nodes of a boundary facet divide it
 
   Not Collective
 
@@ -252,7 +252,7 @@ PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt p
   Level: developer
 
   Notes:
-  It is the vector of the vertices' coordinates where no body has order 2.
+  If no body has order 2, it is the vector of the vertices' coordinates.
 
 .seealso: `MeshGetCellNodes()`, `DMGetCoordinatesLocal()`
 @*/
@@ -274,7 +274,7 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 - nbodies - number of bodies
 
   Output Parameter:
-. orders - 1 or 2 for each, on all ranks: what it asks for, or what suits its cells, which are all of one order
+. orders - 1 or 2 for each body, on all ranks: the given order, or the order of its cells, which is the same for all
 
   Level: intermediate
 

@@ -66,7 +66,7 @@ static void TetrahedronOrbitPoint(const TetrahedronOrbit *orbit, PetscInt i, Pet
 }
 
 /*@
-  MeshTetrahedronRule - The rule that integrates over a tetrahedron of so many nodes
+  MeshTetrahedronRule - Gets the quadrature rule for a tetrahedron with the given number of nodes
 
   Not Collective
 

@@ -173,8 +173,8 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 }
 
 /*@
-  MeshGetHanging - Gets the vertices that hang amid an edge or a facet of a cell which is refined less than its
-  neighbour
+  MeshGetHanging - Gets the hanging vertices: those in the middle of an edge or a facet of a cell that is refined less
+  than its neighbour
 
   Not Collective
 
@@ -197,7 +197,7 @@ PetscErrorCode MeshGetHanging(DM dm, Mat *means)
 }
 
 /*@
-  MeshCountHanging - Counts the vertices that hang, on all ranks
+  MeshCountHanging - Counts the hanging vertices of all ranks
 
   Collective
 

@@ -110,7 +110,7 @@ static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscIn
   PetscFunctionBegin;
   if (hexes->nvertices == hexes->maxvertices) {
     PetscCheck(hexes->maxvertices < PETSC_MAX_INT / 16, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "local refinement makes too many vertices for this PETSc's integers: more than %" PetscInt_FMT,
+      "local refinement makes too many vertices for PETSc's integer type: more than %" PetscInt_FMT,
       hexes->maxvertices);
     hexes->maxvertices = 2 * hexes->maxvertices + 64;
     PetscCall(PetscRealloc(3 * hexes->maxvertices * sizeof(PetscReal), &hexes->x));
@@ -253,7 +253,7 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscCall(HexesBalance(hexes, marked));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     PetscCheck(n < PETSC_MAX_INT / 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "local refinement makes too many cells for this PETSc's integers: more than %" PetscInt_FMT, n);
+      "local refinement makes too many cells for PETSc's integer type: more than %" PetscInt_FMT, n);
     n += marked[c] ? 8 : 1;
   }
   PetscCall(PetscMalloc1(8 * n, &vertex));

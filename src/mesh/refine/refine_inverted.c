@@ -5,7 +5,7 @@
 */
 #include "refineimpl.h"
 
-#define MEND_LEAST 0.25 /* relative to the smallest Jacobian of the cell with all its vertices on the curve */
+#define LEAST_QUALITY 0.25 /* relative to the smallest Jacobian of the cell with all its vertices on the curve */
 
 /* Positions of a cell's vertices with hanging ones on the curve */
 static PetscErrorCode RefineInvertedPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves,
@@ -80,7 +80,7 @@ PetscErrorCode MeshHexesRefineInverted(DM dm, const SceneBody bodies[], const Me
     PetscCall(MeshHexesFindHanging(hexes, hangs));
     for (PetscInt c = 0; c < hexes->ncells; ++c)
       marked[c] = (PetscBool)(RefineInvertedQuality(hexes, &table, c, hangs) <
-                              MEND_LEAST * RefineInvertedQuality(hexes, &table, c, NULL));
+                              LEAST_QUALITY * RefineInvertedQuality(hexes, &table, c, NULL));
     PetscCall(MeshHexesMarkHolders(hexes, marked, &more));
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
     PetscCall(PetscFree2(hangs, marked));

@@ -41,10 +41,10 @@ static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[]
 
   Input Parameters:
 + dm     - mesh from `MeshCreateScene()`, made with these marks
-- marked - the answer for each local cell
+- marked - whether to mark each local cell
 
   Input/Output Parameter:
-. marks - begins as zeros; the mesh that is made with them next has the marked cells refined
+. marks - zero-initialized at first; the next mesh created with them has the marked cells refined
 
   Level: developer
 
@@ -88,7 +88,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   Not Collective
 
   Input Parameter:
-. marks - zeros then
+. marks - the marks, set to zeros
 
   Level: developer
 

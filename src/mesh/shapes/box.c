@@ -22,7 +22,7 @@ static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscI
       "Body \"%s\": the box must have at least one cell along each axis, but has %" PetscInt_FMT " along %c",
       body->name, body->cells[d], "xyz"[d]);
     PetscCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "Body \"%s\" has too many level 0 cells for this PETSc's integers: %" PetscInt_FMT " x %" PetscInt_FMT
+      "Body \"%s\" has too many level 0 cells for PETSc's integer type: %" PetscInt_FMT " x %" PetscInt_FMT
       " x %" PetscInt_FMT,
       body->name, body->cells[0], body->cells[1], body->cells[2]);
     PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], body->cells[d]));

@@ -108,7 +108,7 @@ PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal n
 {
   PetscFunctionBegin;
   PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" has too many level 0 vertices for this PETSc's integers: %g", body->name, (double)nvertices);
+    "Body \"%s\" has too many level 0 vertices for PETSc's integer type: %g", body->name, (double)nvertices);
   PetscFunctionReturn(0);
 }
 

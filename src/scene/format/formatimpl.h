@@ -65,7 +65,7 @@ PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKe
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-/* owner_key, with its line where the file has the key, and what is wrong with it */
+/* Reports an error in the key owner_key: file, line (where the file has the key), name, and the text `wrong` */
 PETSC_INTERN PetscErrorCode SceneKeysComplainOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 /* Begins the complaint, if there is one, with the line of this key */

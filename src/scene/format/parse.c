@@ -45,7 +45,7 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   if (end == text || !SceneParseAtEnd(end))
     PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
   else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT)
-    PetscCall(SceneKeysComplain(keys, "%s is %s, which this PETSc's integers cannot hold", key, text));
+    PetscCall(SceneKeysComplain(keys, "%s is %s, which PETSc's integer type cannot hold", key, text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);
 }

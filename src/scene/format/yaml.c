@@ -76,7 +76,7 @@ PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *l
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to parse it");
+  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "not enough memory to parse it");
   yaml_parser_set_input_string(&parser, (const unsigned char *)text + mark, length - mark);
   yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
   ierr = YAMLReadEvents(&parser, text, &keys);

@@ -10,7 +10,7 @@
     } \
   } while (0)
 
-/* Each value, and that the steps are not too many */
+/* Checks the values, and that the number of time steps is not too large */
 static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
 {
   PetscFunctionBegin;

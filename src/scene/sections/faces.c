@@ -20,7 +20,7 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
 }
 
 /*@C
-   SceneFaceMaterial - The material of the body that a face belongs to
+   SceneFaceMaterial - Gets the material of the body that a face belongs to
 
    Not Collective
 

@@ -37,48 +37,49 @@
 static const SceneKey top_rows[] = {
   TEXT("problem", NULL, struct _n_Scene, name, OPTIONAL, "the file's name", "name of the scene, in reports"),
   TEXT("units", NULL, struct _n_Scene, units, OPTIONAL, "none",
-    "a note that tables and summary carry, as `mm, N, MPa`"),
-  SECTION("library", "none", "a file with materials by name, see [materials](#materials)"),
+    "units of the scene, for example `mm, N, MPa`; printed in tables and summary, not used in computations"),
+  SECTION("library", "none", "name of a file with a list of materials, see [materials](#materials)"),
   SECTION("materials", "none", "list of materials by name"), SECTION("bodies", "required", "list of bodies"),
-  SECTION("faces", "none", "list of parts of faces"),
+  SECTION("faces", "none", "list of named parts of faces"),
   SECTION("displacements", "none", "list of prescribed displacements"),
   SECTION("symmetry", "none", "list of plane faces whose normal displacement is 0"),
-  SECTION("pressures", "none", "list of pressures, dead or following their faces"),
-  SECTION("tractions", "none", "list of dead loads on faces, per area"),
-  SECTION("forces", "none", "list of dead loads on faces and rigid bodies, by their resultant"),
+  SECTION("pressures", "none", "list of pressures, with fixed direction or following the deformed face"),
+  SECTION("tractions", "none", "list of loads per undeformed area on faces, with fixed direction"),
+  SECTION("forces", "none", "list of resultant forces and moments on faces and rigid bodies, with fixed direction"),
   SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
-    "whether bodies that move freely are held by springs that carry next to nothing: `true`, or what these are worth "
-    "of a body's stiffness, above 0 and at most 0.01"),
-  SECTION("temperatures", "none", "list of temperatures of bodies that expand"),
-  SECTION("body_forces", "none", "list of dead forces per volume"),
+    "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
+    "springs as a fraction of the body's stiffness, above 0 and at most 0.01"),
+  SECTION("temperatures", "none", "list of temperatures of bodies with thermal expansion"),
+  SECTION("body_forces", "none", "list of forces per undeformed volume, with fixed direction"),
   SECTION("contact", "none: no search, no optimizer", "list of contact pairs"),
-  SECTION("ties", "none", "list of pairs of faces that are joined"),
-  SECTION("refinements", "none", "list of places where cells are refined beyond `refine`"),
-  SECTION("probes", "none", "list of points and lines at which results are wanted"),
+  SECTION("ties", "none", "list of pairs of faces joined without sliding or opening"),
+  SECTION("refinements", "none", "list of zones in which cells are refined further than by `refine`"),
+  SECTION("probes", "none", "list of points and lines at which results are written"),
   SECTION("load", "one step", "the load program, see [load program](#load-program)"),
   SECTION("ramps", "none", "list of further load programs"),
   SECTION("dynamics", "none: a static analysis", "inertia and time steps, see [dynamics](#dynamics)"),
   INTS("refine", NULL, 1, struct _n_Scene, refine, SHOWN, "0", "uniform refinements of level 0"),
   NAMED("model", NULL, CHOICE, struct _n_Scene, model, SHOWN, StepModels, "`energy`",
-    "what a load step minimizes. `energy`: the true energy, in equilibrium on exit. `quadratic`: its quadratic model "
-    "at the state before, with one tangent a load step"),
+    "objective of a load step. `energy`: the exact energy. `quadratic`: its quadratic model at the state before "
+    "the step, with one tangent per load step"),
   INTS("contact_updates", NULL, 1, struct _n_Scene, contact_updates, SHOWN, "20",
-    "contact (gap) updates per load step at most. They end when the gap changes by less than 1e-6 of the largest "
+    "largest number of contact updates (linearizations of the gap) per load step. They end when the gap changes "
+    "by less than 1e-6 of the largest "
     "displacement. With 1 the gap is not checked"),
   INTS("displacement_bounds", NULL, 1, struct _n_Scene, displacement_bounds, OPTIONAL, "0: none",
-    "the first load step, from 2, in which no displacement may change by more than the largest increment so far"),
+    "number (2 or more) of the first load step in which no displacement may change by more than the largest "
+    "earlier increment"),
   SECTION("solver", "none", "PETSc options, see [solver options](#solver-options)"), {NULL}};
 
 static const SceneKey body_rows[] = {
-  SECTION("shape", "`box`; `gmsh` where there is `mesh`", "the shape; its own keys follow below"),
+  SECTION("shape", "`gmsh` if `mesh` is given, else `box`", "the shape; see its keys below"),
   SECTION("curved", "`true`",
-    "whether refinement follows curved surfaces; `false` keeps the facets of level 0. Not of `box`"),
+    "whether refinement puts new vertices on the curved surface; `false`: on the facets of level 0. Not for `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
-    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or a material "
-    "by name. Its constants follow "
-    "below"),
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or the "
+    "name of a material. For its constants see below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
     "(modes for bending)"),
@@ -90,7 +91,7 @@ static const SceneKey body_rows[] = {
   {NULL}};
 
 static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMaterial, material.type, OPTIONAL,
-                                           MaterialTypes, "`linear`", "the law; its constants as of a body"),
+                                           MaterialTypes, "`linear`", "the law; its constants as in a body"),
   {NULL}};
 
 static const SceneKey face_rows[] = {
@@ -104,130 +105,136 @@ static const SceneKey face_rows[] = {
 static const SceneKey displacement_rows[] = {
   NUMBER_OF("body", BODY, SceneDisplacement, body, "", "a rigid body, or the body of `point` or of `from` and `to`"),
   TEXT("face", NULL, SceneDisplacement, face, OPTIONAL, "", "a face; required without `body`"),
-  REALS("point", NULL, 3, SceneDisplacement, from, SHOWN, ANY, "L", "", "of `body`: the vertex there is displaced"),
+  REALS("point", NULL, 3, SceneDisplacement, from, SHOWN, ANY, "L", "", "a vertex of `body`, which is displaced"),
   REALS("from", NULL, 3, SceneDisplacement, from, SHOWN, ANY, "L", "",
-    "of `body`: one end of an edge, whose vertices are displaced"),
+    "one end of an edge of `body`, whose vertices are displaced"),
   REALS("to", NULL, 3, SceneDisplacement, to, SHOWN, ANY, "L", "", "the other end"),
   OWN("value", NULL, SceneDisplacement, value, REQUIRED, SceneOwnComponents, "L", "",
-    "three displacements at factor 1, each a number or `free`"),
+    "displacements along x, y, z at load factor 1; each is a number or `free`"),
   OWN("rotation", NULL, SceneDisplacement, rotation, OPTIONAL, SceneOwnRotation, "degrees", "none",
-    "rotation vector at factor 1: along the axis, of the length of the angle; of a rigid body each number may be "
-    "`free`"),
+    "rotation vector at load factor 1: its direction is the axis, its length the angle. For a rigid body each "
+    "number may be `free`"),
   REALS("center", NULL, 3, SceneDisplacement, center, SHOWN, ANY, "L", "required with `rotation`",
     "a point on the axis, which moves by `value`"),
   NUMBER_OF("ramp", RAMP, SceneDisplacement, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey symmetry_rows[] = {
   TEXT("face", NULL, SceneDisplacement, face, SHOWN, "",
-    "a plane face; where its name tells the normal it stands alone, without a name"),
+    "a plane face. An entry is only the face's name if the name implies the normal, as `body.xmin`"),
   REALS("normal", NULL, 3, SceneDisplacement, normal, SHOWN, ANY, "", "", "`x`, `y`, `z` or a vector"), {NULL}};
 
 static const SceneKey pressure_rows[] = {TEXT("face", NULL, ScenePressure, face, REQUIRED, "", "a face"),
   REALS("value", NULL, 1, ScenePressure, value, REQUIRED, ANY, "F/L²", "",
-    "pressure at factor 1; positive pushes on the body, along the normal of the undeformed face"),
+    "pressure at load factor 1 along the normal of the undeformed face; positive: towards the body"),
   ANSWER("follows", NULL, ScenePressure, follows, "`false`",
-    "whether it pushes on the deformed area along the deformed normal; of bodies of finite strain"),
+    "whether the pressure acts on the deformed area along the deformed normal; only for bodies with a law of "
+    "finite strain"),
   NUMBER_OF("ramp", RAMP, ScenePressure, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey traction_rows[] = {TEXT("face", NULL, SceneTraction, face, REQUIRED, "", "a face"),
-  REALS("value", NULL, 3, SceneTraction, value, REQUIRED, ANY, "F/L²", "", "force per undeformed area at factor 1"),
+  REALS("value", NULL, 3, SceneTraction, value, REQUIRED, ANY, "F/L²", "",
+    "force per undeformed area at load factor 1"),
   NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey force_rows[] = {NUMBER_OF("body", BODY, SceneTraction, body, "", "a rigid body"),
   TEXT("face", NULL, SceneTraction, face, OPTIONAL, "", "a face; required without `body`"),
-  REALS("value", NULL, 3, SceneTraction, value, SHOWN, ANY, "F", "0 with `moment`", "the resultant at factor 1"),
+  REALS("value", NULL, 3, SceneTraction, value, SHOWN, ANY, "F", "0 with `moment`", "resultant force at load factor 1"),
   REALS("point", NULL, 3, SceneTraction, point, SHOWN, ANY, "L", "the face's centroid",
-    "where it acts, on the body or off it"),
-  REALS("moment", NULL, 3, SceneTraction, moment, OPTIONAL, ANY, "F L", "0", "its moment about that point at factor 1"),
+    "point of action, inside or outside of the body"),
+  REALS("moment", NULL, 3, SceneTraction, moment, OPTIONAL, ANY, "F L", "0",
+    "moment about that point at load factor 1"),
   NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey spring_rows[] = {TEXT("face", NULL, SceneSpring, face, REQUIRED, "", "a face"),
   TEXT("to", NULL, SceneSpring, to, OPTIONAL, "the ground",
-    "another face at their other end, which is over all of the first one"),
+    "face at the other end of the springs; it must cover the whole first face"),
   REALS("distance", NULL, 1, SceneSpring, distance, OPTIONAL, ABOVE_0, "L", "half the size of a facet",
-    "of springs `to` a face: facets further apart are not joined"),
+    "largest distance of facets that springs with `to` join"),
   REALS("value", NULL, 3, SceneSpring, value, REQUIRED, ANY, "F/L³", "",
     "stiffness along x, y, z per undeformed area, not negative"),
   {NULL}};
 
 static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForce, body, "every body", "a body"),
-  REALS("value", NULL, 3, SceneBodyForce, value, REQUIRED, ANY, "F/L³", "", "force per undeformed volume at factor 1"),
+  REALS("value", NULL, 3, SceneBodyForce, value, REQUIRED, ANY, "F/L³", "",
+    "force per undeformed volume at load factor 1"),
   NUMBER_OF("ramp", RAMP, SceneBodyForce, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
-static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTemperature, body, "every body that expands",
+static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTemperature, body,
+                                              "all bodies with thermal expansion",
                                               "a body whose material has an `expansion`"),
   ONE("value", NULL, EXPRESSION, SceneTemperature, value, REQUIRED, NULL, NULL, "temperature", "",
     "above that without stress, at factor 1: a number, or an expression of the undeformed place `x`, `y`, `z`"),
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey contact_rows[] = {
-  TEXT("mortar", NULL, SceneContactPair, mortar, REQUIRED, "", "a face, best the larger one"),
+  TEXT("mortar", NULL, SceneContactPair, mortar, REQUIRED, "", "the mortar (master) face, preferably the larger one"),
   TEXT("nonmortar", NULL, SceneContactPair, nonmortar, REQUIRED, "",
-    "a face, which carries the constraints; best the finer or softer side"),
+    "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
-    "mortar face; `dual`: as `mortar`, with dual functions, whose forces act at the nonmortar vertices (see Edges)"),
+    "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices (see"
+    " Edges)"),
   REALS("distance", NULL, 1, SceneContactPair, distance, OPTIONAL, FROM_0, "L", "chosen from the size of the faces",
-    "facets further apart never pair"),
+    "largest distance of facets that can come into contact; facets further apart are not searched"),
   OWN("interference", NULL, SceneContactPair, interference, OPTIONAL, SceneOwnInterference, "L", "`false`",
-    "whether the faces are meant to overlap at the start, as of a press fit: `true`, or the largest overlap that is "
-    "meant"),
-  NUMBER_OF("ramp", RAMP, SceneContactPair, interference_ramp, "all of it in the first load step",
-    "a ramp, `load` too, that an `interference` given as a length follows: at factor 0 the faces count as that much "
-    "farther apart"),
+    "whether the faces overlap at the start on purpose, as in a press fit: `true`, or the largest such overlap"),
+  NUMBER_OF("ramp", RAMP, SceneContactPair, interference_ramp, "the whole overlap is closed in the first load step",
+    "a ramp, or `load`, that an `interference` given as a length follows. The gap is increased by `interference` "
+    "times (1 - factor)"),
   REALS("friction", NULL, 1, SceneContactPair, friction, OPTIONAL, FROM_0, "", "0: none",
-    "Coulomb's coefficient: the shear of a row is at most this times its pressure, and opposes its slip"),
-  NUMBER_OF("friction_ramp", RAMP, SceneContactPair, friction_ramp, "as it is", "a ramp that the coefficient follows"),
+    "Coulomb's coefficient of friction"),
+  NUMBER_OF("friction_ramp", RAMP, SceneContactPair, friction_ramp, "constant", "a ramp that the coefficient follows"),
   REALS("shear_limit", NULL, 1, SceneContactPair, shear_limit, OPTIONAL, FROM_0, "F/L²", "none",
-    "largest shear of the contact; beside `friction` a cap, alone Tresca's law where the faces touch"),
+    "largest friction stress. With `friction` it limits Coulomb's law; alone it is Tresca's law where the faces touch"),
   OWN("stick", NULL, SceneContactPair, friction, OPTIONAL, SceneOwnStick, "", "`false`",
     "`true`: faces that touch do not slip while the shear force is below 1,000 times the normal force; without "
     "`friction` and `shear_limit`"),
   ANSWER("smooth", NULL, SceneContactPair, smooth, "`true`",
-    "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than 35 "
-    "degrees stay sharp. `false`: the facets are the bodies"),
+    "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than "
+    "35 degrees stay sharp. `false`: between the facets"),
   {NULL}};
 
 static const SceneKey tie_rows[] = {TEXT("mortar", NULL, SceneTie, mortar, REQUIRED, "", "a face"),
   TEXT("nonmortar", NULL, SceneTie, nonmortar, REQUIRED, "",
-    "a face, whose displacements follow those of the other in the mean; best the finer or softer side"),
+    "a face, whose displacements are weighted means of those of the mortar face; preferably the finer or softer one"),
   REALS("distance", NULL, 1, SceneTie, distance, OPTIONAL, ABOVE_0, "L", "half the size of a nonmortar facet",
     "facets further apart are not joined"),
   {NULL}};
 
 static const SceneKey refinement_rows[] = {
   OWN("near", NULL, SceneRefinement, face, OPTIONAL, SceneOwnNear, "", "a box",
-    "a contact pair: cells near both of its faces, undeformed; or a face: cells of its body near it"),
+    "name of a contact pair, to refine cells near both of its undeformed faces; or a face, to refine cells of its"
+    " body near it"),
   REALS("lower", NULL, 3, SceneRefinement, lower, SHOWN, ANY, "L", "required without `near`", "lower corner of a box"),
   REALS("upper", NULL, 3, SceneRefinement, upper, SHOWN, ANY, "L", "required without `near`",
     "upper corner of the box"),
-  NUMBER_OF("body", BODY, SceneRefinement, body, "any body", "the box's cells of one body only"),
+  NUMBER_OF("body", BODY, SceneRefinement, body, "any body", "the body whose cells in the box are refined"),
   INTS("levels", NULL, 1, SceneRefinement, levels, SHOWN, "1",
-    "how often the cells there become eight each, after the uniform refinements; where places overlap the larger "
-    "number counts"),
-  REALS("distance", NULL, 1, SceneRefinement, distance, SHOWN, FROM_0, "L", "0: those that touch it",
-    "from each face, or from the box, of boxes about the cells"),
+    "how often each of these cells is divided into eight, after the uniform refinements; where zones overlap the "
+    "larger number applies"),
+  REALS("distance", NULL, 1, SceneRefinement, distance, SHOWN, FROM_0, "L", "0: cells that touch it",
+    "cells are refined if their bounding box is within this distance of the face or the box"),
   {NULL}};
 
 static const SceneKey probe_rows[] = {
   REALS("point", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a line", "a point of the undeformed body"),
   REALS("from", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a point", "one end of a line"),
   REALS("to", NULL, 3, SceneProbe, to, SHOWN, ANY, "L", "a point", "the other end"),
-  INTS("points", NULL, 1, SceneProbe, n, SHOWN, "a point", "how many points the line has, both ends among them"),
-  NUMBER_OF("body", BODY, SceneProbe, body, "the first of those that touch there",
-    "the body that is meant where bodies touch"),
-  {NULL}};
+  INTS("points", NULL, 1, SceneProbe, n, SHOWN, "a point", "number of points of the line, both ends included"),
+  NUMBER_OF("body", BODY, SceneProbe, body, "the first of them", "the body, if the point is on several"), {NULL}};
 
-static const SceneKey load_rows[] = {SECTION("steps", "1", "number of load steps, equal parts from 0 to 1"),
-  SECTION("factors", "", "the factor at the end of each step, in place of `steps`"),
-  SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done, beside `steps`"),
-  SECTION("times", "", "ascending times of a table, beside `steps`: load step k ends at time k"),
+static const SceneKey load_rows[] = {
+  SECTION("steps", "1", "number of load steps; the load factor grows linearly from 0 to 1"),
+  SECTION("factors", "", "load factor at the end of each load step, instead of `steps`"),
+  SECTION("expression", "",
+    "load factor as an expression of the time `t` and of `s` = t / number of steps; requires `steps`"),
+  SECTION("times", "", "ascending times of a table (load step k ends at time k); requires `steps`"),
   SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
 
 static const SceneKey ramp_rows[] = {
-  SECTION("factors", "", "the factor at the end of each load step, 0 before the first, linear in between"),
-  SECTION("expression", "", "of the time `t` and of `s`, the part of the program that is done"),
-  SECTION("times", "", "ascending times of a table: load step k ends at time k"),
+  SECTION("factors", "", "factor at the end of each load step; 0 at the start, linear in between"),
+  SECTION("expression", "", "factor as an expression of the time `t` and of `s` = t / number of load steps"),
+  SECTION("times", "", "ascending times of a table (load step k ends at time k)"),
   SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
 
 static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynamics, time_step, REQUIRED, ANY, "T", "",

@@ -63,8 +63,8 @@ PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, const char file[], Scene
       if (here->body == PETSC_DECIDE || here->body == b) PetscCall(SceneBodyExpands(&scene->bodies[b], &any));
     }
     PetscCheck(any, comm, PETSC_ERR_USER_INPUT,
-      "%s: temperature \"%s\" heats %s, whose material has no expansion; give a material of small strain one, as "
-      "expansion: 12e-6",
+      "%s: temperature \"%s\" applies to %s, whose material has no thermal expansion; add one, for example "
+      "expansion: 12e-6 (small-strain laws only)",
       file, here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name);
   }
   PetscFunctionReturn(0);

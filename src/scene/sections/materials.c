@@ -56,8 +56,7 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscCall(PetscStrallocpy(name, &file));
   PetscCall(SceneResolveFile(keys->file, &file));
   PetscCall(PetscTestFile(file, 'r', &exists));
-  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: there is no library \"%s\" that can be read", keys->file,
-    file);
+  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: the library \"%s\" cannot be read", keys->file, file);
   PetscCall(PetscSNPrintf(keys->library, sizeof(keys->library), "the scene or its library %s", file));
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));

@@ -71,7 +71,7 @@ PetscErrorCode SceneDestroyOptions(Scene scene)
 }
 
 /*@C
-   SceneReportUnusedOptions - Warns on stderr of every solver option of a scene that nothing has asked for
+   SceneReportUnusedOptions - Warns on stderr of every solver option of a scene that was not used
 
    Collective
 
