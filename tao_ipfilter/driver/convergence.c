@@ -84,10 +84,10 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   char            relaxed[64] = "";
 
   PetscFunctionBegin;
-  PetscCall(IPDegenerateCancellation(tao, &times));
+  PetscCall(IPCancellation(tao, &times));
   PetscCall(IPErrorBoundOfRelaxation(tao, &work));
-  if (ip->relax.by > 0.0)
-    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.by));
+  if (ip->relax.times)
+    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.told));
   if (times > limit)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
@@ -114,7 +114,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *stationary =
-    (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && OwnMet(ip) && ip->relax.by == 0.0);
+    (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && OwnMet(ip) && !ip->relax.times);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));

@@ -12,8 +12,10 @@ PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], .
 
 /* degenerate.c */
 PETSC_INTERN PetscReal      IPDegenerateObjective(const TAO_IPFILTER *);
-PETSC_INTERN PetscErrorCode IPDegenerateCancellation(Tao, PetscReal *times);
 PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
+
+/* saddle.c */
+PETSC_INTERN PetscErrorCode IPLeaveSaddle(Tao, PetscBool *left);
 
 /* unbounded.c */
 PETSC_INTERN PetscErrorCode IPTestUnbounded(Tao, PetscReal *, PetscBool *);

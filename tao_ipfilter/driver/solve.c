@@ -115,7 +115,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B),
              .curved                   = (PetscBool)(ip->qn.B != NULL)};
   ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
-  ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY};
+  ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   ip->shift        = (IPShift){.delta = 0.0};
   ip->first        = (IPFirst){.f = 0.0, .energy = -1.0};
   ip->dir.norm     = 0.0;
@@ -179,7 +179,8 @@ static PetscErrorCode RestoreBest(Tao tao)
 /* Computes the KKT error of the new iterate, records it, and runs monitors and convergence test */
 static PetscErrorCode AssessIterate(Tao tao)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  PetscBool     left = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPComputeKKT(tao));
@@ -191,6 +192,12 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscCall(IPMonitor(tao));
   PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, ip->search.alpha));
   PetscCall(IPTestConvergence(tao));
+  if (tao->reason == TAO_CONVERGED_GATOL || tao->reason == TAO_CONVERGED_STEPTOL) PetscCall(IPLeaveSaddle(tao, &left));
+  if (left) {
+    tao->reason       = TAO_CONTINUE_ITERATING;
+    ip->rec.reason[0] = '\0';
+    ip->search.tag    = 'R';
+  }
   PetscFunctionReturn(0);
 }
 
@@ -468,6 +475,10 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscCall(IPDirectDestroy(&ip->direct));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
+  if (ip->relax.unknowns > 0.0) {
+    PetscCall(IPBoundsReturn(tao));
+    PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
+  }
   PetscCall(IPSetMultipliers(tao));
   if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
   if (ip->mi) PetscCall(IPSidesReturnPairs(tao));

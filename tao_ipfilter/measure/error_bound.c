@@ -177,18 +177,32 @@ PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Error bound due to the relaxation of the inequality constraints, relative to its allowed size: multipliers times
-   relaxation */
+/* What a relaxation of constraints and bounds is worth, over the same: their multipliers times what they are
+   raised by */
 PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     worth;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     worth = 0.0;
+  Vec           force;
 
   PetscFunctionBegin;
   *work = 0.0;
-  if (!(ip->relax.by > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
-  PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &worth));
-  if (worth > 0.0) *work = ip->relax.by * worth / (IP_WORTH_MULTIPLE * ip->scale.energy);
+  if (!ip->relax.times || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+    PetscCall(VecNorm(force, NORM_1, &worth));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+    worth *= ip->relax.by;
+  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    PetscReal sum;
+
+    if (!ip->pair[b].n) continue;
+    PetscCall(ErrorBoundProduct(ip->pair[b].w, ip->pair[b].z, &sum));
+    worth += ip->relax.unknowns * sum;
+  }
+  *work = worth / (IP_WORTH_MULTIPLE * ip->scale.energy);
   PetscFunctionReturn(0);
 }
 

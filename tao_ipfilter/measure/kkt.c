@@ -146,7 +146,7 @@ static PetscErrorCode OwnNearEnd(Tao tao)
   PetscFunctionBegin;
   ip->kkt.own = 0.0;
   if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
-  if (ip->kkt.inf_pr == 0.0) PetscFunctionReturn(0);
+  if (ip->kkt.inf_pr == 0.0 && !ip->relax.times) PetscFunctionReturn(0);
   if (ip->kkt.primal <= near) PetscCall(IPOwnViolation(tao, &ip->kkt.own));
   else ip->kkt.own = PETSC_INFINITY;
   PetscFunctionReturn(0);

@@ -64,4 +64,7 @@ PETSC_INTERN PetscReal      IPBothErrors(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPComputeKKT(Tao);
 PETSC_INTERN PetscErrorCode IPStationarity(Tao, Vec, Vec);
 
+/* cancellation.c */
+PETSC_INTERN PetscErrorCode IPCancellation(Tao, PetscReal *times);
+
 #endif

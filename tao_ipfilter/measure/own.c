@@ -37,11 +37,11 @@ PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
 }
 
 /* own: largest violation relative to the terms of its row (those of the unknowns, and the constant). If all terms of
-   a row vanish, they are replaced by a small fraction of what the largest unknown would contribute, at least
+   a row vanish, they are replaced by the fraction `trace` of what the largest unknown would contribute, at least
    rounding of the first terms. */
-static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal first, PetscReal *own)
+static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal trace, PetscReal first,
+  PetscReal *own)
 {
-  const PetscReal    trace = 1e-6;
   const PetscScalar *a[5];
   Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* followed by J x, the sums, the largest entries */
   PetscReal          local = 0.0, xsize;
@@ -67,25 +67,34 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscFunctionReturn(0);
 }
 
-/* own: largest violation of all (relaxed) constraints, relative to their own terms */
+/* own: largest violation of all (relaxed) constraints, relative to their own terms; and of what was relaxed, without
+   the relaxation, relative to no less than what the largest unknown would contribute: such rows have terms that
+   vanish */
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
-  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const IPFirst *first = &ip->first;
-  PetscReal      other = 0.0;
-  Vec            v;
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const IPFirst  *first = &ip->first;
+  const PetscReal trace = 1e-6, small = 1e-4 / PETSC_MACHINE_EPSILON,
+                  rows = PetscMax(first->length, first->jacobian * first->x);
+  PetscReal other      = 0.0;
+  Vec       v;
 
   PetscFunctionBegin;
   *own = 0.0;
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
     PetscCall(IPSlackViolation(tao, ip->at.c, v));
-    PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v,
-      PetscMax(first->length, first->jacobian * first->x), own));
+    PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v, trace, rows, own));
+    if (ip->relax.by > 0.0) { /* the violation without that */
+      PetscCall(VecWAXPY(v, -1.0, ip->at.s, ip->at.c));
+      PetscCall(VecShift(v, -ip->relax.by));
+      PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v, 1.0, small * rows, &other));
+    }
+    *own = PetscMax(*own, other);
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   }
   if (ip->me)
-    PetscCall(OwnLargest(tao, IP_EQUALITIES, ip->jac.equality, ip->at.ce, ip->at.ce,
+    PetscCall(OwnLargest(tao, IP_EQUALITIES, ip->jac.equality, ip->at.ce, ip->at.ce, trace,
       PetscMax(first->equality, first->equality_jacobian * first->x), &other));
   *own = PetscMax(*own, other);
   PetscFunctionReturn(0);

@@ -5,6 +5,7 @@
 #define IP_AMPLE \
   30.0                   /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
                             the tolerance */
+#define IP_STEEP   0.1   /* constraints that have become flatter than that started where they were steep */
 #define IP_RUNAWAY 100.0 /* limit of an iterate's size relative to its first size */
 
 /* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small */
@@ -23,16 +24,21 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPScale      *s  = &ip->scale;
-  PetscReal     c, t, gradient, upper = 0.0, transmitted = ip->first.jacobian * ip->pair[IP_SLACK].weight / ip->mi;
+  PetscReal     c, t, gradient, now, jacobian, upper = 0.0;
+  PetscReal     transmitted;
 
   PetscFunctionBegin;
+  PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &now));
+  jacobian =
+    now < IP_STEEP * ip->first.jacobian ? PetscMax(now, IP_VANISHING * ip->first.jacobian) : ip->first.jacobian;
+  transmitted = jacobian * ip->pair[IP_SLACK].weight / ip->mi;
   PetscCall(IPSizeWithinReach(tao, ip->at.c, &c));
   PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length),
-      10.0 * IP_VANISHING * PetscMax(ip->first.length, ip->first.jacobian * xsize));
+      10.0 * IP_VANISHING * PetscMax(ip->first.length, jacobian * xsize));
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;

@@ -8,14 +8,15 @@ static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
   return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
 }
 
-/* x - b (sign 1) or b - x (sign -1), kept positive if rounding made it zero or negative */
-static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign)
+/* x - b (sign 1) or b - x (sign -1) plus the bound's relaxation, kept positive if rounding made it zero or negative */
+static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign, PetscReal relax)
 {
-  return PetscMax(sign * (x - b), PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
+  return PetscMax(sign * (x - b) + relax,
+    PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
 }
 
 /* t = x - x_l (sign +1) or x_u - x (sign -1); PETSC_INFINITY if the bound is absent */
-static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, Vec t)
+static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, PetscReal relax, Vec t)
 {
   const PetscScalar *xa, *ba, *oa = NULL;
   PetscScalar       *ta;
@@ -28,8 +29,8 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign,
   if (other) PetscCall(VecGetArrayRead(other, &oa));
   PetscCall(VecGetArrayWrite(t, &ta));
   for (PetscInt i = 0; i < n; i++)
-    ta[i] =
-      Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign) : PETSC_INFINITY;
+    ta[i] = Bounds(ba[i], oa ? &oa[i] : NULL) ? Distance(PetscRealPart(xa[i]), PetscRealPart(ba[i]), sign, relax)
+                                              : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(t, &ta));
   if (other) PetscCall(VecRestoreArrayRead(other, &oa));
   PetscCall(VecRestoreArrayRead(bound, &ba));
@@ -42,10 +43,11 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
+  PetscReal     relax = ip->relax.unknowns;
 
   PetscFunctionBegin;
-  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, lower->sign, trial ? lower->trial : lower->t));
-  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, upper->sign, trial ? upper->trial : upper->t));
+  if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, lower->sign, relax, trial ? lower->trial : lower->t));
+  if (upper->n) PetscCall(BoundDistance(x, tao->XU, tao->XL, upper->sign, relax, trial ? upper->trial : upper->t));
   PetscFunctionReturn(0);
 }
 
@@ -144,6 +146,17 @@ PetscErrorCode IPBoundsPush(Tao tao)
   for (PetscInt k = 0; k < 2; k++)
     if (v[k]) PetscCall(VecRestoreArrayRead(v[k], &b[k]));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* Puts what has passed a bound that was moved back on the bound */
+PetscErrorCode IPBoundsReturn(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->pair[IP_LOWER].n) PetscCall(VecPointwiseMax(tao->solution, tao->solution, tao->XL));
+  if (ip->pair[IP_UPPER].n) PetscCall(VecPointwiseMin(tao->solution, tao->solution, tao->XU));
   PetscFunctionReturn(0);
 }
 

@@ -57,6 +57,7 @@ PETSC_INTERN PetscBool      IPWarmBounds(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool trial);
+PETSC_INTERN PetscErrorCode IPBoundsReturn(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsDirection(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsAddForces(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPBoundsCenter(Tao);

@@ -128,6 +128,7 @@ typedef struct {
   PetscReal jacobian;          /* largest row sum of |J|, */
   PetscReal equality_jacobian; /* and of |J_E| */
   PetscReal energy;            /* magnitude of the objective's terms */
+  PetscReal pressure;          /* equal multiplier of all rows that balances the gradient; 0: unknown */
 } IPFirst;
 
 /* Stiffness of the objective at the start, from the diagonal of H */
@@ -297,6 +298,7 @@ typedef struct {
   PetscReal rounding;           /* rounding error of phi, */
   PetscReal theta_rounding;     /* and of theta */
   PetscReal alpha, alpha_dual;
+  PetscReal before; /* norm of the direction before the last one */
   PetscInt  ntrials;
   PetscBool blocked;              /* the last rejected trial point was rejected by the filter alone */
   PetscInt  nblocked, nunblocked; /* consecutive steps shortened by the filter; number of times it was cleared for
@@ -308,8 +310,11 @@ typedef struct {
 typedef struct {
   PetscReal by;          /* amount that is added to c_I, */
   PetscReal size;        /* size of the constraints, of which it is a fraction, */
+  PetscReal unknowns;    /* amount by which bounds are moved, */
+  PetscReal told;        /* larger of both in the caller's units, */
   PetscInt  times;       /* and number of relaxations */
-  PetscReal least_slack; /* smallest slack after the last step */
+  PetscReal least_slack; /* smallest slack after the last step, */
+  PetscReal least_bound; /* and smallest distance from a bound */
   PetscInt  nvanished;   /* consecutive iterates with a vanishing slack */
 } IPRelaxation;
 
@@ -435,6 +440,7 @@ typedef struct {
   PetscInt             nregularized, nretried; /* steps with a shifted Hessian; systems solved to find the shifts */
   PetscReal            delta_largest;          /* largest shift in a step taken */
   PetscInt             nrestored;              /* restorations */
+  PetscInt             nsaddles;               /* stationary points that were not minima */
   PetscInt             ntiny;                  /* consecutive steps as small as rounding */
   PetscInt             nacceptable;            /* consecutive acceptable iterates */
   PetscInt             nstraight;     /* consecutive full steps with a shift along which the objective fell linearly, */

@@ -27,7 +27,7 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
   const PetscReal limit   = IP_KAPPA_EPSILON * mu,
                   balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, IP_KAPPA_DUAL);
 
-  return (PetscBool)(k->centrality <= limit && k->primal <= limit && k->dual <= balance);
+  return (PetscBool)(k->centrality <= limit && k->primal <= PetscMax(limit, ip->tol) && k->dual <= balance);
 }
 
 /* Monotone rule: mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), with mu in units of the product scale */

@@ -270,12 +270,28 @@ PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The Newton direction, and whether its curvature (with equality constraints: the matrix's inertia) is sufficient */
+/* Whether the barrier function falls along the direction, as it must where there are no constraints: a solve that was
+   ended early in a matrix that is almost singular may not descend */
+static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     slope;
+
+  PetscFunctionBegin;
+  *descends = PETSC_TRUE;
+  if (ip->mi || ip->me || ip->kkt.dual_norm == 0.0) PetscFunctionReturn(0);
+  PetscCall(IPMeritSlope(tao, &slope));
+  *descends = (PetscBool)(slope <= 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* The Newton direction, whose curvature (or, with equality constraints, whose matrix's inertia) is in order */
 static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
 {
   PetscFunctionBegin;
   PetscCall(DirectionSolveSystem(tao, usable));
   if (*usable && DirectionIsCondensed((TAO_IPFILTER *)tao->data)) PetscCall(CurvatureTest(tao, usable));
+  if (*usable) PetscCall(DirectionDescends(tao, usable));
   PetscFunctionReturn(0);
 }
 
@@ -289,5 +305,72 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   ip->aug.centered = PETSC_FALSE;
   PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
   if (*ok) IPRegularized(ip);
+  PetscFunctionReturn(0);
+}
+
+/* Sizes |A_jj|, no less than a trace of the largest, and sines that repeat nothing times their roots: b has a part in
+   every direction, whatever the units */
+static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
+{
+  const PetscReal trace = 1e-12;
+  PetscScalar    *v, *d;
+  PetscReal       largest;
+  PetscInt        rstart, rend;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(A, sizes));
+  PetscCall(VecAbs(sizes));
+  PetscCall(VecMax(sizes, NULL, &largest));
+  PetscCall(VecGetOwnershipRange(b, &rstart, &rend));
+  PetscCall(VecGetArray(sizes, &d));
+  PetscCall(VecGetArrayWrite(b, &v));
+  for (PetscInt j = 0; j < rend - rstart; j++) {
+    d[j] = PetscMax(PetscRealPart(d[j]), largest > 0.0 ? trace * largest : 1.0);
+    v[j] = PetscSqrtReal(PetscRealPart(d[j])) * PetscSinReal(1.0 + 1.7 * (PetscReal)(rstart + j));
+  }
+  PetscCall(VecRestoreArrayWrite(b, &v));
+  PetscCall(VecRestoreArray(sizes, &d));
+  PetscFunctionReturn(0);
+}
+
+/* Into dir.x a direction of negative curvature of the matrix at the present point, if conjugate gradients, scaled by
+   the diagonal, meet one: p with p^T A p < 0 */
+PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt  most     = 200;
+  const PetscReal rounding = 1e-10;
+  Vec             p        = ip->dir.x, v[4]; /* r, M^-1 r, A p, M */
+  PetscScalar     rz, before, pAp, pMp;
+  PetscReal       first, norm;
+
+  PetscFunctionBegin;
+  *found          = PETSC_FALSE;
+  ip->shift.delta = 0.0;
+  PetscCall(IPHessianEvaluate(tao));
+  PetscCall(DirectionAssemble(tao));
+  for (PetscInt k = 0; k < 4; k++) PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v[k]));
+  PetscCall(DirectionProbe(ip->cond.A, v[3], v[0]));
+  PetscCall(IPFixedZero(tao, v[0]));
+  PetscCall(VecPointwiseDivide(v[1], v[0], v[3]));
+  PetscCall(VecCopy(v[1], p));
+  PetscCall(VecDot(v[0], v[1], &rz));
+  PetscCall(VecNorm(v[0], NORM_2, &first));
+  norm = first;
+  for (PetscInt k = 0; k < most && norm > rounding * first && !*found; k++) {
+    PetscCall(MatMult(ip->cond.A, p, v[2]));
+    PetscCall(VecDot(p, v[2], &pAp));
+    PetscCall(VecPointwiseMult(v[1], v[3], p));
+    PetscCall(VecDot(p, v[1], &pMp));
+    *found = (PetscBool)(PetscRealPart(pAp) < -rounding * PetscRealPart(pMp));
+    if (PetscRealPart(pAp) <= 0.0) break;
+    PetscCall(VecAXPY(v[0], -rz / pAp, v[2]));
+    PetscCall(VecPointwiseDivide(v[1], v[0], v[3]));
+    before = rz;
+    PetscCall(VecDot(v[0], v[1], &rz));
+    PetscCall(VecAYPX(p, rz / before, v[1]));
+    PetscCall(VecNorm(v[0], NORM_2, &norm));
+  }
+  for (PetscInt k = 3; k >= 0; k--) PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v[k]));
   PetscFunctionReturn(0);
 }

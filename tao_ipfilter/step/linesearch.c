@@ -108,6 +108,14 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
     PetscCall(VecAXPY(p->z, dual, p->dz));
     PetscCall(IPPairSafeguard(p, ip->mu, IP_KAPPA_SIGMA));
   }
+  ip->relax.least_bound = PETSC_INFINITY;
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    PetscReal least;
+
+    if (!ip->pair[b].n) continue;
+    PetscCall(VecMin(ip->pair[b].t, NULL, &least));
+    ip->relax.least_bound = PetscMin(ip->relax.least_bound, least);
+  }
   if (ip->mi) {
     PetscCall(VecAXPY(ip->at.lambda, alpha, ip->dir.lambda));
     PetscCall(VecMin(ip->at.s, NULL, &ip->relax.least_slack));
@@ -253,6 +261,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPMeritSlope(tao, &slope));
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
+  ip->search.before = ip->dir.norm;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least              = SearchSmallestStep(ip, slope);
   ip->search.ntrials = 0;
@@ -270,5 +279,117 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     else if (finite && ip->search.ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
   if (*ok) PetscCall(SearchUnblock(ip));
+  PetscFunctionReturn(0);
+}
+
+/* Goes on from the trial point at the end of dir.x, which was found beside the path: multipliers are centred, with mu
+   no less than a trace of the first */
+static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal trace = 1e-3;
+
+  PetscFunctionBegin;
+  PetscCall(SearchTakeStep(tao, alpha, 0.0));
+  ip->mu = PetscMax(ip->mu, trace * ip->bar.first);
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
+  if (ip->mi) PetscCall(IPSlackPressure(tao, ip->at.lambda));
+  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(IPComputeKKT(tao));
+  PetscFunctionReturn(0);
+}
+
+/* Directions of slacks and bounds that belong to dir.x; constraints' multipliers stay */
+static PetscErrorCode SearchFollow(Tao tao)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
+
+  PetscFunctionBegin;
+  PetscCall(IPBoundsDirection(tao));
+  if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(MatMult(ip->jac.inequality, ip->dir.x, slack->dt));
+  if (ip->pair[IP_CEILING].n) PetscCall(VecAXPBY(ip->pair[IP_CEILING].dt, -1.0, 0.0, slack->dt));
+  PetscCall(VecSet(ip->dir.lambda, 0.0));
+  PetscFunctionReturn(0);
+}
+
+#define IP_LEAVE_MET 1e-2 /* violation, in its unit, that a point beside the path may have */
+
+/* Leaves a stationary point along dir.x, a direction of negative curvature, as far as the barrier function falls and
+   constraints stay met; *left is false where it does not */
+PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 0.1, least = 1e-6;
+  PetscReal       alpha = 1.0, norm, size, slope;
+
+  PetscFunctionBegin;
+  *left = PETSC_FALSE;
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  size = PetscMax(size, ip->first.x);
+  PetscCall(VecScale(ip->dir.x, (size > 0.0 ? part * size : 1.0) / norm));
+  PetscCall(SearchFollow(tao));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(IPMeritSlope(tao, &slope));
+  if (slope > 0.0) {
+    PetscCall(VecScale(ip->dir.x, -1.0));
+    PetscCall(SearchFollow(tao));
+  }
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &alpha, NULL));
+  for (; alpha > least && !*left; alpha *= 0.5) {
+    PetscReal theta = 0.0, phi = 0.0;
+    PetscBool finite = PETSC_FALSE;
+
+    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    *left =
+      (PetscBool)(finite && phi < ip->search.phi - ip->search.rounding && theta <= IP_LEAVE_MET * ip->search.theta_ref);
+    if (*left) PetscCall(SearchStartAgain(tao, alpha));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Whether steps shrink no faster than by a constant factor, as they do where the Hessian vanishes with the gradient */
+static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
+{
+  const PetscReal quadratic = 0.2;
+
+  return (PetscBool)(ip->search.alpha == 1.0 && ip->search.tag != 'R' && ip->dir.norm > quadratic * ip->search.before);
+}
+
+/* Where Newton's steps shrink slowly, the gradient and the curvature vanish together, and the point may be one of
+   inflection: whether the barrier function falls beyond it, along the last step, further and further. Then the solve
+   goes on from there. */
+PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 0.1, far = 10.0, clear = 1e3;
+  PetscReal       most = PETSC_MAX_REAL, size, last;
+  PetscBool       falls;
+
+  PetscFunctionBegin;
+  *left = PETSC_FALSE;
+  if (!SearchIsLinear(ip) || !(ip->dir.norm > 0.0)) PetscFunctionReturn(0);
+  PetscCall(SearchFollow(tao));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  most = part * PetscMax(size, ip->first.x) / ip->dir.norm;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
+  last  = ip->search.phi + ip->search.rounding;
+  falls = (PetscBool)(most >= 1.0);
+  for (PetscReal alpha = PetscMin(2.0, most); falls && !*left; alpha = PetscMin(far * alpha, most)) {
+    PetscReal theta = 0.0, phi = 0.0;
+    PetscBool finite = PETSC_FALSE;
+
+    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    falls = (PetscBool)(finite && phi <= last && theta <= IP_LEAVE_MET * ip->search.theta_ref);
+    last  = PetscMin(last, phi + ip->search.rounding);
+    *left = (PetscBool)(falls && phi < ip->search.phi - clear * ip->search.rounding);
+    if (*left) PetscCall(SearchStartAgain(tao, alpha));
+    else if (alpha >= most) falls = PETSC_FALSE;
+  }
   PetscFunctionReturn(0);
 }

@@ -1,8 +1,8 @@
 /*
-   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0, have no central path that leads to their
-   solutions; slacks vanish before mu does. All inequality constraints are then relaxed to c_I + r >= 0, where r is a
-   hundredth of the tolerance times their size. (Waechter and Biegler 2006, section 3.5, relax all problems from the
-   start, and by more.)
+   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
+   slacks vanish before mu does. Then all inequality constraints, and beside equality constraints all bounds, are
+   relaxed, c_I + r >= 0, with r a hundredth of the tolerance times their size (Waechter and Biegler 2006, section
+   3.5, relax all problems from the start, and by more).
 */
 #include "stepimpl.h"
 
@@ -16,50 +16,103 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
   IPPair       *p  = &ip->pair[IP_SLACK];
 
   PetscFunctionBegin;
-  PetscCall(VecShift(ip->at.c, r));
-  PetscCall(VecShift(p->t, r));
-  PetscCall(IPPairCenter(p, ip->mu));
-  PetscCall(IPSidesUpdateWidth(tao));
-  PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  if (ip->mi) {
+    PetscCall(VecShift(ip->at.c, r));
+    PetscCall(VecShift(p->t, r));
+    PetscCall(IPPairCenter(p, ip->mu));
+    PetscCall(IPSidesUpdateWidth(tao));
+    PetscCall(IPSlackCenterUpper(tao, ip->mu));
+  }
+  if (ip->relax.unknowns > 0.0) {
+    PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
+    PetscCall(IPBoundsCenter(tao));
+  }
   PetscFunctionReturn(0);
 }
 
-/* Whether the smallest slack is as small as rounding */
+/* Multiplier of one constraint that balances the objective's gradient, now or at the start */
+static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
+{
+  return PetscMax(ip->scale.balance, ip->first.pressure);
+}
+
+/* Whether the least slack is as small as rounding, and its multiplier larger than what balances the gradient */
 static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->relax.least_slack <= IP_LEAST_SLACK * ip->scale.length);
+  const PetscReal larger = 10.0;
+
+  if (!ip->mi || ip->relax.least_slack > IP_LEAST_SLACK * ip->scale.length) return PETSC_FALSE;
+  return (PetscBool)(ip->opt.scaling == IP_SCALING_NONE || ip->mu > larger * ip->relax.least_slack * RelaxBalance(ip));
 }
 
-/* Whether a slack has vanished: it is as small as rounding; or its multiplier on the central path, at a mu that no
-   longer falls, is far larger than what balances the objective's gradient, which does not happen if there is an
-   interior. Far from feasible points this can happen temporarily. Without scales the balance is unknown. */
-static PetscBool RelaxVanished(const TAO_IPFILTER *ip)
+/* The same, or the multiplier of a slack on the central path of a mu that does not fall is so much larger than what
+   balances the objective's gradient that no slack of a constraint with an interior would be so small; or that of a
+   bound is, and it cancels that of an equality constraint. Far from feasible points that happens on the way. Without
+   scales nothing says what balances. */
+static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
+  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
   const PetscReal met = 1e-4;
-
-  if (ip->opt.scaling == IP_SCALING_NONE) return RelaxRounding(ip);
-  return (PetscBool)(RelaxRounding(ip) ||
-                     (ip->kkt.primal <= met && ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * ip->scale.balance));
-}
-
-/* Relaxes the constraints by a fraction of the tolerance times their size, which is measured at the first
-   relaxation. mu is limited so that the multipliers fit the new width. */
-static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
-{
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal before = ip->relax.by;
+  PetscReal       gradient, times;
 
   PetscFunctionBegin;
-  if (!ip->relax.times) {
+  *vanished = RelaxRounding(ip);
+  if (*vanished || ip->opt.scaling == IP_SCALING_NONE || ip->kkt.primal > met) PetscFunctionReturn(0);
+  if (ip->mi) *vanished = (PetscBool)(ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * RelaxBalance(ip));
+  if (*vanished || !ip->me) PetscFunctionReturn(0);
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  if (!(ip->mu > IP_RELAX_LARGE * ip->relax.least_bound * gradient)) PetscFunctionReturn(0);
+  PetscCall(IPCancellation(tao, &times));
+  *vanished = (PetscBool)(times > IP_RELAX_LARGE);
+  PetscFunctionReturn(0);
+}
+
+/* By how much, for the size that the constraints have when they are relaxed first */
+static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     size;
+  Vec           r;
+
+  PetscFunctionBegin;
+  if (ip->mi && !ip->relax.times) {
     PetscCall(IPOwnActiveSize(tao, &ip->relax.size));
     ip->relax.size = PetscMax(ip->relax.size, ip->first.length);
     if (!(ip->relax.size > 0.0)) ip->relax.size = ip->scale.length;
   }
+  ip->relax.by = ip->relax.told = fraction * ip->tol * ip->relax.size;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
+    PetscCall(VecSet(r, ip->relax.by));
+    PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, r, &ip->relax.told));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
+  }
+  if (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)) {
+    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+    ip->relax.unknowns = fraction * ip->tol * size;
+    ip->relax.told     = PetscMax(ip->relax.told, ip->relax.unknowns);
+  }
   ip->relax.times++;
-  ip->relax.by = fraction * ip->tol * ip->relax.size;
-  PetscCall(PetscInfo(tao, "A slack is %g: no interior; constraints relaxed by %g\n", (double)ip->relax.least_slack,
-    (double)ip->relax.by));
-  ip->mu = PetscMax(IPErrorBoundLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * ip->relax.by * ip->scale.balance));
+  PetscFunctionReturn(0);
+}
+
+/* Relaxes constraints and bounds by a fraction of the tolerance times their size. mu becomes no more than what the
+   width that they have now admits at large multipliers. */
+static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal before = ip->relax.by;
+  PetscReal       limit  = PETSC_INFINITY, gradient;
+
+  PetscFunctionBegin;
+  PetscCall(RelaxChoose(tao, fraction));
+  PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax.told));
+  if (ip->mi) limit = ip->relax.by * ip->scale.balance;
+  if (ip->relax.unknowns > 0.0) {
+    PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+    limit = PetscMin(limit, ip->relax.unknowns * gradient);
+  }
+  ip->mu = PetscMax(IPErrorBoundLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * limit));
   PetscCall(RelaxCenter(tao, ip->relax.by - before));
   PetscCall(IPFilterSetReset(&ip->filter));
   ip->rec.best_error = ip->rec.best_violation = PETSC_INFINITY;
@@ -67,15 +120,23 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes the constraints if a slack has vanished for several steps although the KKT error has not */
+/* Whether there are constraints that may have no interior */
+static PetscBool RelaxApplies(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)));
+}
+
+/* Relaxes the constraints where a slack has vanished for some steps in a row though the KKT error has not */
 PetscErrorCode IPRelax(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
   const PetscInt patience = 3;
+  PetscBool      vanished;
 
   PetscFunctionBegin;
-  if (!ip->mi || ip->relax.times || ip->bar.free) PetscFunctionReturn(0);
-  ip->relax.nvanished = RelaxVanished(ip) ? ip->relax.nvanished + 1 : 0;
+  if (!RelaxApplies(ip) || ip->relax.times || ip->bar.free) PetscFunctionReturn(0);
+  PetscCall(RelaxVanished(tao, &vanished));
+  ip->relax.nvanished = vanished ? ip->relax.nvanished + 1 : 0;
   if (ip->relax.nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }
@@ -86,7 +147,8 @@ PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *relaxed = (PetscBool)(ip->mi && ip->relax.times < 2 && RelaxVanished(ip));
+  *relaxed = PETSC_FALSE;
+  if (RelaxApplies(ip) && ip->relax.times < 2) PetscCall(RelaxVanished(tao, relaxed));
   if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax.times ? 1.0 : IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }

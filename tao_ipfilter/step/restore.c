@@ -240,7 +240,7 @@ static PetscErrorCode RestoreLeave(Tao tao)
   }
   if (ip->me) PetscCall(IPEqualityMultipliers(tao));
   ip->bar.nerrors       = 0;
-  ip->relax.least_slack = PETSC_INFINITY;
+  ip->relax.least_slack = ip->relax.least_bound = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 

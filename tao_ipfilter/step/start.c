@@ -68,23 +68,44 @@ static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Estimates the stiffness from multipliers that balance the gradient, divided by the constraints' mean value, if
-   there is no penalty step or no stiffness in the objective */
-static PetscErrorCode GradientStiffness(Tao tao)
+/* The pressure of all rows alike that balances the gradient where this is large, (g, g) / (|g|, |J|^T w) */
+static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     gradient, transmitted, length;
-  Vec           force;
+  PetscScalar   gradient, balanced;
+  Vec           size, terms;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
-  PetscCall(MatMultTranspose(ip->jac.inequality, ip->pair[IP_SLACK].w, force));
-  PetscCall(VecNorm(force, NORM_2, &transmitted));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
-  PetscCall(MeanLength(tao, &length));
-  if (gradient > 0.0 && transmitted > 0.0 && length > 0.0)
-    PetscCall(VecSet(ip->stiff.rho, gradient / transmitted / length));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &size));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &terms));
+  PetscCall(VecCopy(tao->gradient, size));
+  PetscCall(VecAbs(size));
+  PetscCall(IPOwnTerms(ip->jac.inequality, size, terms, NULL));
+  PetscCall(VecDot(terms, ip->pair[IP_SLACK].w, &balanced));
+  PetscCall(VecDot(size, size, &gradient));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &terms));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &size));
+  *pressure = PetscRealPart(balanced) > 0.0 ? PetscRealPart(gradient / balanced) : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Without a penalty step, or an objective that resists one, the stiffness is that pressure over the constraints' mean
+   value, or over a part of their terms where none has a value */
+static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 1e-2;
+  Vec             terms;
+
+  PetscFunctionBegin;
+  if (!(*length > 0.0)) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &terms));
+    PetscCall(IPOwnTerms(ip->jac.inequality, tao->solution, terms, NULL));
+    PetscCall(MeanMagnitude(tao, terms, length));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &terms));
+    *length *= part;
+  }
+  if (ip->first.pressure > 0.0 && *length > 0.0) PetscCall(VecSet(ip->stiff.rho, ip->first.pressure / *length));
   PetscFunctionReturn(0);
 }
 
@@ -123,6 +144,23 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
   PetscFunctionReturn(0);
 }
 
+/* A stiffness no less than what keeps the slacks of the central path within the size of the constraints, where mu has
+   come from the bounds, which know nothing of the rows */
+static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal size = PetscMax(length, ip->first.length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
+  PetscScalar    *rho;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(ip->stiff.rho, &n));
+  PetscCall(VecGetArray(ip->stiff.rho, &rho));
+  for (PetscInt i = 0; i < n; i++) rho[i] = PetscMax(PetscRealPart(rho[i]), least);
+  PetscCall(VecRestoreArray(ip->stiff.rho, &rho));
+  PetscFunctionReturn(0);
+}
+
 /* Predicted start: s and z from the constraints' values after the penalty step, moved to the central path; mu is a
    fraction of length x pressure there. If all constraints happen to be active this gives nothing; pairs then start
    with a gap that is noticeable relative to the objective. */
@@ -135,18 +173,26 @@ static PetscErrorCode StartPredicted(Tao tao)
 
   PetscFunctionBegin;
   if (!ip->stiff.flat) PetscCall(IPPenaltyStep(tao, &moved));
-  if (!moved) PetscCall(GradientStiffness(tao));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
-  PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
   PetscCall(MeanLength(tao, &length));
-  PetscCall(MeanMagnitude(tao, z, &pressure));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  PetscCall(GradientPressure(tao, &ip->first.pressure));
+  if (moved) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
+    PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
+    PetscCall(MeanMagnitude(tao, z, &pressure));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
+  } else {
+    PetscCall(GradientStiffness(tao, &length));
+    pressure = ip->first.pressure;
+  }
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
-  ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * mean;
+  ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
   PetscCall(BoundsErrorBound(tao, &worth));
-  ip->mu = PetscMax(ip->mu, IP_PREDICT_MU * worth);
+  if (ip->mu < IP_PREDICT_MU * worth) {
+    ip->mu = IP_PREDICT_MU * worth;
+    PetscCall(StiffenForBarrier(tao, length));
+  }
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -263,6 +309,24 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Where the objective is linear, the curvature is that of the constraints with their first multipliers */
+static PetscErrorCode StartCurvature(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   sum;
+  PetscInt      n;
+
+  PetscFunctionBegin;
+  if (!ip->stiff.flat || (!ip->mi && !ip->me)) PetscFunctionReturn(0);
+  PetscCall(IPSetMultipliers(tao));
+  PetscCall(IPHessianEvaluate(tao));
+  PetscCall(IPStiffnessUpdate(tao));
+  PetscCall(VecSum(ip->stiff.hdiag, &sum));
+  PetscCall(VecGetSize(ip->stiff.hdiag, &n));
+  if (PetscRealPart(sum) > 0.0) ip->stiff.hscale = PetscRealPart(sum) / n;
+  PetscFunctionReturn(0);
+}
+
 /* Sets initial slacks, multipliers and mu. Needs the Hessian at x for the stiffness of the constraints. */
 PetscErrorCode IPStartPoint(Tao tao)
 {
@@ -280,6 +344,7 @@ PetscErrorCode IPStartPoint(Tao tao)
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
   if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(StartCurvature(tao));
   PetscCall(IPBarrierAverage(tao, &ip->bar.first));
   ip->bar.first = PetscMax(ip->bar.first, ip->mu);
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));

@@ -34,9 +34,12 @@ PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao)
 /* direction.c */
 PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
+PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPLineSearchLeave(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPLineSearchBeyond(Tao, PetscBool *);
 
 /* penalty.c */
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);

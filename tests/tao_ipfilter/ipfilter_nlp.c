@@ -16,13 +16,10 @@ static const struct {
   const char *name, *options, *skip; /* skip: ",the problems,that are not solved,"; why stands above them */
 } modes[NMODES] = {
   {"default", "-tao_max_it 200", ""},
-  /* a factorization meets no negative curvature: from its start on the diagonal bilinear2 ends in the saddle, which
-     is stationary, and so does HS98; rounding decides whether HS93 is solved: with the same library three of five
-     kernels of OpenBLAS (OPENBLAS_CORETYPE Haswell, Zen, Nehalem) end where restoration finds no step */
   {"direct",
     "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type "
     "mumps",
-    ",bilinear2,HS93,HS98,"},
+    ""},
   /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", ",HS104,"},
   /* differences know nothing of units as far apart as those of HS54 */

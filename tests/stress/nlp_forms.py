@@ -1,0 +1,84 @@
+"""TAOIPFILTER and IPOPT on the nonlinear programs of nlp.py written in other forms: tests/stress/nlp_forms.md. `make stress STRESS=nlp` runs this after nlp.py.
+
+slacks: every inequality c >= 0 as c - s = 0, s >= 0. slacks from zero: the same, with s = 0 at the start. epigraph: the objective f as t, t - f >= 0, from t = f.
+epigraph from zero: from t = 0. twice: every row twice. far rows: two rows more that never act, of 1e8 and 1e10.
+"""
+import math
+import os
+
+from nlp import HERE, KINDS, PROBLEMS, counts, differences, judge, parse, run, shipped, solvers
+from nlp_problems import Problem
+
+FUNCTIONS = {name: getattr(math, name) for name in ("exp", "sin", "cos", "cosh", "atan", "sqrt", "log", "tanh", "erf")}
+MOST_UNKNOWNS, MOST_ROWS = 50, 100  # tests/stress/nlp_read.h
+
+
+def rows(text):
+    return [row for row in text.split(";") if row.strip()]
+
+
+def value(formula, start):
+    """At the start; 0 where there is none"""
+    try:
+        return float(eval(formula.replace("^", "**"), {**FUNCTIONS, **{f"x{i}": float(x) for i, x in enumerate(start.split(), 1)}}))
+    except (ArithmeticError, ValueError, TypeError):
+        return 0.0
+
+
+def rewritten(p, start=(), bounds=(), **parts):
+    """The problem with some parts replaced, and unknowns more"""
+    n = len(p.start.split())
+    old = (p.bounds.split() + [":"] * n)[:n]
+    parts = {"objective": p.objective, "ge": rows(p.inequalities), "eq": rows(p.equalities), **parts}
+    return Problem(p.name, parts.pop("objective"), p.optimum, " ".join([*p.start.split(), *map(repr, start)]), bounds=" ".join([*old, *bounds]), others=p.others, end=p.end, **parts)
+
+
+def slacks(p, zero=False):
+    n, ge = len(p.start.split()), rows(p.inequalities)
+    if not ge:
+        return None
+    return rewritten(p, [0.0 if zero else max(value(row, p.start), 0.0) for row in ge], ["0:"] * len(ge), ge=[], eq=rows(p.equalities) + [f"{row}-x{n + k}" for k, row in enumerate(ge, 1)])
+
+
+def epigraph(p, zero=False):
+    n = len(p.start.split())
+    return rewritten(p, [0.0 if zero else value(p.objective, p.start)], [":"], objective=f"x{n + 1}", ge=[*rows(p.inequalities), f"x{n + 1}-({p.objective})"])
+
+
+def twice(p):
+    if not p.inequalities and not p.equalities:
+        return None
+    return rewritten(p, ge=2 * rows(p.inequalities), eq=2 * rows(p.equalities))
+
+
+def far(p):
+    return rewritten(p, ge=[*rows(p.inequalities), "1e8+x1", f"1e10-x{len(p.start.split())}"])
+
+
+FORMS = {"slacks": slacks, "slacks from zero": lambda p: slacks(p, True), "epigraph": epigraph, "epigraph from zero": lambda p: epigraph(p, True), "twice": twice, "far rows": far}
+
+
+def fits(p):
+    return p is not None and len(p.start.split()) <= MOST_UNKNOWNS and len(rows(p.inequalities)) + len(rows(p.equalities)) <= MOST_ROWS
+
+
+def main():
+    args = parse()
+    lines = ["# Nonlinear programs in other forms: TAOIPFILTER beside IPOPT", "", " ".join(__doc__.split("\n", 2)[2].split()) + " Judged as in nlp.md.", ""]
+    asked = [s for s in solvers(args.folder) if s.name in ("ipfilter", "IPOPT")]
+    for form, rewrite in FORMS.items():
+        problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS]) if fits(p)]
+        results = {s.name: run(s, problems, args.folder, args.limit) for s in asked}
+        for found in results.values():
+            for p in problems:
+                found[p.name].verdict = judge(p, found[p.name])
+        lines += [f"## {form}", "", *counts(problems, results), ""]
+        for left, right in (("ipfilter", "IPOPT"), ("IPOPT", "ipfilter")):
+            lines += [f"{right} has right, {left} not:", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right), ""]
+        print(form, *counts(problems, results), sep="\n", flush=True)
+    with open(os.path.join(args.out, "nlp_forms.md"), "w") as out:
+        out.write("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()
