@@ -17,7 +17,7 @@ for traceback in '' ' -traceback'; do
   # shellcheck disable=SC2086
   {
     try "all ranks$traceback" -n 3 "$contact" nowhere.yaml $traceback
-    try "a rank that knows$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -contact_gap wide
+    try "a rank that knows$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -tao_ipfilter_ksp_norm_type wide
     try "a rank that does not$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -load_steps 0
   }
 done
