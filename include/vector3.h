@@ -2,7 +2,7 @@
 #if !defined(VECTOR3_H)
   #define VECTOR3_H
 
-  #include <petscmath.h>
+  #include <petscsys.h>
 
 static inline PetscReal VectorDot(const PetscReal a[3], const PetscReal b[3])
 {

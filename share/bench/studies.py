@@ -76,7 +76,7 @@ def boomeramg(prefix, threshold, down, up):
 THRESHOLD = AMG + "pc_hypre_boomeramg_strong_threshold"
 ELASTIC_THRESHOLD = THRESHOLD.replace(IP, "-elasticity_")  # where there is no contact
 # option: what contact has built in, so that one run serves all studies; tests/doc/bench.sh holds this against the program
-BUILT_IN = {IP + "tol": "1e-8", IP + "forcing_reduce": "0.7", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
+BUILT_IN = {IP + "tol": "1e-8", IP + "pc_amgf_cycle": "fbf", IP + "pc_amgf_amg_lag": "auto", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2"}
 TUNED = (BUILT_IN[THRESHOLD], "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel")
 PUBLISHED = ("0.5", "l1scaled-SOR/Jacobi", "l1scaled-SOR/Jacobi")
 LONG = (IP + "ksp_max_it", "20000")
@@ -148,8 +148,6 @@ def algebraic_studies(size):
     yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, ("hertz_cylinder", *three), values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
     yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5, always=INTERIOR), default="adaptive")
-    reduce = values(IP + "forcing_reduce", "0.5", "0.7", "1", *(("2",) if size == "full" else ()))
-    yield Study("forcing_reduce", "Adaptive forcing: what a Newton system may leave of the last imbalance of forces", "share", turn(size, few(size, (*three, "beam_sphere_neo_hookean")), reduce, work=1.5, always=INTERIOR), default=BUILT_IN[IP + "forcing_reduce"])
 
 
 def path_studies(size):

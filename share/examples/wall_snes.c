@@ -123,7 +123,7 @@ int main(int argc, char **argv)
   PetscCall(SNESGetIterationNumber(snes, &newton));
   PetscCall(SNESGetLinearSolveIterations(snes, &linear));
   PetscCall(VecMax(u, NULL, &largest));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 15 linear iterations a Newton step: %s\n",
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "converged: %s\nat most 15 linear iterations per Newton step: %s\n",
     PetscBools[reason > 0], PetscBools[newton > 0 && linear <= 15 * newton]));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "beyond the wall by at most 1e-6: %s\n",
     PetscBools[largest > WALL && largest <= WALL + 1e-6]));

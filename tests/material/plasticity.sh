@@ -49,7 +49,7 @@ done
 "$contact" bars.yaml $options -checkpoint bars.h5 -checkpoint_every 3 -load_steps 5 -summary whole.json
 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part1.json
 mpiexec --oversubscribe -n 3 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part3.json
-"$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 2>&1 | sed 's/from the.*and [0-9]* of [0-9]*/from the .../'
+"$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 2>&1 | sed 's/[0-9]* of the [0-9]* quad/N of the N quad/'
 "$contact" tube.yaml $options -output tube -summary tube.json || echo "tube: exit code $?"
 "$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"; echo "collapse: exit code ${PIPESTATUS[0]}"
 sed 's/element: bbar/element: incompatible/; s/0.4999/0.3/' collapse.yaml > modes.yaml
