@@ -73,6 +73,8 @@ if sys.argv[1:] == ["scenes"]:
 else:
     for name in "sticks", "rubs", "slides", "eases":
         steps = load(name)["steps"]
+        slid = steps[0]["dissipated"] if name in ("slides", "eases") else 0  # when the grip closed
+        shear = 1e-3 if name in ("slides", "eases") else 1e-4
         first = steps[0]["energy"]  # contact updates end at a slip of 1e-6 of the displacements, some 1e-5 of the forces here
         for step in steps[1:]:
             pair, title = step["pairs"][0], "%s, turned by %d degrees: " % (name, 45 * (step["step"] - 1))
@@ -80,8 +82,8 @@ else:
             angle = math.radians(45 * (step["step"] - 1))
             turned = abs(pair["force"][0] - normal * math.sin(angle)) + abs(pair["force"][2] - normal * math.cos(angle))
             say(title + "the force turns with the plates", turned < 1e-4 * normal, pair["force"])
-            say(title + "all of it is normal force, and the sizes of shear are as before", within(pair["normal_force"], normal, 1e-4) and within(pair["shear_force"], steps[0]["pairs"][0]["shear_force"], 1e-3), pair)
-            say(title + "no energy is lost", within(step["energy"], first, 1e-4) and abs(step["dissipated"] - steps[0]["dissipated"]) < 1e-4 * first and abs(step["work"]) < 1e-3 * first, (step["energy"], first, step["work"]))
+            say(title + "all of it is normal force, and the sizes of shear are as before", within(pair["normal_force"], normal, 1e-4) and within(pair["shear_force"], steps[0]["pairs"][0]["shear_force"], shear), pair)
+            say(title + "no energy is lost", within(step["energy"], first, 1e-4) and abs(step["dissipated"] - slid) < 1e-4 * first and abs(step["work"]) < 1e-3 * first, (step["energy"], first, step["work"]))
     for name in "pin", "seam", "swapped":
         run = load(name)
         say(f"{name}: converged", run["converged"] and not run["warnings"], (run["reason"], run["warnings"]))
