@@ -37,21 +37,28 @@ static void CellMassConsistent(const CellState *cell, PetscScalar M[])
   }
 }
 
-/* Of unit density. Tetrahedra of 10 nodes, whose rule is not exact for products of their functions, are lumped */
+/* Rigid bodies have a consistent mass in any case, so that their moments of inertia are exact. Tetrahedra of 10 nodes,
+   whose rule is not exact for products of their functions, are lumped */
+static PetscBool CellMassIsConsistent(Elasticity e, const CellState *cell)
+{
+  return (PetscBool)((e->consistent || cell->body->rigid) && cell->n != 10);
+}
+
+/* Of unit density */
 static void CellMass(Elasticity e, const CellState *cell, PetscScalar M[])
 {
   for (PetscInt i = 0; i < 9 * cell->n * cell->n; ++i) M[i] = 0;
-  if (e->consistent && cell->n != 10) CellMassConsistent(cell, M);
+  if (CellMassIsConsistent(e, cell)) CellMassConsistent(cell, M);
   else CellMassLumped(e, cell, M);
 }
 
-/* K = (1 + viscosity) K + inertia M; a rigid body, whose stiffness is a scale only, has its mass alone */
+/* K = (1 + viscosity) K + inertia M; a rigid body, whose stiffness is a scale only, has its mass alone if it has one */
 void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
 {
   const Body *body = cell->body;
   PetscScalar M[9 * CELL_MAX_NODES * CELL_MAX_NODES];
 
-  if (e->inertia == 0) return;
+  if (e->inertia == 0 || body->density == 0) return;
   CellMass(e, cell, M);
   for (PetscInt i = 0; i < 9 * cell->n * cell->n; ++i)
     K[i] = (body->rigid ? 0 : (1 + e->viscosity) * K[i]) + e->inertia * body->density * M[i];
@@ -65,7 +72,7 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
   Input Parameters:
 + elasticity - the context
 . density    - of each body [mass/length^3]
-. consistent - whether the mass is integrated with products of shape functions; else it is lumped
+. consistent - whether the mass is integrated with products of shape functions; else it is lumped, but for rigid bodies
 - light      - global vector, positive at nodes without mass, which the other nodes of their cells have; lumped mass
                only; `NULL`: there are none
 
@@ -99,14 +106,16 @@ PetscErrorCode ElasticitySetMass(Elasticity e, const PetscReal density[], PetscB
   PetscFunctionReturn(0);
 }
 
-/* Lumped: blocks of nodes alone */
+/* Where all mass is lumped: blocks of nodes alone */
 static PetscErrorCode ElasticityCreateMassMatrix(Elasticity e, Mat *mass)
 {
-  Vec      global;
-  PetscInt n;
+  Vec       global;
+  PetscInt  n;
+  PetscBool coupled = e->consistent;
 
   PetscFunctionBegin;
-  if (e->consistent) {
+  for (PetscInt b = 0; b < e->nbodies; ++b) coupled = (PetscBool)(coupled || e->bodies[b].rigid);
+  if (coupled) {
     PetscCall(ElasticityCreateTangent(e, mass));
     PetscFunctionReturn(0);
   }
@@ -155,8 +164,11 @@ PetscErrorCode ElasticityCreateMass(Elasticity e, Mat *mass)
     CellMass(e, &cell, M);
     for (PetscInt i = 0; i < 9 * cell.n * cell.n; ++i) M[i] *= cell.body->density;
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
-    if (e->consistent) PetscCall(MatSetValuesBlocked(*mass, cell.n, rows, cell.n, rows, M, ADD_VALUES));
-    for (PetscInt a = 0; !e->consistent && a < cell.n; ++a) {
+    if (CellMassIsConsistent(e, &cell)) {
+      PetscCall(MatSetValuesBlocked(*mass, cell.n, rows, cell.n, rows, M, ADD_VALUES));
+      continue;
+    }
+    for (PetscInt a = 0; a < cell.n; ++a) {
       PetscScalar block[9] = {0};
 
       for (PetscInt d = 0; d < 3; ++d) block[4 * d] = M[(3 * a + d) * (3 * cell.n + 1)];

@@ -41,6 +41,23 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
+/* A rigid body needs mass only where forces move it */
+static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, const char file[], Scene scene, const SceneDisplacement *d)
+{
+  PetscBool   released = PETSC_FALSE;
+  const char *face;
+  PetscInt    b;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 6; ++i) released = (PetscBool)(released || d->released[i]);
+  if (!SceneIsDynamic(scene) || !released) PetscFunctionReturn(0);
+  b = SceneFindBody(scene, d->face, &face);
+  SceneRequire(scene->bodies[b].material.density > 0,
+    "%s: displacement \"%s\" leaves motions of the rigid body \"%s\" free, which needs a density in dynamics", file,
+    d->name, scene->bodies[b].name);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscBool same;
@@ -55,6 +72,7 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
       "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its "
       "normal is written - cut: {face: %s, normal: x}",
       file, here->name, here->face, here->face);
+    PetscCall(SceneValidateRigidMass(comm, file, scene, here));
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 

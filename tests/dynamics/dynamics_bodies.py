@@ -22,7 +22,7 @@ probes:
 dynamics: {time_step: 2e-6, end_time: 80e-6}
 """
 SLIDE = """bodies:
-  - floor: {lower: [-1, -1, -0.2], upper: [4, 2, 0], cells: [10, 3, 1], material: rigid, density: 1}
+  - floor: {lower: [-1, -1, -0.2], upper: [4, 2, 0], cells: [10, 3, 1], material: rigid}
   - block: {lower: [0, 0, 0], upper: [1, 1, 0.5], cells: [2, 2, 1], young: 1e4, poisson: 0.2, density: 1, initial_velocity: [2, 0, 0]}
 displacements:
   - fix: {body: floor, value: [0, 0, 0]}
@@ -52,7 +52,15 @@ probes:
   - middle: {point: [0.5, 0.5, 0.5], body: ball}
 dynamics: {time_step: 0.05, end_time: 1, mass: lumped}
 """
-SCENES = {"bars": BARS, "bars_alpha": BARS.replace("80e-6", "80e-6, scheme: generalized_alpha"), "slide": SLIDE, "bounce": BOUNCE,
+TURN = """bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], material: rigid, density: 1, initial_spin: [0, 0, 1]}
+  - other: {lower: [5, 0, 0], upper: [6, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0, density: 1}
+displacements:
+  - free: {body: cube, value: [free, free, free], rotation: [free, free, free], center: [0.5, 0.5, 0.5]}
+  - fix: {face: other.xmin, value: [0, 0, 0]}
+dynamics: {time_step: 0.02, end_time: 1.6}
+"""
+SCENES = {"turn": TURN, "massless": TURN.replace("material: rigid, density: 1", "material: rigid"), "bars": BARS, "bars_alpha": BARS.replace("80e-6", "80e-6, scheme: generalized_alpha"), "slide": SLIDE, "bounce": BOUNCE,
           "bounce_damped": BOUNCE.replace("end_time: 0.4", "end_time: 0.4, damping_mass: 2"), "spin": SPIN, "rigid": RIGID}
 
 
@@ -99,3 +107,7 @@ else:
     run = history("rigid")
     say("rigid: x = 3 t, z = t - 5 t^2", all(abs(x - 3 * t) < 1e-8 and abs(z - (t - 5 * t * t)) < 1e-6 for t, x, z in zip(run["time"], run["middle.displacement_x"], run["middle.displacement_z"])),
         (run["middle.displacement_x"][-1], run["middle.displacement_z"][-1]))
+    run = history("turn")
+    spin, total = run["dynamics.angular_momentum_z"], run["dynamics.total_energy"]
+    say("turn: moment of inertia of a cube, m/6, within 0.1 %", within(spin[0], 1 / 6, 1e-3) and within(total[0], 1 / 12, 1e-3), (spin[0], total[0]))
+    say("turn: 1.6 radians within 2 %, energy falls by less than 4 %", within(run["cube.rotation_z"][-1], 91.67, 0.02) and -0.04 < total[-1] / total[0] - 1 <= 0, (run["cube.rotation_z"][-1], total))

@@ -69,7 +69,7 @@ PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const char owner[
     body->name, (double)body->material.density);
   if (SceneIsDynamic(scene)) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
-    DynamicsRequire(body->material.density > 0.0, keys, key,
+    DynamicsRequire(body->material.density > 0.0 || body->material.type == MATERIAL_RIGID, keys, key,
       "body \"%s\" has no density, which dynamics needs: the key \"%s_density\" is missing, or 0", body->name, owner);
   } else {
     PetscCall(PetscSNPrintf(key, sizeof(key), "%s_initial_velocity", owner));
