@@ -72,9 +72,10 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
   Input Parameters:
 + elasticity - the context
 . density    - of each body [mass/length^3]
-. consistent - whether the mass is integrated with products of shape functions; else it is lumped, but for rigid bodies
-- light      - global vector, positive at nodes without mass, which the other nodes of their cells have; lumped mass
-               only; `NULL`: there are none
+. consistent - whether the mass is consistent, the integral of products of shape functions, or lumped. That of rigid
+               bodies is consistent in both cases
+- light      - global vector, positive at the nodes that have no lumped mass. The other nodes of their cells carry it.
+               `NULL`: there are no such nodes
 
   Level: intermediate
 
@@ -106,7 +107,7 @@ PetscErrorCode ElasticitySetMass(Elasticity e, const PetscReal density[], PetscB
   PetscFunctionReturn(0);
 }
 
-/* Where all mass is lumped: blocks of nodes alone */
+/* The pattern of the tangent if any mass is consistent. Lumped mass needs only the 3 x 3 blocks on the diagonal */
 static PetscErrorCode ElasticityCreateMassMatrix(Elasticity e, Mat *mass)
 {
   Vec       global;

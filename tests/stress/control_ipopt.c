@@ -1,5 +1,6 @@
 /*
-   IPOPT beside TAOIPFILTER on distributed control: the problem of tests/tao_ipfilter/ipfilter_control.c, with IPOPT's defaults.
+   IPOPT beside TAOIPFILTER on distributed control: the problem of tests/tao_ipfilter/ipfilter_control.c. IPOPT has
+   its defaults.
    Arguments: points in each direction, alpha, and if need be the bound of the state. A program of its own, as
    nlp_ipopt.c.
 */

@@ -1,6 +1,6 @@
 static char help[] =
   "A solver of TAO, ipfilter unless -tao_type names another, on problems that tests/stress/nlp.py wrote.\n\
-  -problems FILE    the problems; without it, those of tests/tao_ipfilter/ipfilter_nlp.h are printed as Python reads them\n\
+  -problems FILE    the problems; without it, those of tests/tao_ipfilter/ipfilter_nlp.h are printed\n\
   -first K          begin with the problem number K\n\
 A line a problem: name, how it ended, objective, violation, iterations, points evaluated, seconds, sentence.\n\n";
 

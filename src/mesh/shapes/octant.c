@@ -4,7 +4,7 @@
 typedef struct {
   PetscInt  n[3], layers, ncore, nsurface; /* number of vertices of the core, and of one layer outside of it */
   PetscBool core;
-  PetscInt *surface; /* number on the far sides of each vertex of the core's lattice; PETSC_DECIDE inside */
+  PetscInt *surface; /* number of each vertex of the core's lattice on the core's outer sides; PETSC_DECIDE inside */
 } Octant;
 
 typedef struct {

@@ -80,7 +80,8 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionReturn(0);
 }
 
-/* <owner>_<constant>, each required unless the material has a name, whose constants it then replaces */
+/* Reads the constants of a material law from the keys <owner>_<constant>. All are required, unless the body names a
+   material: then they replace those of the named one */
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
   const MaterialLaw *law;
