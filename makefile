@@ -84,12 +84,15 @@ demo-published: dependencies
 	@$(quiet_build)
 	bin/contact share/scenes/two_block.yaml -output build/demo/two_block
 
+# One test more than cores: a run waits for its MPI half of a second before it computes
+TESTS_PARALLEL = $(if $(PARALLEL),-j$(shell expr $(CORES) + 1))
+
 check: dependencies
-	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check
+	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check
 
 # Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are for
 check-all: dependencies
-	@$(MAKE) --no-print-directory -f tests/makefile $(PARALLEL) check LONG=1
+	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check LONG=1
 
 # STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which need IPOPT; else parts and
 # options of tests/stress/run.py
