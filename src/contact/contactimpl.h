@@ -11,7 +11,7 @@ PETSC_INTERN PetscErrorCode ContactDeform(Contact, Vec u);
 
 /* penetration.c: only public functions */
 
-/* contact.c, linearize.c, initial_overlap.c: only public functions (the object, its gap, the check for deep initial
-   overlaps) */
+/* contact.c creates the contact object, linearize.c its gap, and initial_overlap.c checks for deep initial overlaps.
+   They have public functions only */
 
 #endif

@@ -1,21 +1,7 @@
 static char help[] =
   "Constitutive laws: stress and tangent against differences, small and rigid motions, bad parameters.\n\n";
 
-#include <material.h>
-
-/* A smooth rough sequence in [-1, 1] */
-static PetscReal Rough(PetscInt i)
-{
-  return PetscSinReal(12.9898 * (PetscReal)(i + 1) + 1.3 * (PetscReal)(i * i));
-}
-
-static PetscErrorCode Report(const char name[], PetscReal value, PetscReal tolerance)
-{
-  PetscFunctionBeginUser;
-  if (value <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: below %g\n", name, (double)tolerance));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: %g, NOT below %g\n", name, (double)value, (double)tolerance));
-  PetscFunctionReturn(0);
-}
+#include "material_differences.h"
 
 /* Largest errors of P against differences of W, of A against differences of P, and of A's symmetry */
 static PetscErrorCode CheckDerivatives(const MaterialLaw *law, const MaterialModuli *m)
@@ -30,23 +16,7 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, const MaterialMod
     for (PetscInt i = 0; i < 9; ++i) H[i] = 0.25 * Rough(9 * sample + i);
     law->stress(m, H, P);
     law->tangent(m, H, A);
-    for (PetscInt j = 0; j < 9; ++j) {
-      const PetscReal keep = H[j];
-      PetscReal       forward, backward, Pf[9], Pb[9];
-
-      H[j]    = keep + h;
-      forward = law->energy(m, H);
-      law->stress(m, H, Pf);
-      H[j]     = keep - h;
-      backward = law->energy(m, H);
-      law->stress(m, H, Pb);
-      H[j]      = keep;
-      errors[0] = PetscMax(errors[0], PetscAbsReal((forward - backward) / (2 * h) - P[j]));
-      for (PetscInt i = 0; i < 9; ++i) {
-        errors[1] = PetscMax(errors[1], PetscAbsReal((Pf[i] - Pb[i]) / (2 * h) - A[9 * i + j]));
-        errors[2] = PetscMax(errors[2], PetscAbsReal(A[9 * i + j] - A[9 * j + i]));
-      }
-    }
+    RaiseDerivativeErrors(law, m, h, H, P, A, errors);
   }
   PetscCall(Report("stress against differences of the energy", errors[0], 1e-8));
   PetscCall(Report("tangent against differences of the stress", errors[1], 1e-8));

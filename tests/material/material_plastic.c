@@ -2,7 +2,7 @@ static char help[] =
   "Plasticity of von Mises at a point: derivatives against differences, the energy over a step's end, "
   "bars in closed form, convexity, bad parameters.\n\n";
 
-#include <material.h>
+#include "material_differences.h"
 
 #define YOUNG   2.6
 #define POISSON 0.3
@@ -16,20 +16,6 @@ static const Material materials[] = {
       {.yield = 0.1, .modulus = 0.05, .strains = {4, {0, 0.02, 0.1, 0.25}}, .stresses = {4, {0.1, 0.13, 0.13, 0.2}}}},
 };
 static const char *const names[] = {"perfect", "linear", "kinematic", "Voce and kinematic", "table and linear"};
-
-/* A smooth rough sequence in [-1, 1] */
-static PetscReal Rough(PetscInt i)
-{
-  return PetscSinReal(12.9898 * (PetscReal)(i + 1) + 1.3 * (PetscReal)(i * i));
-}
-
-static PetscErrorCode Report(const char name[], PetscReal value, PetscReal tolerance)
-{
-  PetscFunctionBeginUser;
-  if (value <= tolerance) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: below %g\n", name, (double)tolerance));
-  else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s: %g, NOT below %g\n", name, (double)value, (double)tolerance));
-  PetscFunctionReturn(0);
-}
 
 /* The yield stress by its definition, and its integral by Simpson's rule between the points of a table */
 static PetscReal YieldStress(const MaterialHardening *h, PetscReal a)
@@ -65,23 +51,7 @@ static PetscErrorCode CheckDerivatives(const MaterialLaw *law, MaterialModuli *m
     W = law->energy(m, H);
     law->stress(m, H, P);
     law->tangent(m, H, A);
-    for (PetscInt j = 0; j < 9; ++j) {
-      const PetscReal keep = H[j];
-      PetscReal       forward, backward, Pf[9], Pb[9];
-
-      H[j]    = keep + h;
-      forward = law->energy(m, H);
-      law->stress(m, H, Pf);
-      H[j]     = keep - h;
-      backward = law->energy(m, H);
-      law->stress(m, H, Pb);
-      H[j]      = keep;
-      errors[0] = PetscMax(errors[0], PetscAbsReal((forward - backward) / (2 * h) - P[j]));
-      for (PetscInt i = 0; i < 9; ++i) {
-        errors[1] = PetscMax(errors[1], PetscAbsReal((Pf[i] - Pb[i]) / (2 * h) - A[9 * i + j]));
-        errors[2] = PetscMax(errors[2], PetscAbsReal(A[9 * i + j] - A[9 * j + i]));
-      }
-    }
+    RaiseDerivativeErrors(law, m, h, H, P, A, errors);
     nplastic += law->advance(m, H, after);
     m->history = after;
     law->stress(m, H, Q);
