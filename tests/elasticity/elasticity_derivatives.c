@@ -91,41 +91,6 @@ static PetscErrorCode CheckRigid(Elasticity e, DM dm, const char name[], Field m
   PetscFunctionReturn(0);
 }
 
-/* Central differences along a direction d: energy against force, force against tangent */
-static PetscErrorCode CheckDifferences(Elasticity e, Vec u, Vec d, Mat K)
-{
-  const PetscReal h = 1e-5;
-  Vec             f, w, Kd;
-  PetscReal       forward, backward, slope, norm, scale;
-  PetscScalar     work;
-
-  PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(u, &f));
-  PetscCall(VecDuplicate(u, &w));
-  PetscCall(VecDuplicate(u, &Kd));
-  PetscCall(ElasticityForce(e, u, f));
-  PetscCall(VecDot(f, d, &work));
-  PetscCall(MatMult(K, d, Kd));
-  PetscCall(VecNorm(Kd, NORM_2, &scale));
-  PetscCall(VecWAXPY(w, h, d, u));
-  PetscCall(ElasticityEnergy(e, w, &forward));
-  PetscCall(ElasticityForce(e, w, f));
-  PetscCall(VecAXPY(Kd, -1 / (2 * h), f));
-  PetscCall(VecWAXPY(w, -h, d, u));
-  PetscCall(ElasticityEnergy(e, w, &backward));
-  PetscCall(ElasticityForce(e, w, f));
-  PetscCall(VecAXPY(Kd, 1 / (2 * h), f));
-  PetscCall(VecNorm(Kd, NORM_2, &norm));
-  slope = (forward - backward) / (2 * h);
-  PetscCall(ProblemReport("force against differences of the energy, relative",
-    PetscAbsReal(slope - PetscRealPart(work)) / PetscAbsReal(slope), 1e-7));
-  PetscCall(ProblemReport("tangent against differences of the force, relative", norm / scale, 1e-7));
-  PetscCall(VecDestroy(&Kd));
-  PetscCall(VecDestroy(&w));
-  PetscCall(VecDestroy(&f));
-  PetscFunctionReturn(0);
-}
-
 /* a.K b = b.K a */
 static PetscErrorCode CheckSymmetry(Mat K, Vec a, Vec b)
 {
@@ -166,7 +131,7 @@ static PetscErrorCode CheckRotated(Elasticity e, DM dm, Vec u, Vec d, Mat K)
   PetscCall(ProblemReport("change of the energy, relative", PetscAbsReal(turned - energy) / energy, 1e-12));
   PetscCall(ProblemReport("force less the rotated one, relative", error / scale, 1e-12));
   PetscCall(ElasticityTangent(e, rotated, K));
-  PetscCall(CheckDifferences(e, rotated, d, K));
+  PetscCall(ProblemCheckDifferences(e, rotated, d, K, 1e-5, 1e-7, 1e-7));
   PetscCall(CheckSymmetry(K, u, d));
   PetscCall(ElasticityTangent(e, u, K));
   PetscCall(VecDestroy(&fr));
@@ -319,7 +284,7 @@ int main(int argc, char **argv)
   PetscCall(ElasticityTangent(e, u, K));
   PetscCall(ElasticityEnergy(e, u, &energy));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "energy %.9e\n", (double)energy));
-  PetscCall(CheckDifferences(e, u, d, K));
+  PetscCall(ProblemCheckDifferences(e, u, d, K, 1e-5, 1e-7, 1e-7));
   PetscCall(CheckSymmetry(K, u, d));
   if (type != MATERIAL_LINEAR) PetscCall(CheckRotated(e, dm, u, d, K));
   PetscCall(CheckPrescribed(e, dm, u, d, K));

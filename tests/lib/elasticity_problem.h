@@ -247,4 +247,40 @@ static inline PetscErrorCode ProblemReport(const char name[], PetscReal value, P
   PetscFunctionReturn(0);
 }
 
+/* Central differences with step h along a direction d: the force against the energy, and the tangent K at u against
+   the force */
+static inline PetscErrorCode ProblemCheckDifferences(Elasticity e, Vec u, Vec d, Mat K, PetscReal h,
+  PetscReal force_tolerance, PetscReal tangent_tolerance)
+{
+  Vec         f, w, Kd;
+  PetscReal   forward, backward, slope, norm, scale;
+  PetscScalar work;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(u, &f));
+  PetscCall(VecDuplicate(u, &w));
+  PetscCall(VecDuplicate(u, &Kd));
+  PetscCall(ElasticityForce(e, u, f));
+  PetscCall(VecDot(f, d, &work));
+  PetscCall(MatMult(K, d, Kd));
+  PetscCall(VecNorm(Kd, NORM_2, &scale));
+  PetscCall(VecWAXPY(w, h, d, u));
+  PetscCall(ElasticityEnergy(e, w, &forward));
+  PetscCall(ElasticityForce(e, w, f));
+  PetscCall(VecAXPY(Kd, -1 / (2 * h), f));
+  PetscCall(VecWAXPY(w, -h, d, u));
+  PetscCall(ElasticityEnergy(e, w, &backward));
+  PetscCall(ElasticityForce(e, w, f));
+  PetscCall(VecAXPY(Kd, 1 / (2 * h), f));
+  PetscCall(VecNorm(Kd, NORM_2, &norm));
+  slope = (forward - backward) / (2 * h);
+  PetscCall(ProblemReport("force against differences of the energy, relative",
+    PetscAbsReal(slope - PetscRealPart(work)) / PetscAbsReal(slope), force_tolerance));
+  PetscCall(ProblemReport("tangent against differences of the force, relative", norm / scale, tangent_tolerance));
+  PetscCall(VecDestroy(&Kd));
+  PetscCall(VecDestroy(&w));
+  PetscCall(VecDestroy(&f));
+  PetscFunctionReturn(0);
+}
+
 #endif
