@@ -25,6 +25,7 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   Vec local, mean = NULL;
 
   PetscFunctionBegin;
+  PetscCall(ContactSmoothFind(contact, u));
   PetscCall(DMGetLocalVector(contact->dm, &local));
   PetscCall(DMGlobalToLocal(contact->dm, u, INSERT_VALUES, local));
   if (contact->trace) {
@@ -66,8 +67,8 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
   has no row.
 
-  Faces of order 2 are cut into facets at their nodes. Smooth mortar pairs have patches then, on planes too, that follow
-  what the faces bend; the vertices of others move with the mean displacement of the faces about them. J spreads forces
+  Faces of order 2 are cut into facets at their nodes. The patches of smooth mortar pairs follow what the faces bend;
+  the vertices of others, and of plane faces, move with the mean displacement of the faces about them. J spreads forces
   so that a uniform pressure is the same load as on the quadratic face.
 
   Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on

@@ -34,7 +34,7 @@ typedef struct {
    displacement (trace.c). */
 static inline PetscBool ContactPairFollows(const ContactPairData *pair)
 {
-  return (PetscBool)(pair->smooth && pair->gap != GAP_NODE);
+  return (PetscBool)(pair->mortar.patched && pair->gap != GAP_NODE);
 }
 
 /* All possible rows, before any is dropped: for each pair in turn, the nonmortar vertices that this rank owns */
@@ -79,7 +79,7 @@ struct _n_Contact {
   ContactNormals           normals;
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
-  PetscBool                smoothed;      /* whether ContactSmoothDeform() has found the curved pairs */
+  PetscBool                smoothed;      /* whether ContactSmoothFind() has found the curved pairs */
   ContactSmoothNormals     bends;
   Mat         trace;     /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
   ContactRule rule;      /* of the triangles that overlaps are cut into */
@@ -105,6 +105,7 @@ PETSC_INTERN PetscErrorCode ContactSmoothNormalsUpdate(Contact);
 PETSC_INTERN PetscErrorCode ContactSmoothNormalsDestroy(Contact);
 
 /* smooth.c: finds the curved pairs and computes their smooth surfaces */
+PETSC_INTERN PetscErrorCode ContactSmoothFind(Contact, Vec);
 PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
 PETSC_INTERN PetscErrorCode ContactSmoothReset(Contact);
 

@@ -1,5 +1,6 @@
-/* Finds the pairs with a curved face, or with an order-2 face that bends between its nodes, and computes the normals
-   of their smooth surfaces at each displacement. Pairs of plane order-1 faces cost nothing. */
+/* Finds the pairs with a curved face, and computes the normals of their smooth surfaces at each displacement. Pairs of
+   plane faces cost nothing. Plane faces of order 2 have no smooth surface either: it would overshoot beside an edge of
+   the other body, where they bend sharply. */
 #include "assemblyimpl.h"
 
 /* A surface is curved if it differs from its facets by more than this fraction of an edge; less is rounding of the
@@ -32,7 +33,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the rings around both faces, and destroys them again if both are plane and of order 1 */
+/* Collective. Creates the rings around both faces; patched: whether one of them is curved before it deforms */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
   const PetscReal cosine     = PetscCosReal(CONTACT_FEATURE_ANGLE * PETSC_PI / 180.0);
@@ -53,9 +54,7 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPIU_REAL, MPIU_MAX, contact->comm));
   pair->bulge = largest[0] + largest[1];
-  for (PetscInt k = 0; k < 2; ++k)
-    surface[k]->patched =
-      (PetscBool)(pair->mortar.cut || pair->nonmortar.cut || PetscMax(largest[2], largest[3]) > CURVED);
+  for (PetscInt k = 0; k < 2; ++k) surface[k]->patched = (PetscBool)(PetscMax(largest[2], largest[3]) > CURVED);
   PetscFunctionReturn(0);
 }
 
@@ -71,8 +70,23 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the smooth surfaces at a displacement; the surfaces have been deformed already. The first
-   call finds which pairs are smooth. */
+/* Collective. Finds which pairs are smooth, once; u: any displacement vector */
+PetscErrorCode ContactSmoothFind(Contact contact, Vec u)
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs && !contact->smoothed; ++p) {
+    ContactPairData *pair = &contact->pairs[p];
+
+    if (!pair->smooth) continue;
+    PetscCall(SmoothPair(contact, u, pair));
+    if (!pair->mortar.patched) PetscCall(SharpenPair(pair));
+  }
+  if (!contact->smoothed) PetscCall(ContactSmoothNormalsCreate(contact));
+  contact->smoothed = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes the smooth surfaces at a displacement; the surfaces have been deformed already */
 PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
 {
   PetscReal bulge, curvature;
@@ -81,19 +95,13 @@ PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
 
-    if (!contact->smoothed && pair->smooth) {
-      PetscCall(SmoothPair(contact, u, pair));
-      if (!pair->mortar.patched) PetscCall(SharpenPair(pair));
-    }
     if (!pair->mortar.patched) continue;
     PetscCall(ContactRingDeform(u, &pair->mortar_ring));
     PetscCall(ContactRingDeform(u, &pair->nonmortar_ring));
     PetscCall(PatchSurface(&pair->mortar_ring, &pair->mortar, &bulge, &curvature));
     PetscCall(PatchSurface(&pair->nonmortar_ring, &pair->nonmortar, &bulge, &curvature));
   }
-  if (!contact->smoothed) PetscCall(ContactSmoothNormalsCreate(contact));
   PetscCall(ContactSmoothNormalsUpdate(contact));
-  contact->smoothed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Forces of elements of order 1 and 2 where contact ends at an edge, mesh by mesh: sharp.md
+
+    share/bench/sharp.py [--only NAME] [--limit SECONDS] [--folder build/sharp] [--page FILE]
+"""
+import argparse
+import os
+import re
+import resource
+import subprocess
+import sys
+
+from references import richardson
+from runner import environment, read_summary
+from store import CONTACT
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# The sliding of ironing is left out after its second load step
+SHORTER = (("steps: 10", "steps: 5"), ("1/3, 2/3, 1, 1, 1, 1, 1, 1, 1, 1", "1/3, 2/3, 1, 1, 1"), ("0, 0, 0, 1/7, 2/7, 3/7, 4/7, 5/7, 6/7, 1", "0, 0, 0, 1/7, 2/7"))
+PUNCH = """bodies:
+  - slab: {lower: [0, 0, -2], upper: [3, 0.2, 0], cells: [12, 1, 8], young: 1, poisson: 0.3}
+  - punch: %s
+displacements:
+  - bottom: {face: slab.zmin, value: [0, 0, 0]}
+  - top: {face: punch.zmax, value: [0, 0, -0.05]}
+symmetry:
+  - slab.xmin
+  - slab.ymin
+  - slab.ymax
+  - middle: {face: punch.xmin, normal: x}
+  - front: {face: punch.ymin, normal: y}
+  - back: {face: punch.ymax, normal: y}
+contact:
+  - press: {mortar: slab.zmax, nonmortar: punch.zmin}
+"""
+SHARP = "{lower: [0, 0, 0], upper: [1, 0.2, 1], cells: [6, 1, 6], young: 1000, poisson: 0}"
+ROUND = "{mesh: %s, volume: punch, young: 1000, poisson: 0}"
+LEVELS = {1: (0, 1, 2, 3), 2: (0, 1, 2)}  # refinements by order
+# problem: the same for a mesh that is finer from the start
+LESS = {"two_block": {1: (0, 1, 2), 2: (0, 1)}, "ironing": {1: (0, 1, 2), 2: (0, 1)}}
+TITLES = {"two_block": "two_block, second load step", "sharp punch": "flat punch with a sharp edge, plane strain", "rounded punch": "flat punch with a rounded edge, plane strain", "ironing": "ironing, pressed and slid by 2/7"}
+
+
+def example(name):
+    with open(os.path.join(TOP, "share", "scenes", name + ".yaml")) as file:
+        return file.read()
+
+
+def rounded(factor, path):
+    """An Abaqus deck of the punch: half of it, 1 wide, flat to 0.6, then an arc of radius 0.8"""
+    nx, nz, radius, flat = 6 * factor, 6 * factor, 0.8, 0.6
+    bottom = lambda x: 0.0 if x <= flat else radius - (radius**2 - (x - flat) ** 2) ** 0.5  # noqa: E731
+    number = lambda i, j, k: 1 + i + (nx + 1) * (j + 2 * k)  # noqa: E731
+    lines, sets = ["*NODE"], {"xmin": [], "ymin": [], "ymax": [], "zmin": [], "zmax": []}
+    for k in range(nz + 1):
+        for j in range(2):
+            for i in range(nx + 1):
+                x, low = i / nx, bottom(i / nx)
+                lines.append(f"{number(i, j, k)}, {x:.15g}, {0.2 * j}, {low + (1 - low) * k / nz:.15g}")
+    lines.append("*ELEMENT, TYPE=C3D8, ELSET=punch")
+    for k in range(nz):
+        for i in range(nx):
+            e = 1 + i + nx * k
+            corners = [number(i + a, b, k + c) for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+            lines.append(", ".join(map(str, (e, *corners))))
+            sets["ymin"].append((e, 3))
+            sets["ymax"].append((e, 5))
+            if i == 0:
+                sets["xmin"].append((e, 6))
+            if k == 0:
+                sets["zmin"].append((e, 1))
+            if k == nz - 1:
+                sets["zmax"].append((e, 2))
+    for name, sides in sets.items():
+        lines += [f"*SURFACE, NAME={name}, TYPE=ELEMENT", *(f"{e}, S{side}" for e, side in sides)]
+    with open(path, "w") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def scene(problem, order, level, folder):
+    """The text of a scene, whose bodies are of an order"""
+    if problem == "two_block":
+        text = re.sub(r"^(contact_updates|refine):.*\n", "", example("two_block"), flags=re.M)
+    elif problem == "ironing":
+        text = re.sub(r"^refine:.*\n", "", example("ironing"), flags=re.M)
+        for old, new in SHORTER:
+            text = text.replace(old, new)
+    elif problem == "sharp punch":
+        text = PUNCH % SHARP
+    else:
+        rounded(2**level, os.path.join(folder, f"punch_{level}.inp"))
+        text = PUNCH % (ROUND % f"punch_{level}.inp")
+        text = text.replace("cells: [12, 1, 8]", f"cells: [{12 * 2**level}, 1, {8 * 2**level}]")
+    element = f"order: {order}, element: bbar"
+    text = re.sub(r"(poisson: [\d.]+)\}", rf"\1, {element}}}", text)
+    text = re.sub(r"^( +)(poisson: [\d.]+)$", rf"\1\2\n\1order: {order}\n\1element: bbar", text, flags=re.M)
+    return text + ("" if problem == "rounded punch" else f"refine: {level}\n")
+
+
+def run(problem, order, level, folder, limit):
+    """Unknowns, vertical force, contact updates of the last load step, user seconds, exit code"""
+    base = os.path.join(folder, f"{problem.replace(' ', '_')}_{order}_{level}")
+    with open(base + ".yaml", "w") as file:
+        file.write(scene(problem, order, level, folder))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    try:
+        done = subprocess.run([CONTACT, base + ".yaml", "-quiet", "-error_estimate", "0", "-contact_updates", "40", "-summary", base + ".json"], env=environment(), capture_output=True, text=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return None
+    seconds, summary = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, read_summary(base)
+    if not summary or not summary["steps"]:
+        print(done.stderr, file=sys.stderr)
+        return None
+    last = summary["steps"][-1]
+    return summary["dofs"], abs(last["contact_force"][2]), last["contact_updates"], seconds, done.returncode
+
+
+def limit_of(found):
+    """The force that three meshes, or two with order 1 of convergence, tend to"""
+    forces = [entry[1] for entry in found if entry]
+    if len(forces) < 2:
+        return None
+    if len(forces) > 2:
+        return richardson([0.5**n for n in range(3)], forces[-3:])[0]
+    return 2 * forces[1] - forces[0]
+
+
+def page(results):
+    yield "# Order 2 where contact ends at an edge\n"
+    yield "`share/bench/sharp.py` makes this page. Element `bbar`, a true gap. Forces of plane problems are those of a layer of 0.2. The limit is extrapolated from the"
+    yield "last three meshes, from two under the assumption that the error is proportional to the size of a cell.\n"
+    yield "Faces of order 2 that are plane before they deform are facets in the gap. Smooth surfaces through their deformed"
+    yield "nodes overshoot where the face bends sharply beside an edge of the other body, and no consistent gap was found.\n"
+    yield "| problem | order | refinement | unknowns | force | contact updates, last load step | user time [s] | exit code | limit of the force |"
+    yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+    for (problem, order), found in results.items():
+        limit = limit_of(list(found.values()))
+        for level, entry in found.items():
+            ending = f"{limit:.4g}" if limit and level == max(found) else ""
+            cells = f"{entry[0]:,} | {entry[1]:.5g} | {entry[2]} | {entry[3]:.2f} | {entry[4]}" if entry else "- | - | - | - | -"
+            yield f"| {TITLES[problem]} | {order} | {level} | {cells} | {ending} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--only", default="", help="problems whose name has this")
+    parser.add_argument("--finest", type=int, default=9, help="refinements at most")
+    parser.add_argument("--limit", type=float, default=600.0, help="seconds a run")
+    parser.add_argument("--folder", default=os.path.join(TOP, "build", "sharp"))
+    parser.add_argument("--page", help="file to write; else the page is printed")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.folder, exist_ok=True)
+    results = {}
+    for problem in (name for name in TITLES if arguments.only in name):
+        for order in (1, 2):
+            levels = LESS.get(problem, LEVELS)[order]
+            results[problem, order] = {level: run(problem, order, level, arguments.folder, arguments.limit) for level in levels if level <= arguments.finest}
+    text = "\n".join(page(results)) + "\n"
+    if arguments.page:
+        with open(arguments.page, "w") as file:
+            file.write(text)
+    else:
+        print(text, end="")
+
+
+if __name__ == "__main__":
+    main()
