@@ -125,9 +125,9 @@ typedef struct {
   PetscReal    slip_change;  /* largest difference between the linearized slip and the slip at the state, where there is
                              pressure [length] */
   PetscReal    straightened; /* correction of the last linearized rotations of rigid bodies [length] */
-  PetscReal    untruth;      /* largest of gap_change, slip_change and the length equivalent of normals_turn [length] */
-  PetscBool    gap_untrue;   /* untruth exceeds the tolerance: contact_updates was reached first */
-  PetscInt     gap_damped;   /* contact updates that were damped because they did not converge */
+  PetscReal    update_error; /* largest of gap_change, slip_change and the length equivalent of normals_turn [length] */
+  PetscBool    gap_unconverged;  /* update_error exceeds the tolerance: contact_updates was reached first */
+  PetscInt     gap_damped;       /* contact updates that were damped because they did not converge */
   PetscReal    complementarity;  /* max s z [force/length] */
   PetscReal    algebraic_error;  /* relative error in energy from the solver: products of gap and pressure, force
                                  residual, inconsistent gap */
@@ -284,7 +284,7 @@ typedef enum {
   RUN_CONVERGED       = 0,
   RUN_REFUSED         = 1, /* bad input: the scene, an option, a file */
   RUN_FAILED          = 2, /* a load step did not converge */
-  RUN_GAP_UNTRUE      = 3, /* a load step ended with an inconsistent contact gap */
+  RUN_GAP_UNCONVERGED = 3, /* a load step ended with an inconsistent contact gap */
   RUN_ACCURACY_MISSED = 4, /* the requested accuracy was not reached */
   RUN_INTERRUPTED     = 5, /* ended by a signal */
   RUN_OUTPUT_LOST     = 6, /* results could not be written */

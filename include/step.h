@@ -13,11 +13,11 @@ typedef struct _n_Simulation *Simulation;
 
 /* Tolerances of the solvers of a run; options override them */
 typedef struct {
-  PetscReal optimizer;  /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's default */
-  PetscReal linear;     /* relative residual of PCG for a load step without TAO */
-  PetscReal gap_change; /* change of the gap that ends the contact updates, relative to the largest displacement */
-  PetscReal gap_untrue; /* change of the gap above which a load step counts as not converged, relative to the largest
-                           displacement */
+  PetscReal optimizer;       /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's default */
+  PetscReal linear;          /* relative residual of PCG for a load step without TAO */
+  PetscReal gap_change;      /* change of the gap that ends the contact updates, relative to the largest displacement */
+  PetscReal gap_unconverged; /* change of the gap above which a load step is not converged, relative to the largest
+                                displacement */
 } StepTolerances;
 
 /* Solutions of all load steps on a mesh: displacement, and pressures of each contact pair. Initialize with zeros */

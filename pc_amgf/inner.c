@@ -47,18 +47,18 @@ static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
   PetscFunctionReturn(0);
 }
 
-/* takes: whether PCBLOCKAMG supports the operator and no option asks for another type */
-static PetscErrorCode InnerTakesBlockAMG(PC pc, PC amg, PetscBool *takes)
+/* can_use: whether PCBLOCKAMG supports the operator and no option asks for another type */
+static PetscErrorCode InnerCanUseBlockAMG(PC pc, PC amg, PetscBool *can_use)
 {
   PetscBool asks;
 
   PetscFunctionBegin;
-  *takes = PETSC_FALSE;
+  *can_use = PETSC_FALSE;
   if (PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, takes, MATSEQAIJ, MATMPIAIJ, MATSEQBAIJ, MATMPIBAIJ,
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, can_use, MATSEQAIJ, MATMPIAIJ, MATSEQBAIJ, MATMPIBAIJ,
     MATSEQSBAIJ, MATMPISBAIJ, ""));
   PetscCall(InnerAsksForType(amg, &asks));
-  if (asks) *takes = PETSC_FALSE;
+  if (asks) *can_use = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -86,7 +86,7 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
 
   PetscFunctionBegin;
   PetscCall(PCGetType(amgf->amg, &type));
-  if (!type && PetscDefined(HAVE_HYPRE)) PetscCall(InnerTakesBlockAMG(pc, amgf->amg, &amgf->bydefault));
+  if (!type && PetscDefined(HAVE_HYPRE)) PetscCall(InnerCanUseBlockAMG(pc, amgf->amg, &amgf->bydefault));
   if (type) PetscCall(PCSetFromOptions(amgf->amg));
   else if (amgf->bydefault) PetscCall(PCAMGFSetBlockAMG_Private(pc, PETSC_TRUE));
   else if (PetscDefined(HAVE_HYPRE)) PetscCall(InnerConfigureHypre(pc, amgf->amg));

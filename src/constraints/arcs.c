@@ -145,20 +145,20 @@ PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscB
 
 /* The ways from displacement u0 to u1 along the chord, to multiply forces at u0 with, way[0], and at u1, way[1]; where
    bodies turn along arcs: forces in balance do no work on a body that turns as a whole */
-PetscErrorCode ArcsGetWays(const Bodies *b, Vec u0, Vec u1, Vec way[2])
+PetscErrorCode ArcsGetIncrements(const Bodies *b, Vec u0, Vec u1, Vec increment[2])
 {
   PetscBool any;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(u0, &way[0]));
-  PetscCall(VecDuplicate(u0, &way[1]));
-  PetscCall(ArcsGetExcess(b, u0, u1, way[1], &any));
-  if (any) PetscCall(ArcsGetExcess(b, u1, u0, way[0], &any));
+  PetscCall(VecDuplicate(u0, &increment[0]));
+  PetscCall(VecDuplicate(u0, &increment[1]));
+  PetscCall(ArcsGetExcess(b, u0, u1, increment[1], &any));
+  if (any) PetscCall(ArcsGetExcess(b, u1, u0, increment[0], &any));
   for (int k = 0; k < 2; ++k) {
-    if (!any) PetscCall(VecZeroEntries(way[k]));
-    if (k == 0) PetscCall(VecScale(way[k], -1.0));
-    PetscCall(VecAXPY(way[k], 1.0, u1));
-    PetscCall(VecAXPY(way[k], -1.0, u0));
+    if (!any) PetscCall(VecZeroEntries(increment[k]));
+    if (k == 0) PetscCall(VecScale(increment[k], -1.0));
+    PetscCall(VecAXPY(increment[k], 1.0, u1));
+    PetscCall(VecAXPY(increment[k], -1.0, u0));
   }
   PetscFunctionReturn(0);
 }

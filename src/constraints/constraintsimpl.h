@@ -33,7 +33,7 @@ PETSC_INTERN PetscErrorCode   PosesFind(const Bodies *, Vec u0, Vec u1, BodyPose
 
 /* arcs.c */
 PETSC_INTERN PetscErrorCode ArcsGetExcess(const Bodies *, Vec u0, Vec u1, Vec excess, PetscBool *any);
-PETSC_INTERN PetscErrorCode ArcsGetWays(const Bodies *, Vec u0, Vec u1, Vec way[2]);
+PETSC_INTERN PetscErrorCode ArcsGetIncrements(const Bodies *, Vec u0, Vec u1, Vec increment[2]);
 
 /* prescribed.c: prescribed displacements of the whole scene: owned global rows, ascending, their values at factor 1,
    and their ramps */

@@ -9,7 +9,7 @@
 
 typedef struct {
   PetscReal time;
-  PetscInt  way; /* 1 into the body, -1 out of it */
+  PetscInt  direction; /* 1 into the body, -1 out of it */
 } PassageEvent;
 
 /* A triangle and a vertex, at the beginning and the end */
@@ -76,9 +76,9 @@ static PetscInt PassageCount(PetscInt n, const PassageEvent events[])
     PetscBool first = PETSC_TRUE;
 
     for (PetscInt j = 0; j < i; ++j)
-      first =
-        (PetscBool)(first && (events[i].way != events[j].way || PetscAbsReal(events[i].time - events[j].time) > same));
-    if (first) count += events[i].way;
+      first = (PetscBool)(first && (events[i].direction != events[j].direction ||
+                                     PetscAbsReal(events[i].time - events[j].time) > same));
+    if (first) count += events[i].direction;
   }
   return count;
 }

@@ -53,15 +53,15 @@ PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dyna
   const SchemeNumbers s      = SchemeGetNumbers(scene);
   const PetscReal     back   = s.beta * dt * dt / (1.0 - s.am);
   const PetscReal     inert  = (1.0 - s.am) / ((1.0 - s.af) * s.beta * dt * dt);
-  const PetscReal     damped = scene->damping_mass * s.gamma / (s.beta * dt), way = s.beta * dt / s.gamma;
+  const PetscReal     damped = scene->damping_mass * s.gamma / (s.beta * dt), factor = s.beta * dt / s.gamma;
 
   PetscFunctionBegin;
   d->inertia = inert + damped;
   PetscCall(SchemeContinue(dt, 0.5 - s.beta, u, d->velocity, d->auxiliary, d->centre));
   PetscCall(VecAXPY(d->centre, inert / d->inertia * back * s.af, d->acceleration));
   PetscCall(VecAXPY(d->centre, -inert / d->inertia * back * s.am, d->auxiliary));
-  PetscCall(VecAXPY(d->centre, -damped / d->inertia * way, d->velocity));
-  PetscCall(VecAXPY(d->centre, -damped / d->inertia * way * dt * (1.0 - s.gamma), d->auxiliary));
+  PetscCall(VecAXPY(d->centre, -damped / d->inertia * factor, d->velocity));
+  PetscCall(VecAXPY(d->centre, -damped / d->inertia * factor * dt * (1.0 - s.gamma), d->auxiliary));
   PetscFunctionReturn(0);
 }
 
@@ -107,19 +107,19 @@ static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Ve
 static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, Vec u, Vec v, Dynamics *d)
 {
   PetscScalar product;
-  Vec         way, force;
+  Vec         increment, force;
 
   PetscFunctionBegin;
   if (scene->damping_mass == 0.0) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(VecWAXPY(way, 1.0, d->velocity, v));
-  PetscCall(MatMult(d->mass, way, force));
-  PetscCall(VecWAXPY(way, -1.0, before, u));
-  PetscCall(VecDot(force, way, &product));
+  PetscCall(VecWAXPY(increment, 1.0, d->velocity, v));
+  PetscCall(MatMult(d->mass, increment, force));
+  PetscCall(VecWAXPY(increment, -1.0, before, u));
+  PetscCall(VecDot(force, increment, &product));
   d->damped += 0.5 * scene->damping_mass * PetscRealPart(product);
   PetscCall(VecDestroy(&force));
-  PetscCall(VecDestroy(&way));
+  PetscCall(VecDestroy(&increment));
   PetscFunctionReturn(0);
 }
 

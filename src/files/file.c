@@ -81,20 +81,20 @@ static PetscErrorCode FileRename(MPI_Comm comm, const FilePart *part, const char
   PetscFunctionReturn(0);
 }
 
-#define FILE_COMPLAINT_LENGTH 256
+#define FILE_MESSAGE_LENGTH 256
 
-static PetscErrorCode FileKeepComplaint(MPI_Comm comm, int line, const char *function, const char *file,
-  PetscErrorCode n, PetscErrorType type, const char *message, void *ctx)
+static PetscErrorCode FileKeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
+  PetscErrorType type, const char *message, void *ctx)
 {
   (void)comm, (void)line, (void)function, (void)file;
-  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy((char *)ctx, message, FILE_COMPLAINT_LENGTH);
+  if (type == PETSC_ERROR_INITIAL && message) (void)PetscStrncpy((char *)ctx, message, FILE_MESSAGE_LENGTH);
   return n;
 }
 
 PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*write)(PetscViewer, void *), void *ctx,
   FileCommit *commit)
 {
-  char           complaint[FILE_COMPLAINT_LENGTH] = "";
+  char           message[FILE_MESSAGE_LENGTH] = "";
   FilePart       part;
   PetscViewer    viewer;
   PetscErrorCode ierr;
@@ -103,7 +103,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscFunctionBegin;
   PetscCall(FileGetPart(comm, file, &part));
   PetscCall(FileTry(comm, file, &part, PETSC_ERR_FILE_WRITE));
-  PetscCall(PetscPushErrorHandler(FileKeepComplaint, complaint));
+  PetscCall(PetscPushErrorHandler(FileKeepMessage, message));
   SilenceOutputBegin(&mute);
   ierr = PetscViewerHDF5Open(comm, part.name, FILE_MODE_WRITE, &viewer);
   if (!ierr) ierr = write(viewer, ctx);
@@ -112,8 +112,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscCall(PetscPopErrorHandler());
   /* if the disk is full, a rank may fail in the middle of a collective write; it must not wait for the others */
   if (ierr && part.renamed) (void)remove(part.name);
-  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file,
-    complaint);
+  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, message);
   if (commit && part.renamed) PetscCall(FileCommitBegin(comm, part.name, file, commit));
   else PetscCall(FileRename(comm, &part, file));
   PetscFunctionReturn(0);

@@ -6,7 +6,7 @@
    force: vector */
 typedef struct {
   Vec carried, sides, closing, force;
-  Vec shear, way; /* friction force on the mortar side [force], and slip x area; NULL without friction */
+  Vec shear, slid; /* friction force on the mortar side [force], and slip x area; NULL without friction */
 } PairVertices;
 
 /* force = J^T (mass x pressure) of the pair's rows */
@@ -38,16 +38,16 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(sim->path.u, &vertices->shear));
-  PetscCall(VecDuplicate(sim->path.u, &vertices->way));
+  PetscCall(VecDuplicate(sim->path.u, &vertices->slid));
   PetscCall(VecZeroEntries(vertices->shear));
-  PetscCall(VecZeroEntries(vertices->way));
+  PetscCall(VecZeroEntries(vertices->slid));
   PetscCall(PetscMalloc1(rows->n, &slipping));
   for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
   PetscCall(PairSpread(sim, rows, slipping, vertices->sides, 2, vertices->closing));
   PetscCall(PetscFree(slipping));
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
-    PetscCall(PairSpread(sim, rows, rows->way + c * rows->n, vertices->sides, c, vertices->way));
+    PetscCall(PairSpread(sim, rows, rows->slid + c * rows->n, vertices->sides, c, vertices->slid));
   }
   PetscCall(MatCreateVecs(sim->linearization->slip, NULL, &force));
   PetscCall(VecGetArrayWrite(force, &f));
@@ -62,7 +62,7 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
 static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, PairVertices *vertices)
 {
   PetscFunctionBegin;
-  vertices->shear = vertices->way = NULL;
+  vertices->shear = vertices->slid = NULL;
   PetscCall(VecDuplicate(sim->path.u, &vertices->carried));
   PetscCall(VecDuplicate(sim->path.u, &vertices->sides));
   PetscCall(VecDuplicate(sim->path.u, &vertices->closing));
@@ -90,7 +90,7 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscCall(VecDestroy(&vertices->closing));
   PetscCall(VecDestroy(&vertices->force));
   PetscCall(VecDestroy(&vertices->shear));
-  PetscCall(VecDestroy(&vertices->way));
+  PetscCall(VecDestroy(&vertices->slid));
   PetscFunctionReturn(0);
 }
 
@@ -138,7 +138,7 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
 {
   PetscSection          global;
   const ContactHistory *m = &sim->history;
-  const PetscScalar    *area, *side, *closing, *way;
+  const PetscScalar    *area, *side, *closing, *slid;
   PetscInt              rstart;
 
   PetscFunctionBegin;
@@ -148,7 +148,7 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
   PetscCall(VecGetArrayRead(alone, &area));
   PetscCall(VecGetArrayRead(vertices->sides, &side));
   PetscCall(VecGetArrayRead(vertices->closing, &closing));
-  PetscCall(VecGetArrayRead(vertices->way, &way));
+  PetscCall(VecGetArrayRead(vertices->slid, &slid));
   for (PetscInt k = first; k < sim->npoints; ++k) {
     ContactPoint *point = &sim->points[k];
     PetscInt      i;
@@ -157,12 +157,12 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
     i -= rstart;
     for (PetscInt c = 0; c < 3; ++c) {
       point->shear[c] *= PetscRealPart(side[i]);
-      point->slip[c] = -PetscRealPart(side[i] * way[i + c] / area[i]);
+      point->slip[c] = -PetscRealPart(side[i] * slid[i + c] / area[i]);
     }
     point->slips     = (PetscBool)(point->closed && PetscRealPart(closing[i + 2]) > 0.5 * PetscRealPart(area[i + 1]));
     point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
   }
-  PetscCall(VecRestoreArrayRead(vertices->way, &way));
+  PetscCall(VecRestoreArrayRead(vertices->slid, &slid));
   PetscCall(VecRestoreArrayRead(vertices->closing, &closing));
   PetscCall(VecRestoreArrayRead(vertices->sides, &side));
   PetscCall(VecRestoreArrayRead(alone, &area));

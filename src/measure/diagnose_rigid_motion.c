@@ -75,24 +75,23 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
 }
 
 /* Least squares: t is the mean displacement, w from the inertia and the moment about the center, by Cramer's rule */
-static void RigidFitFit(RigidFitSums *sums, RigidFit *flight)
+static void RigidFitFit(RigidFitSums *sums, RigidFit *fit)
 {
   PetscReal moment[3], cross[3][3], turned, *inertia = &sums->inertia[0][0];
 
   for (PetscInt i = 0; i < 3; ++i) {
-    flight->center[i] = sums->place[i] / sums->n;
-    flight->t[i]      = sums->shift[i] / sums->n;
+    fit->center[i] = sums->place[i] / sums->n;
+    fit->t[i]      = sums->shift[i] / sums->n;
   }
-  VectorCross(sums->place, flight->t, moment);
+  VectorCross(sums->place, fit->t, moment);
   for (PetscInt i = 0; i < 3; ++i) moment[i] = sums->moment[i] - moment[i];
   for (PetscInt k = 0; k < 9; ++k)
-    inertia[k] -= (k % 4 == 0) * VectorDot(sums->place, flight->center) - sums->place[k / 3] * flight->center[k % 3];
+    inertia[k] -= (k % 4 == 0) * VectorDot(sums->place, fit->center) - sums->place[k / 3] * fit->center[k % 3];
   for (PetscInt i = 0; i < 3; ++i) VectorCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
-  for (PetscInt i = 0; i < 3; ++i) flight->w[i] = VectorDot(cross[i], moment) / VectorDot(sums->inertia[0], cross[0]);
-  turned         = VectorDot(flight->w, moment) / sums->n; /* w . inertia w */
-  flight->turned = PetscSqrtReal(PetscMax(turned, 0.0));
-  flight->residual =
-    PetscSqrtReal(PetscMax(1.0 - (turned + VectorDot(flight->t, flight->t)) * sums->n / sums->square, 0.0));
+  for (PetscInt i = 0; i < 3; ++i) fit->w[i] = VectorDot(cross[i], moment) / VectorDot(sums->inertia[0], cross[0]);
+  turned        = VectorDot(fit->w, moment) / sums->n; /* w . inertia w */
+  fit->turned   = PetscSqrtReal(PetscMax(turned, 0.0));
+  fit->residual = PetscSqrtReal(PetscMax(1.0 - (turned + VectorDot(fit->t, fit->t)) * sums->n / sums->square, 0.0));
 }
 
 /* Rounds x to a power of ten below the unit, and avoids minus zero, so that rounding errors are not printed */
@@ -108,31 +107,30 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
 {
   const PetscReal part = 0.1; /* smallest part of a motion that is mentioned */
   PetscReal       axis[3], arm, radius, size;
-  RigidFit        flight;
+  RigidFit        fit;
 
   PetscFunctionBegin;
-  RigidFitFit(sums, &flight);
-  if (PetscIsInfOrNanReal(flight.residual) || flight.residual > part) {
+  RigidFitFit(sums, &fit);
+  if (PetscIsInfOrNanReal(fit.residual) || fit.residual > part) {
     PetscCall(PetscSNPrintf(text, length, "moves the farthest, by %g", (double)distance));
     PetscFunctionReturn(0);
   }
-  size = VectorNorm(flight.w);
-  if (flight.turned > part * VectorNorm(flight.t)) {
-    radius = flight.turned / size;
-    VectorCross(flight.w, flight.t, axis);
+  size = VectorNorm(fit.w);
+  if (fit.turned > part * VectorNorm(fit.t)) {
+    radius = fit.turned / size;
+    VectorCross(fit.w, fit.t, axis);
     for (PetscInt i = 0; i < 3; ++i) {
-      arm         = flight.center[i] + axis[i] / PetscSqr(size);
-      axis[i]     = RigidFitRound(arm, 1e-2 * radius);
-      flight.w[i] = RigidFitRound(flight.w[i] / size, 1e-2);
+      arm      = fit.center[i] + axis[i] / PetscSqr(size);
+      axis[i]  = RigidFitRound(arm, 1e-2 * radius);
+      fit.w[i] = RigidFitRound(fit.w[i] / size, 1e-2);
     }
     PetscCall(PetscSNPrintf(text, length, "turns over about the axis along (%g, %g, %g) through (%g, %g, %g)",
-      (double)flight.w[0], (double)flight.w[1], (double)flight.w[2], (double)axis[0], (double)axis[1],
-      (double)axis[2]));
+      (double)fit.w[0], (double)fit.w[1], (double)fit.w[2], (double)axis[0], (double)axis[1], (double)axis[2]));
   } else {
-    size = VectorNorm(flight.t);
-    for (PetscInt i = 0; i < 3; ++i) flight.t[i] = RigidFitRound(flight.t[i] / size, 1e-2);
-    PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)flight.t[0], (double)flight.t[1],
-      (double)flight.t[2]));
+    size = VectorNorm(fit.t);
+    for (PetscInt i = 0; i < 3; ++i) fit.t[i] = RigidFitRound(fit.t[i] / size, 1e-2);
+    PetscCall(PetscSNPrintf(text, length, "moves away along (%g, %g, %g)", (double)fit.t[0], (double)fit.t[1],
+      (double)fit.t[2]));
   }
   PetscFunctionReturn(0);
 }

@@ -21,8 +21,8 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
 
 /* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
    those before and now, each on its way from the last state */
-static PetscErrorCode FrictionPairWork(Simulation sim, Vec way[2], const ContactSolution *sol, PetscInt pair, Vec force,
-  PetscReal work[])
+static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
+  Vec force, PetscReal work[])
 {
   const ContactHistory *m      = &sim->history;
   const PetscReal      *before = &m->friction[3 * pair * m->nowned];
@@ -32,15 +32,15 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec way[2], const Contact
   PetscCall(VecZeroEntries(force));
   PetscCall(FrictionAddForces(sim->linearization, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
-  PetscCall(VecGetArrayRead(way[0], &a));
-  PetscCall(VecGetArrayRead(way[1], &b));
+  PetscCall(VecGetArrayRead(increment[0], &a));
+  PetscCall(VecGetArrayRead(increment[1], &b));
   for (PetscInt v = 0; v < m->nowned; ++v) {
     work[v] = 0.0;
     for (PetscInt i = 3 * v; i < 3 * v + 3; ++i)
       work[v] -= 0.5 * (before[i] * PetscRealPart(a[i]) + PetscRealPart(now[i]) * PetscRealPart(b[i]));
   }
-  PetscCall(VecRestoreArrayRead(way[1], &b));
-  PetscCall(VecRestoreArrayRead(way[0], &a));
+  PetscCall(VecRestoreArrayRead(increment[1], &b));
+  PetscCall(VecRestoreArrayRead(increment[0], &a));
   PetscCall(VecRestoreArrayRead(force, &now));
   PetscFunctionReturn(0);
 }
@@ -68,18 +68,18 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   const Bodies          bodies = SimulationBodies(sim);
   const ContactHistory *m      = &sim->history;
   PetscReal            *sums, *work;
-  Vec                   force, way[2];
+  Vec                   force, increment[2];
 
   PetscFunctionBegin;
   report->dissipated = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetWays(&bodies, sim->path.u, u, way));
+  PetscCall(ArcsGetIncrements(&bodies, sim->path.u, u, increment));
   PetscCall(PetscCalloc1(2 * m->npairs, &sums));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!report->pairs[p].frictional) continue;
-    PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
+    PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
   }
   PetscCall(FrictionAddSizes(sim->linearization, sol, sums));
@@ -91,7 +91,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   }
   PetscCall(PetscFree(work));
   PetscCall(PetscFree(sums));
-  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
@@ -103,22 +103,22 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
   ContactHistory    *m      = &sim->history;
   const PetscScalar *now;
   PetscReal         *work;
-  Vec                force, way[2];
+  Vec                force, increment[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetWays(&bodies, sim->path.u, u, way));
+  PetscCall(ArcsGetIncrements(&bodies, sim->path.u, u, increment));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) continue;
-    PetscCall(FrictionPairWork(sim, way, sol, p, force, work));
+    PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v];
     PetscCall(VecGetArrayRead(force, &now));
     for (PetscInt i = 0; i < 3 * m->nowned; ++i) m->friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
     PetscCall(VecRestoreArrayRead(force, &now));
   }
   PetscCall(PetscFree(work));
-  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }

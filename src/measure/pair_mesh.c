@@ -134,7 +134,7 @@ static PetscBool PairLoadTurns(const RunReport *run)
    extremes */
 static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal forces[2])
 {
-  PetscInt  turns = 0, way = 0;
+  PetscInt  turns = 0, sense = 0;
   PetscReal largest = 0.0;
 
   for (PetscInt s = 0; s < run->nsteps; ++s) {
@@ -142,17 +142,17 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal force
     const PetscReal   more = pair ? pair->normal_force - forces[1] : 0.0;
 
     if (!pair || !pair->narrow) { /* begins anew */
-      way = 0;
+      sense = 0;
       if (pair) forces[1] = pair->normal_force;
       continue;
     }
     largest = PetscMax(largest, pair->normal_force);
     if (PetscAbsReal(more) <= PAIR_SWING * largest) continue;
-    if (way * more < 0.0) {
+    if (sense * more < 0.0) {
       ++turns;
       forces[0] = forces[1];
     }
-    way       = more > 0.0 ? 1 : -1;
+    sense     = more > 0.0 ? 1 : -1;
     forces[1] = pair->normal_force;
   }
   return turns;

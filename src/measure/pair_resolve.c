@@ -192,7 +192,7 @@ static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const Pets
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(ResolveValue(sim, rows, mark, sides, rows->shear + c * rows->n));
-    PetscCall(ResolveValue(sim, rows, mark, sides, rows->way + c * rows->n));
+    PetscCall(ResolveValue(sim, rows, mark, sides, rows->slid + c * rows->n));
   }
   PetscCall(PetscMalloc1(rows->n, &slipping));
   for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * pressure[r];

@@ -44,7 +44,7 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
 
   PetscFunctionBegin;
   PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &size));
-  PetscCall(PetscCalloc3(rows->n, &rows->slips, 3 * rows->n, &rows->shear, 3 * rows->n, &rows->way));
+  PetscCall(PetscCalloc3(rows->n, &rows->slips, 3 * rows->n, &rows->shear, 3 * rows->n, &rows->slid));
   for (PetscInt r = 0; r < rows->n; ++r) {
     const PetscReal *s = &sim->slip[2 * r], *f = &sim->shear[2 * r], *t = &lin->tangent[6 * r];
 
@@ -52,7 +52,7 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
     rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
     for (PetscInt c = 0; c < 3; ++c) {
       rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / PetscRealPart(mass[r]);
-      rows->way[c * rows->n + r] =
+      rows->slid[c * rows->n + r] =
         (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
     }
   }
@@ -99,7 +99,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 PetscErrorCode PairRowsDestroy(PairRows *rows)
 {
   PetscFunctionBegin;
-  if (rows->frictional) PetscCall(PetscFree3(rows->slips, rows->shear, rows->way));
+  if (rows->frictional) PetscCall(PetscFree3(rows->slips, rows->shear, rows->slid));
   PetscCall(PetscFree3(rows->own, rows->facing, rows->presses));
   PetscCall(PetscFree7(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
   PetscFunctionReturn(0);

@@ -21,7 +21,7 @@ typedef struct {
   PetscBool  frictional; /* the pair has friction */
   PetscReal *slips;      /* 1: the row slips */
   PetscReal *shear,
-    *way; /* friction stress on the mortar side [force/length^2], and slip [length]; n values per component */
+    *slid; /* friction stress on the mortar side [force/length^2], and slip [length]; n values per component */
 } PairRows;
 
 /* pair_rows.c */

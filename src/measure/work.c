@@ -3,7 +3,7 @@
 
 /* Adds (part x force now + (1 - part) x force before; NULL: zero) . (way of each) to work; `now` becomes
    `before` then */
-static PetscErrorCode WorkAddForce(Vec way[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
+static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
   const PetscReal parts[2]  = {1.0 - part, part};
   Vec             forces[2] = {*before, *now};
@@ -12,7 +12,7 @@ static PetscErrorCode WorkAddForce(Vec way[2], PetscReal part, Vec *before, Vec 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
     if (!forces[k]) continue;
-    PetscCall(VecDot(forces[k], way[k], &product));
+    PetscCall(VecDot(forces[k], increment[k], &product));
     *work += parts[k] * PetscRealPart(product);
   }
   PetscCall(VecDestroy(before));
@@ -63,7 +63,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   const Bodies    bodies = SimulationBodies(sim);
   LoadPath       *path   = &sim->path;
   const PetscReal work = path->work, taken = path->contact_work;
-  Vec             outside, reaction, way[2];
+  Vec             outside, reaction, increment[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &outside));
@@ -75,12 +75,12 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
-  PetscCall(ArcsGetWays(&bodies, path->u, u, way));
-  PetscCall(WorkAddForce(way, 0.5, &path->outside, &outside, &path->work));
+  PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
+  PetscCall(WorkAddForce(increment, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
-  PetscCall(
-    WorkAddForce(way, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact, &path->contact_work));
-  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&way[k]));
+  PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
+    &path->contact_work));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
   if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))

@@ -183,7 +183,7 @@ static const ReportField step_fields[] = {
     .columns = {COLUMN(TABLE_TRUTH, "gap", "change", 10, .behind = PETSC_TRUE)}),
   FIELD(StepReport, normals_turn, FIELD_REAL, ""),
   FIELD(StepReport, slip_change, FIELD_REAL, "length"),
-  FIELD(StepReport, gap_untrue, FIELD_BOOL, ""),
+  FIELD(StepReport, gap_unconverged, FIELD_BOOL, ""),
   FIELD(StepReport, gap_damped, FIELD_INT, ""),
   FIELD(StepReport, complementarity, FIELD_REAL, "force/length",
     .columns = {COLUMN(TABLE_WORK, "complem.", "error", 9)}),

@@ -31,7 +31,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   (*sim)->maxcuts  = 5;
   PetscCall(ProgressObserve(*sim));
   (*sim)->tolerances =
-    (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_untrue = 1e-5};
+    (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_unconverged = 1e-5};
   PetscFunctionReturn(0);
 }
 
@@ -168,7 +168,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
     sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
   PetscCall(PetscOptionsReal("-contact_gap_tol",
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
-    "SimulationStep", sim->tolerances.gap_untrue, &sim->tolerances.gap_untrue, NULL));
+    "SimulationStep", sim->tolerances.gap_unconverged, &sim->tolerances.gap_unconverged, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty",
     "Penalty method: stiffness of the contact relative to that of the bodies at a row (0: no penalty)",
     "SimulationStep", sim->penalty, &sim->penalty, NULL));

@@ -168,7 +168,7 @@ PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLineariz
 
 /* lost: vertices that had a pressure and have no row in a new linearization; nlost: their number on all ranks. The
    caller frees `lost`. */
-PetscErrorCode ContactHistoryFindLost(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
+PetscErrorCode ContactHistoryFindLostRows(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
   PetscInt *nlost)
 {
   const PetscInt n    = m->npairs * m->nowned;

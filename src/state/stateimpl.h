@@ -43,7 +43,7 @@ PETSC_INTERN PetscErrorCode ContactHistoryChange(const ContactHistory *, Contact
 PETSC_INTERN PetscErrorCode ContactHistoryFollowRows(const ContactHistory *, ContactLinearization solved,
   ContactLinearization, PetscInt                                                                **row);
 PETSC_INTERN PetscErrorCode ContactHistoryFindClosed(const ContactHistory *, ContactLinearization, Vec closed);
-PETSC_INTERN PetscErrorCode ContactHistoryFindLost(const ContactHistory *, ContactLinearization, PetscBool **lost,
+PETSC_INTERN PetscErrorCode ContactHistoryFindLostRows(const ContactHistory *, ContactLinearization, PetscBool **lost,
   PetscInt *nlost);
 PETSC_INTERN PetscErrorCode ContactHistoryLeastGap(const ContactHistory *, const PetscBool lost[], ContactLinearization,
   PetscReal *least);

@@ -42,7 +42,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
 }
 
 /* Measures the gap of the deformed faces at u and its difference from the linearized gap that u was found with.
-   is_true: the difference is small enough to end the contact updates. report->gap_untrue: it is too large for a
+   is_true: the difference is small enough to end the contact updates. report->gap_unconverged: it is too large for a
    converged step. */
 static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report, PetscBool *is_true)
@@ -55,11 +55,11 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactHistoryChange(&sim->history, at_u, &report->gap_change));
-  PetscCall(ContactUpdateMeasureTruth(sim, u, sol, at_u, report));
+  PetscCall(ContactUpdateMeasureError(sim, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true           = (PetscBool)(report->untruth <= sim->tolerances.gap_change * size);
-  report->gap_untrue = (PetscBool)((sim->scene->contact_updates > 1 ? report->untruth : report->gap_change) >
-                                   PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_untrue) * size);
+  *is_true                = (PetscBool)(report->update_error <= sim->tolerances.gap_change * size);
+  report->gap_unconverged = (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
+                                        PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_unconverged) * size);
   PetscFunctionReturn(0);
 }
 
@@ -197,8 +197,8 @@ static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, Step
       "contact did not converge: after %" PetscInt_FMT
       " contact updates %s still changes by %g, more than %g of the largest displacement",
       report->contact_updates,
-      report->untruth > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
-      (double)report->untruth, (double)sim->tolerances.gap_untrue));
+      report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
+      (double)report->update_error, (double)sim->tolerances.gap_unconverged));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
@@ -208,7 +208,7 @@ static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, Step
    slid over the edge of the opposite face (slid: another update is needed) or if it lies deeper in the other body than
    the search reaches (the step has failed).
 */
-static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
+static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
   StepReport *report, PetscBool *slid)
 {
   Simulation           sim = p->sim;
@@ -220,7 +220,7 @@ static PetscErrorCode AttemptFindLost(const StepProblem *p, Vec u_linearized, Ve
   char                 sentence[128];
 
   PetscFunctionBegin;
-  PetscCall(ContactHistoryFindLost(&sim->history, at_u, &lost, &nlost));
+  PetscCall(ContactHistoryFindLostRows(&sim->history, at_u, &lost, &nlost));
   *slid = (PetscBool)(nlost > 0);
   if (nlost) {
     PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
@@ -301,7 +301,7 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   PetscBool  damped, at_solution;
 
   PetscFunctionBegin;
-  PetscCall(ContactUpdateSecantsAdvance(secants, report->untruth, u, u_linearized, &damped));
+  PetscCall(ContactUpdateSecantsAdvance(secants, report->update_error, u, u_linearized, &damped));
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
@@ -335,7 +335,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
-  PetscCall(AttemptFindLost(p, u_linearized, u, *at_u, report, slid));
+  PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
@@ -370,11 +370,11 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  p->tolerance = PetscMin(first, fraction * report->untruth / size);
+  p->tolerance = PetscMin(first, fraction * report->update_error / size);
   if (again) PetscFunctionReturn(0);
-  if (report->contact_updates > 1 && report->untruth > fair * p->gap_change)
+  if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
     p->tolerance = PetscMin(p->tolerance, fraction * before);
-  p->gap_change = report->untruth;
+  p->gap_change = report->update_error;
   PetscFunctionReturn(0);
 }
 
@@ -388,7 +388,7 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   *again = (PetscBool)(report->converged && p->ended_early &&
-                       (end || (report->contact_updates == 1 && report->untruth <= p->tolerance * size)));
+                       (end || (report->contact_updates == 1 && report->update_error <= p->tolerance * size)));
   PetscFunctionReturn(0);
 }
 
@@ -413,9 +413,9 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
     sim->linearization = undeformed;
     PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
     PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
-    report->gap_change = report->normals_turn = report->slip_change = report->untruth = 0.0;
-    report->gap_untrue                                                                = PETSC_FALSE;
-    report->contact_updates                                                           = 1;
+    report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
+    report->gap_unconverged                                                                = PETSC_FALSE;
+    report->contact_updates                                                                = 1;
   } else PetscCall(ContactLinearizationDestroy(&undeformed));
   PetscFunctionReturn(0);
 }
@@ -433,7 +433,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
 
   PetscFunctionBegin;
   report->contact_updates = 0;
-  report->gap_untrue      = PETSC_FALSE;
+  report->gap_unconverged = PETSC_FALSE;
   if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
   PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
   while (!end) {
@@ -454,9 +454,9 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   }
   if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
   PetscCall(ContactUpdateSecantsDestroy(&secants));
-  report->gap_untrue =
-    (PetscBool)(report->converged && (report->gap_untrue || (slid && sim->scene->contact_updates > 1)));
-  if (report->gap_untrue) PetscCall(AttemptReportGapError(sim, slid, report));
+  report->gap_unconverged =
+    (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
+  if (report->gap_unconverged) PetscCall(AttemptReportGapError(sim, slid, report));
   PetscFunctionReturn(0);
 }
 

@@ -100,14 +100,14 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
   PetscCall(SpringsMeasureVolumes(&bodies, volume));
   PetscCall(WeakSpringsMeasureMotion(p->sim, u_linearized, u, moved));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
-    const PetscReal length = PetscCbrtReal(volume[b]), way = PetscSqrtReal(moved[b]);
+    const PetscReal length = PetscCbrtReal(volume[b]), distance = PetscSqrtReal(moved[b]);
     char            reason[256];
 
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "body \"%s\" slides or turns away: it moved by %g, more than its size of %g, and only weak springs hold it; "
       "add a support, friction, or stiffer springs than weak_springs: %g",
-      scene->bodies[b].name, (double)way, (double)length, (double)scene->weak_springs));
-    if (way > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
+      scene->bodies[b].name, (double)distance, (double)length, (double)scene->weak_springs));
+    if (distance > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree2(volume, moved));
   PetscFunctionReturn(0);

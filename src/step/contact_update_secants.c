@@ -25,11 +25,11 @@ static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
   return (PetscBool)(s->stalls >= SECANTS_PATIENCE);
 }
 
-/* Stores the differences of the solution u and of the residual `way` from the last ones. They replace the oldest
+/* Stores the differences of the solution u and of the residual from the last ones. They replace the oldest
    pair. */
-static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec way)
+static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec residual)
 {
-  Vec *swap[2] = {s->ways, s->solutions}, now[2] = {way, u}, before[2] = {s->way, s->u};
+  Vec *swap[2] = {s->residuals, s->solutions}, now[2] = {residual, u}, before[2] = {s->residual, s->u};
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) {
@@ -47,37 +47,37 @@ static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec way)
    corresponding changes of the solution to x. The differences are orthonormalized first, newest first. */
 static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
 {
-  Vec         way[GAP_SECANTS], solution[GAP_SECANTS];
+  Vec         residual[GAP_SECANTS], solution[GAP_SECANTS];
   PetscScalar product;
   PetscReal   whole, own;
   PetscInt    n = 0;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < GAP_SECANTS && s->ways[i]; ++i) {
-    PetscCall(VecDuplicate(x, &way[n]));
+  for (PetscInt i = 0; i < GAP_SECANTS && s->residuals[i]; ++i) {
+    PetscCall(VecDuplicate(x, &residual[n]));
     PetscCall(VecDuplicate(x, &solution[n]));
-    PetscCall(VecCopy(s->ways[i], way[n]));
+    PetscCall(VecCopy(s->residuals[i], residual[n]));
     PetscCall(VecCopy(s->solutions[i], solution[n]));
-    PetscCall(VecNorm(way[n], NORM_2, &whole));
+    PetscCall(VecNorm(residual[n], NORM_2, &whole));
     for (PetscInt k = 0; k < n; ++k) {
-      PetscCall(VecDot(way[n], way[k], &product));
-      PetscCall(VecAXPY(way[n], -product, way[k]));
+      PetscCall(VecDot(residual[n], residual[k], &product));
+      PetscCall(VecAXPY(residual[n], -product, residual[k]));
       PetscCall(VecAXPY(solution[n], -product, solution[k]));
     }
-    PetscCall(VecNorm(way[n], NORM_2, &own));
+    PetscCall(VecNorm(residual[n], NORM_2, &own));
     if (own > SECANTS_DEPENDENT * whole) {
-      PetscCall(VecScale(way[n], 1.0 / own));
+      PetscCall(VecScale(residual[n], 1.0 / own));
       PetscCall(VecScale(solution[n], 1.0 / own));
-      PetscCall(VecDot(f, way[n], &product));
+      PetscCall(VecDot(f, residual[n], &product));
       PetscCall(VecAXPY(x, -product, solution[n]));
       ++n;
     } else {
-      PetscCall(VecDestroy(&way[n]));
+      PetscCall(VecDestroy(&residual[n]));
       PetscCall(VecDestroy(&solution[n]));
     }
   }
   for (PetscInt k = 0; k < n; ++k) {
-    PetscCall(VecDestroy(&way[k]));
+    PetscCall(VecDestroy(&residual[k]));
     PetscCall(VecDestroy(&solution[k]));
   }
   PetscFunctionReturn(0);
@@ -88,22 +88,22 @@ static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
 PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *s, PetscReal change, Vec u, Vec u_linearized,
   PetscBool *damped)
 {
-  Vec way, next;
+  Vec residual, next;
 
   PetscFunctionBegin;
   *damped = SecantsStall(s, change);
-  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecDuplicate(u, &residual));
   PetscCall(VecDuplicate(u, &next));
-  PetscCall(VecWAXPY(way, -1.0, u_linearized, u));
+  PetscCall(VecWAXPY(residual, -1.0, u_linearized, u));
   PetscCall(VecCopy(u, next));
-  if (s->n > 0) PetscCall(SecantsRecord(s, u, way));
-  PetscCall(SecantsApply(s, way, next));
+  if (s->n > 0) PetscCall(SecantsRecord(s, u, residual));
+  PetscCall(SecantsApply(s, residual, next));
   PetscCall(VecAXPBY(u_linearized, *damped ? SECANTS_SHORT : 1.0, *damped ? 1.0 - SECANTS_SHORT : 0.0, next));
   PetscCall(VecDestroy(&next));
-  PetscCall(VecDestroy(&s->way));
+  PetscCall(VecDestroy(&s->residual));
   if (!s->u) PetscCall(VecDuplicate(u, &s->u));
   PetscCall(VecCopy(u, s->u));
-  s->way = way;
+  s->residual = residual;
   ++s->n;
   PetscFunctionReturn(0);
 }
@@ -112,10 +112,10 @@ PetscErrorCode ContactUpdateSecantsDestroy(ContactUpdateSecants *s)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < GAP_SECANTS; ++i) {
-    PetscCall(VecDestroy(&s->ways[i]));
+    PetscCall(VecDestroy(&s->residuals[i]));
     PetscCall(VecDestroy(&s->solutions[i]));
   }
-  PetscCall(VecDestroy(&s->way));
+  PetscCall(VecDestroy(&s->residual));
   PetscCall(VecDestroy(&s->u));
   PetscFunctionReturn(0);
 }

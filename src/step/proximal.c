@@ -110,14 +110,14 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
    the body. */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
-  Vec way;
+  Vec increment;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(u, &way));
-  PetscCall(VecWAXPY(way, -1.0, p->centre, u));
+  PetscCall(VecDuplicate(u, &increment));
+  PetscCall(VecWAXPY(increment, -1.0, p->centre, u));
   PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
-  PetscCall(RigidMotionReport(p->sim, way, "no solve brings it to rest", report));
-  PetscCall(VecDestroy(&way));
+  PetscCall(RigidMotionReport(p->sim, increment, "no solve brings it to rest", report));
+  PetscCall(VecDestroy(&increment));
   p->moves_on = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

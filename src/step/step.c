@@ -160,8 +160,10 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
-    sim->report.exit_code = sim->interrupted ? RUN_INTERRUPTED : report->gap_untrue ? RUN_GAP_UNTRUE : RUN_FAILED;
-  } else if (report->gap_untrue) sim->report.reason = report->reason;
+    sim->report.exit_code = sim->interrupted          ? RUN_INTERRUPTED
+                            : report->gap_unconverged ? RUN_GAP_UNCONVERGED
+                                                      : RUN_FAILED;
+  } else if (report->gap_unconverged) sim->report.reason = report->reason;
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;

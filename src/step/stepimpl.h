@@ -25,9 +25,9 @@ PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 typedef struct {
   PetscInt  n, stalls;        /* number of solutions; the last ones in a row without progress */
   PetscReal least;            /* smallest change of the gap so far [length] */
-  Vec       u, way;           /* last solution u, and its residual u - u_linearized [length] */
+  Vec       u, residual;      /* last solution u, and its residual u - u_linearized [length] */
   Vec solutions[GAP_SECANTS]; /* differences of successive solutions, newest first; NULL if not yet there [length] */
-  Vec ways[GAP_SECANTS];      /* differences of successive residuals, newest first [length] */
+  Vec residuals[GAP_SECANTS]; /* differences of successive residuals, newest first [length] */
 } ContactUpdateSecants;
 
 PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, PetscReal change, Vec u,
@@ -160,8 +160,8 @@ PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
 PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
 PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
 
-/* contact_update_truth.c */
-PETSC_INTERN PetscErrorCode ContactUpdateMeasureTruth(Simulation, Vec u, const ContactSolution *,
+/* contact_update_error.c */
+PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
 /* attempt.c */

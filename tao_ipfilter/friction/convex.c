@@ -25,16 +25,16 @@ static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
 {
   const PetscReal times = 100.0;
 
-  return times / IPTermLawsGiveWay(set, row);
+  return times / IPTermLawsCompliance(set, row);
 }
 
 /* Whether a row can carry a force: its compliance and its bound are not zero */
-static PetscBool ConvexTakes(const IPTermSet *set, const TermConvex *convex, PetscInt row)
+static PetscBool ConvexIsActive(const IPTermSet *set, const TermConvex *convex, PetscInt row)
 {
-  const PetscReal rounding = 1e-14, gives = IPTermLawsGiveWay(set, row);
+  const PetscReal rounding = 1e-14, compliance = IPTermLawsCompliance(set, row);
 
-  if (row < set->m) return (PetscBool)(gives > 0.0);
-  return (PetscBool)(gives > rounding * convex->largest && convex->bound[(row - set->m) / 2] > 0.0);
+  if (row < set->m) return (PetscBool)(compliance > 0.0);
+  return (PetscBool)(compliance > rounding * convex->largest && convex->bound[(row - set->m) / 2] > 0.0);
 }
 
 /* b = tau' - rho v of term i; returns |b| */
@@ -53,13 +53,13 @@ static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, con
 static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscReal p[])
 {
   for (PetscInt r = 0; r < set->m; r++)
-    p[r] = ConvexTakes(set, convex, r) ? PetscMax(0.0, convex->multiplier[r] - ConvexStiffness(set, r) * v[r]) : 0.0;
+    p[r] = ConvexIsActive(set, convex, r) ? PetscMax(0.0, convex->multiplier[r] - ConvexStiffness(set, r) * v[r]) : 0.0;
   for (PetscInt i = 0; i < set->n; i++) {
     const PetscInt row = IPTermLawsRow(set, i);
     PetscReal      b[2], size, factor;
 
     p[row] = p[row + 1] = 0.0;
-    if (!ConvexTakes(set, convex, row)) continue;
+    if (!ConvexIsActive(set, convex, row)) continue;
     size   = ConvexTrial(set, convex, v, i, b);
     factor = size > convex->bound[i] ? convex->bound[i] / size : 1.0;
     for (PetscInt a = 0; a < 2; a++) p[row + a] = factor * b[a];
@@ -100,7 +100,7 @@ static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const Term
 static PetscErrorCode ConvexAssembleRow(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
   PetscInt row)
 {
-  const PetscReal gives = IPTermLawsGiveWay(set, row), unit = gives > 0.0 ? gives : 1.0;
+  const PetscReal compliance = IPTermLawsCompliance(set, row), unit = compliance > 0.0 ? compliance : 1.0;
   PetscInt        a = 0, n = 0, columns[3];
   const PetscInt  i       = IPTermLawsOfRow(set, row, &a);
   PetscReal       by_v[3] = {0.0, 0.0, 0.0}, by_f[3] = {0.0, 0.0, 0.0};
@@ -109,7 +109,7 @@ static PetscErrorCode ConvexAssembleRow(IPTermSet *set, const IPReducedSystem *s
   columns[n++] = i < 0 ? row : IPTermLawsRow(set, i);
   if (i >= 0) columns[n++] = IPTermLawsRow(set, i) + 1;
   if (i >= 0 && i < set->m) columns[n++] = i;
-  if (ConvexTakes(set, convex, row)) ConvexLinearize(set, s, convex, row, by_v, by_f);
+  if (ConvexIsActive(set, convex, row)) ConvexLinearize(set, s, convex, row, by_v, by_f);
   else {
     set->F[row] = s->lambda[row] * unit;
     by_f[a]     = unit;
@@ -291,7 +291,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(s->m, &convex.multiplier, set->n, &convex.bound, s->m, &convex.p));
   PetscCall(PetscMalloc3(s->m, &convex.f, s->m, &convex.v, s->k, &convex.y));
-  for (PetscInt r = 0; r < s->m; r++) convex.largest = PetscMax(convex.largest, set->system.gives[r]);
+  for (PetscInt r = 0; r < s->m; r++) convex.largest = PetscMax(convex.largest, set->system.compliance[r]);
   for (PetscInt i = 0; i < set->m; i++) s->lambda[i] = PetscMax(s->lambda[i], 0.0);
   PetscCall(IPTermLawsMove(set, s));
   *solved = PETSC_TRUE;

@@ -15,7 +15,7 @@ typedef struct {
   Mat           Bv, Bf;      /* coefficients of v and of f in the rows' equations */
   Mat           A, F;        /* A = B_v R D R^T + B_f in scaled rows, and its incomplete factors */
   Mat           Pv, Pf;      /* the B_v and B_f for which A was factored */
-  PetscReal    *gives;       /* diag(R D R^T), the estimated compliance of each row [length/force] */
+  PetscReal    *compliance;  /* diag(R D R^T), the estimated compliance of each row [length/force] */
   PetscReal    *scale;       /* scale of a row: force divided by square root of energy */
   PetscReal    *V, *ZV, *H;  /* V: columns of length m; ZV: of length kmax; H: of length k */
   PetscBLASInt *pivots;      /* of H */
@@ -29,18 +29,19 @@ typedef struct {
 
 /* State of constraints and norm terms: open or closed, stick or slip: laws.c */
 typedef struct {
-  PetscInt     m, n;                /* constraints and terms */
-  PetscReal   *limit, *coefficient; /* of the terms; a negative coefficient: the bound is the limit alone */
-  PetscReal   *rho, *slope;         /* rho: force per length of a term; slope: derivative of its bound by its
+  PetscInt   m, n;                /* constraints and terms */
+  PetscReal *limit, *coefficient; /* of the terms; a negative coefficient: the bound is the limit alone */
+  PetscReal *rho, *slope;         /* rho: force per length of a term; slope: derivative of its bound by its
                                        constraint's force */
-  PetscReal   *theta, *way;         /* theta = bound / |b| and way = b / |b| of slipping terms at the last
+  PetscReal *theta, *direction;   /* theta = bound / |b| and direction = b / |b| of slipping terms at the last
                                        linearization */
-  PetscReal   *dead;                /* unit tangent along which a term cannot move, two entries a term; zero: none */
-  PetscReal    length;              /* magnitude of the motions, for tolerances [length] */
-  PetscBool   *closed, *slips;
-  PetscBool   *takes, listed; /* takes: rows that are active (may carry a force); listed: whether takes is up to date */
-  PetscInt     na;            /* number of active rows */
-  PetscBool    met;           /* the last solution satisfies the laws to the requested tolerance */
+  PetscReal *dead;                /* unit tangent along which a term cannot move, two entries a term; zero: none */
+  PetscReal  length;              /* magnitude of the motions, for tolerances [length] */
+  PetscBool *closed, *slips;
+  PetscBool *active,
+    listed;         /* active: rows that are active (may carry a force); listed: whether active is up to date */
+  PetscInt     na;  /* number of active rows */
+  PetscBool    met; /* the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
 } IPTermSet;
@@ -75,7 +76,7 @@ PETSC_INTERN PetscInt       IPTermLawsRow(const IPTermSet *, PetscInt term);
 PETSC_INTERN PetscReal      IPTermLawsBound(const IPTermSet *, const IPReducedSystem *, PetscInt term);
 PETSC_INTERN PetscErrorCode IPTermLawsMove(IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN void           IPTermLawsRelieve(const IPTermSet *, const IPReducedSystem *);
-PETSC_INTERN PetscReal      IPTermLawsGiveWay(const IPTermSet *, PetscInt row);
+PETSC_INTERN PetscReal      IPTermLawsCompliance(const IPTermSet *, PetscInt row);
 PETSC_INTERN void           IPTermLawsResist(IPTermSet *);
 PETSC_INTERN void           IPTermLawsMotion(const IPTermSet *, const IPReducedSystem *, PetscInt term, PetscReal v[2]);
 PETSC_INTERN PetscReal      IPTermLawsTrial(const IPTermSet *, const IPReducedSystem *, PetscInt term, PetscReal b[2]);

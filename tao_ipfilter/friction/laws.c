@@ -15,8 +15,8 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree4(set->limit, set->coefficient, set->rho, set->slope));
-  PetscCall(PetscFree3(set->closed, set->slips, set->takes));
-  PetscCall(PetscFree5(set->theta, set->way, set->dead, set->F, set->Fy));
+  PetscCall(PetscFree3(set->closed, set->slips, set->active));
+  PetscCall(PetscFree5(set->theta, set->direction, set->dead, set->F, set->Fy));
   PetscCall(IPTermSystemDestroy(&set->system));
   PetscCall(PetscMemzero(set, sizeof(*set)));
   PetscFunctionReturn(0);
@@ -34,8 +34,8 @@ PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Ma
   set->m = m;
   set->n = n;
   PetscCall(PetscCalloc4(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope));
-  PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->takes));
-  PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->way, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
+  PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->active));
+  PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->direction, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
   PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, R, definite));
   PetscFunctionReturn(0);
 }
@@ -90,12 +90,12 @@ void IPTermLawsRelieve(const IPTermSet *set, const IPReducedSystem *s)
 }
 
 /* Compliance of a row, from the diagonal estimate; for the two rows of a term the larger one [length/force] */
-PetscReal IPTermLawsGiveWay(const IPTermSet *set, PetscInt row)
+PetscReal IPTermLawsCompliance(const IPTermSet *set, PetscInt row)
 {
-  const PetscReal *gives = set->system.gives;
-  const PetscInt   first = row < set->m ? row : set->m + 2 * ((row - set->m) / 2);
+  const PetscReal *compliance = set->system.compliance;
+  const PetscInt   first      = row < set->m ? row : set->m + 2 * ((row - set->m) / 2);
 
-  return PetscMax(gives[first], row < set->m ? 0.0 : gives[first + 1]);
+  return PetscMax(compliance[first], row < set->m ? 0.0 : compliance[first + 1]);
 }
 
 /* Lists the active rows: closed constraints and terms that can carry a force, if their compliance is not zero. The
@@ -104,15 +104,15 @@ static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal rounding = 1e-14; /* relative to the largest compliance: tangents of held directions have a
                                        compliance of rounding size */
-  PetscReal       largest  = TermLawsLargest(s->m, set->system.gives);
+  PetscReal       largest  = TermLawsLargest(s->m, set->system.compliance);
 
   set->na = 0;
   for (PetscInt r = 0; r < s->m; r++) {
     const PetscBool wanted = r < set->m ? set->closed[r] : TermLawsTakePart(set, (r - set->m) / 2);
 
-    set->takes[r] = (PetscBool)(wanted && IPTermLawsGiveWay(set, r) > (r < set->m ? 0.0 : rounding * largest));
-    set->na += set->takes[r];
-    if (!set->takes[r]) s->lambda[r] = 0.0;
+    set->active[r] = (PetscBool)(wanted && IPTermLawsCompliance(set, r) > (r < set->m ? 0.0 : rounding * largest));
+    set->na += set->active[r];
+    if (!set->active[r]) s->lambda[r] = 0.0;
   }
 }
 
@@ -120,9 +120,9 @@ static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
 void IPTermLawsResist(IPTermSet *set)
 {
   for (PetscInt i = 0; i < set->n; i++) {
-    const PetscReal gives = IPTermLawsGiveWay(set, IPTermLawsRow(set, i));
+    const PetscReal compliance = IPTermLawsCompliance(set, IPTermLawsRow(set, i));
 
-    set->rho[i] = gives > 0.0 ? 1.0 / gives : 1.0;
+    set->rho[i] = compliance > 0.0 ? 1.0 / compliance : 1.0;
   }
 }
 
@@ -175,15 +175,15 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   PetscReal merit = 0.0;
 
   for (PetscInt i = 0; i < set->m; i++) {
-    const PetscReal gives = set->system.gives[i],
-                    off   = set->takes[i] ? PetscMin(s->lambda[i] * gives, s->gap[i]) : PetscMin(0.0, s->gap[i]);
+    const PetscReal compliance = set->system.compliance[i],
+                    off = set->active[i] ? PetscMin(s->lambda[i] * compliance, s->gap[i]) : PetscMin(0.0, s->gap[i]);
 
-    if (gives > 0.0) merit += PetscSqr(off) / gives;
+    if (compliance > 0.0) merit += PetscSqr(off) / compliance;
   }
   for (PetscInt i = 0; i < set->n; i++) {
     PetscReal v[2];
 
-    if (!set->takes[IPTermLawsRow(set, i)]) continue;
+    if (!set->active[IPTermLawsRow(set, i)]) continue;
     IPTermLawsMotion(set, s, i, v);
     merit += set->rho[i] *
              PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));

@@ -29,16 +29,16 @@ static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, Te
   PetscCall(IPTermLawsRenew(set, s));
   path->n = 0;
   for (PetscInt i = 0; i < set->m; i++) {
-    path->n += set->takes[i];
-    if (set->takes[i]) length = PetscMax(length, PetscAbsReal(s->gap[i]));
-    set->F[i] = set->takes[i] ? 1.0 : 0.0;
+    path->n += set->active[i];
+    if (set->active[i]) length = PetscMax(length, PetscAbsReal(s->gap[i]));
+    set->F[i] = set->active[i] ? 1.0 : 0.0;
   }
   PetscCall(PetscArrayzero(set->F + set->m, s->m - set->m));
   PetscCall(IPTermSystemApplyCompliance(&set->system, set->F, set->system.v));
-  for (PetscInt i = 0; i < set->m; i++) moved += set->takes[i] ? set->system.v[i] / path->n : 0.0;
+  for (PetscInt i = 0; i < set->m; i++) moved += set->active[i] ? set->system.v[i] / path->n : 0.0;
   force = length / moved;
   for (PetscInt i = 0; i < set->m; i++) {
-    if (!set->takes[i]) continue;
+    if (!set->active[i]) continue;
     s->lambda[i] = force;
     path->w[i]   = length;
   }
@@ -52,13 +52,15 @@ static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, Te
 /* Residual of a constraint's equation and its coefficients in the linear system */
 static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i)
 {
-  const PetscReal gives = set->system.gives[i], lambda = s->lambda[i], w = path->w[i],
-                  size = lambda + (gives > 0.0 ? w / gives : 0.0);
-  const PetscReal by_v = set->takes[i] ? lambda / size : 0.0, by_f = set->takes[i] ? w / size : PetscMax(gives, 1.0);
+  const PetscReal compliance = set->system.compliance[i], lambda = s->lambda[i], w = path->w[i],
+                  size = lambda + (compliance > 0.0 ? w / compliance : 0.0);
+  const PetscReal by_v = set->active[i] ? lambda / size : 0.0,
+                  by_f = set->active[i] ? w / size : PetscMax(compliance, 1.0);
 
   PetscFunctionBegin;
-  set->F[i] = set->takes[i] ? (lambda * s->gap[i] - path->m) / size : 0.0;
-  PetscCall(IPTermSystemSetRow(&set->system, i, 1, &i, &by_v, &by_f, gives > 0.0 ? 1.0 / PetscSqrtReal(gives) : 1.0));
+  set->F[i] = set->active[i] ? (lambda * s->gap[i] - path->m) / size : 0.0;
+  PetscCall(
+    IPTermSystemSetRow(&set->system, i, 1, &i, &by_v, &by_f, compliance > 0.0 ? 1.0 / PetscSqrtReal(compliance) : 1.0));
   PetscFunctionReturn(0);
 }
 
@@ -99,7 +101,7 @@ static PetscErrorCode TermPathSetTerm(IPTermSet *set, const IPReducedSystem *s, 
   columns[n++] = IPTermLawsRow(set, i) + 1;
   if (i < set->m) columns[n++] = i;
   set->F[row] = 0.0;
-  if (set->takes[row]) {
+  if (set->active[row]) {
     TermPathLinearize(set, s, path, i, a, by_v, by_f, &set->F[row]);
     by_f[a] += tiny / set->rho[i];
   } else by_f[a] = 1.0 / set->rho[i];
@@ -133,17 +135,17 @@ static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, Ter
   PetscCall(PetscMalloc1(set->m, &dw));
   *alpha = 1.0;
   for (PetscInt i = 0; i < set->m; i++) {
-    if (!set->takes[i]) continue;
+    if (!set->active[i]) continue;
     dw[i]  = path->m / s->lambda[i] - path->w[i] + path->w[i] * set->F[i] / s->lambda[i];
     *alpha = TermPathToBoundary(path->w[i], dw[i], *alpha);
     *alpha = TermPathToBoundary(s->lambda[i], -set->F[i], *alpha);
   }
   for (PetscInt i = 0; i < set->m; i++) {
-    if (set->takes[i]) path->w[i] += *alpha * dw[i];
+    if (set->active[i]) path->w[i] += *alpha * dw[i];
   }
   PetscCall(PetscFree(dw));
   for (PetscInt r = 0; r < s->m; r++) {
-    if (set->takes[r]) s->lambda[r] -= *alpha * set->F[r];
+    if (set->active[r]) s->lambda[r] -= *alpha * set->F[r];
   }
   for (PetscInt j = 0; j < s->k; j++) s->y[j] -= *alpha * set->Fy[j];
   IPTermLawsRelieve(set, s);
@@ -159,7 +161,7 @@ static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, Term
 
   path->product = 0.0;
   for (PetscInt i = 0; i < set->m; i++) {
-    if (!set->takes[i]) continue;
+    if (!set->active[i]) continue;
     path->product += s->lambda[i] * path->w[i] / path->n;
     force += s->lambda[i] / path->n;
   }
@@ -187,7 +189,7 @@ PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscI
     (*steps)++;
   }
   for (PetscInt i = 0; i < set->m; i++)
-    set->closed[i] = (PetscBool)(set->takes[i] && s->lambda[i] * set->system.gives[i] > path.w[i]);
+    set->closed[i] = (PetscBool)(set->active[i] && s->lambda[i] * set->system.compliance[i] > path.w[i]);
   PetscCall(IPTermLawsRenew(set, s));
   PetscCall(PetscFree(path.w));
   PetscFunctionReturn(0);

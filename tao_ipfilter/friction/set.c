@@ -27,10 +27,10 @@ static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBoo
    remove the penetration if no other row moved. */
 static PetscReal TermSetPredictBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
-  const PetscReal gives = i < set->m ? set->system.gives[i] : 0.0;
+  const PetscReal compliance = i < set->m ? set->system.compliance[i] : 0.0;
 
-  if (set->coefficient[i] < 0.0 || s->lambda[i] != 0.0 || gives <= 0.0) return IPTermLawsBound(set, s, i);
-  return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / gives);
+  if (set->coefficient[i] < 0.0 || s->lambda[i] != 0.0 || compliance <= 0.0) return IPTermLawsBound(set, s, i);
+  return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / compliance);
 }
 
 /* Updates which terms slip; returns whether any changed */
@@ -42,7 +42,7 @@ static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
     PetscReal b[2];
     PetscBool slips;
 
-    if (!set->takes[IPTermLawsRow(set, i)]) continue;
+    if (!set->active[IPTermLawsRow(set, i)]) continue;
     slips         = (PetscBool)(IPTermLawsTrial(set, s, i, b) > TermSetPredictBound(set, s, i));
     changed       = (PetscBool)(changed || slips != set->slips[i]);
     set->slips[i] = slips;
@@ -57,12 +57,12 @@ static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
   for (PetscInt i = 0; i < set->n; i++) {
     PetscReal b[2], size, bound;
 
-    if (!set->takes[IPTermLawsRow(set, i)] || !set->slips[i]) continue;
+    if (!set->active[IPTermLawsRow(set, i)] || !set->slips[i]) continue;
     size          = IPTermLawsTrial(set, s, i, b);
     bound         = IPTermLawsBound(set, s, i);
     set->theta[i] = bound / size;
     set->slope[i] = set->coefficient[i] < 0.0 || bound >= set->limit[i] ? 0.0 : set->coefficient[i];
-    for (PetscInt a = 0; a < 2; a++) set->way[2 * i + a] = b[a] / size;
+    for (PetscInt a = 0; a < 2; a++) set->direction[2 * i + a] = b[a] / size;
   }
 }
 
@@ -77,7 +77,7 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
     const PetscInt i = IPTermLawsOfRow(set, r, &a);
 
     set->F[r] = 0.0;
-    if (!set->takes[r]) continue;
+    if (!set->active[r]) continue;
     if (i >= 0 && set->slips[i]) {
       PetscReal       b[2];
       const PetscReal size = IPTermLawsTrial(set, s, i, b);
@@ -103,24 +103,25 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
 {
   PetscInt         a = 0;
   const PetscInt   i = IPTermLawsOfRow(set, row, &a);
-  const PetscReal *way, *dead;
+  const PetscReal *direction, *dead;
 
   by_v[0] = by_v[1] = by_f[0] = by_f[1] = *by_lambda = 0.0;
   if (i < 0) {
     by_v[0] = 1.0;
     return;
   }
-  way  = &set->way[2 * i];
-  dead = &set->dead[2 * i];
+  direction = &set->direction[2 * i];
+  dead      = &set->dead[2 * i];
   for (PetscInt b = 0; b < 2; b++) {
-    const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b], across = one - way[a] * way[b];
+    const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b],
+                    across = one - direction[a] * direction[b];
 
     by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
     by_v[b] =
       /* a direction that cannot move is orthogonal to the slip direction */
       set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive;
   }
-  if (set->slips[i]) *by_lambda = -set->slope[i] * way[a] / set->rho[i];
+  if (set->slips[i]) *by_lambda = -set->slope[i] * direction[a] / set->rho[i];
 }
 
 /* Assembles one row of the system. A tiny shift of the diagonal makes linearly dependent rows solvable; rows of
@@ -128,19 +129,19 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
    force of an inactive row is left unchanged. */
 static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
 {
-  const PetscReal shift = 1e-13, terms = 1e-9, gives = IPTermLawsGiveWay(set, row);
+  const PetscReal shift = 1e-13, terms = 1e-9, compliance = IPTermLawsCompliance(set, row);
   PetscInt        a = 0, n = 0, columns[3];
   const PetscInt  i = IPTermLawsOfRow(set, row, &a);
   PetscReal by_v[3] = {0.0, 0.0, 0.0}, by_f[3] = {0.0, 0.0, 0.0}, scale = i < 0 ? 1.0 : PetscSqrtReal(set->rho[i]);
 
   PetscFunctionBegin;
-  if (i < 0 && gives > 0.0) scale = 1.0 / PetscSqrtReal(gives);
+  if (i < 0 && compliance > 0.0) scale = 1.0 / PetscSqrtReal(compliance);
   columns[n++] = i < 0 ? row : IPTermLawsRow(set, i);
   if (i >= 0) columns[n++] = IPTermLawsRow(set, i) + 1;
   if (i >= 0 && i < set->m) columns[n++] = i;
-  if (set->takes[row]) {
+  if (set->active[row]) {
     TermSetRow(set, row, by_v, by_f, &by_f[2]);
-    by_f[a] += (i < 0 ? shift : terms) * gives;
+    by_f[a] += (i < 0 ? shift : terms) * compliance;
   } else by_f[a] = 1.0 / (scale * scale);
   PetscCall(IPTermSystemSetRow(&set->system, row, n, columns, by_v, by_f, scale));
   PetscFunctionReturn(0);
@@ -156,7 +157,7 @@ static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, Pets
   PetscCall(IPTermSolve(&set->system, s, rtol, set->F, set->Fy, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt r = 0; r < s->m; r++)
-    if (set->takes[r]) s->lambda[r] -= set->F[r];
+    if (set->active[r]) s->lambda[r] -= set->F[r];
   for (PetscInt j = 0; j < s->k; j++) s->y[j] -= set->Fy[j];
   IPTermLawsRelieve(set, s);
   PetscCall(IPTermLawsMove(set, s));
@@ -225,7 +226,7 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
   PetscReal sum = 0.0;
 
   for (PetscInt r = 0; r < s->m; r++) {
-    if (set->takes[r]) sum += PetscSqr(set->F[r]) / IPTermLawsGiveWay(set, r);
+    if (set->active[r]) sum += PetscSqr(set->F[r]) / IPTermLawsCompliance(set, r);
   }
   for (PetscInt j = 0; j < s->k; j++) sum += PetscSqr(set->Fy[j]);
   return PetscSqrtReal(sum);
@@ -304,7 +305,7 @@ static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, Petsc
 
 /* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
    fraction of its start, since later directions will change the problem by more. If Newton's method and the path
-   fail, convex.c gives the solution, and set->met tells whether it satisfies the laws. *steps: number of systems
+   fail, convex.c compliance the solution, and set->met tells whether it satisfies the laws. *steps: number of systems
    solved. *solved: false if nothing holds a moving body. */
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
 {

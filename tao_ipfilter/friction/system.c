@@ -27,7 +27,7 @@ PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
   PetscCall(VecDestroy(&t->S));
   PetscCall(VecDestroy(&t->w));
   PetscCall(VecDestroy(&t->Kw));
-  PetscCall(PetscFree4(t->gives, t->scale, t->f, t->v));
+  PetscCall(PetscFree4(t->compliance, t->scale, t->f, t->v));
   PetscCall(PetscFree4(t->V, t->ZV, t->H, t->pivots));
   PetscCall(PetscFree(t->C));
   PetscCall(PetscMemzero(t, sizeof(*t)));
@@ -71,7 +71,7 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscCall(MatAXPY(t->G, 0.0, t->Bf, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatGetDiagonal(t->G, t->r));
   PetscCall(VecGetArrayRead(t->r, &a));
-  for (PetscInt i = 0; i < t->m; i++) t->gives[i] = PetscRealPart(a[i]);
+  for (PetscInt i = 0; i < t->m; i++) t->compliance[i] = PetscRealPart(a[i]);
   PetscCall(VecRestoreArrayRead(t->r, &a));
   PetscFunctionReturn(0);
 }
@@ -118,7 +118,7 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscCall(VecDuplicate(t->w, &t->Kw));
   PetscCall(VecDuplicate(t->r, &t->z));
   PetscCall(VecDuplicate(t->r, &t->S));
-  PetscCall(PetscMalloc4(t->m, &t->gives, t->m, &t->scale, t->m, &t->f, t->m, &t->v));
+  PetscCall(PetscMalloc4(t->m, &t->compliance, t->m, &t->scale, t->m, &t->f, t->m, &t->v));
   PetscCall(
     PetscMalloc4((size_t)t->m * (size_t)kmax, &t->V, kmax * kmax, &t->ZV, kmax * kmax, &t->H, kmax, &t->pivots));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));

@@ -9,10 +9,10 @@
 */
 #include "measureimpl.h"
 
-#define IP_WORTH_MULTIPLE 20.0 /* allowed error bound relative to the objective, as a multiple of the tolerance */
-#define IP_WORTH_TERMS    1e-6 /* replaces the objective by this fraction of its terms if these cancel */
-#define IP_WORTH_FIRST    1e-8 /* replaces the terms by this fraction of their first values if they vanish */
-#define IP_WORTH_ROUNDING \
+#define IP_BOUND_MULTIPLE 20.0 /* allowed error bound relative to the objective, as a multiple of the tolerance */
+#define IP_BOUND_TERMS    1e-6 /* replaces the objective by this fraction of its terms if these cancel */
+#define IP_BOUND_FIRST    1e-8 /* replaces the terms by this fraction of their first values if they vanish */
+#define IP_BOUND_ROUNDING \
   (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding */
 
 /* sum_j |a_j b_j| */
@@ -58,7 +58,7 @@ static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscRea
 
 /* Part of the stationarity residual in the error bound. The diagonal is that of the last condensed matrix; before
    there is one, that of the Hessian. */
-static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *worth)
+static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           diagonal;
@@ -67,45 +67,45 @@ static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *worth)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
   if (ip->cond.A && ip->rec.nsystems) PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
   else PetscCall(VecCopy(ip->stiff.hdiag, diagonal));
-  PetscCall(ErrorBoundImbalance(tao, diagonal, ip->rx, worth));
+  PetscCall(ErrorBoundImbalance(tao, diagonal, ip->rx, bound));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
   PetscFunctionReturn(0);
 }
 
 /* Part of the violation in the error bound */
-static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *worth)
+static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     equality;
   Vec           force;
 
   PetscFunctionBegin;
-  *worth = 0.0;
+  *bound = 0.0;
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
-    PetscCall(ErrorBoundProduct(force, ip->rc, worth));
+    PetscCall(ErrorBoundProduct(force, ip->rc, bound));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
   if (ip->me) {
     PetscCall(ErrorBoundProduct(ip->at.y, ip->at.ce, &equality));
-    *worth += equality;
+    *bound += equality;
   }
   PetscFunctionReturn(0);
 }
 
 /* Part of the complementarity gap in the error bound: sum m t z */
-static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *worth)
+static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *worth = 0.0;
+  *bound = 0.0;
   for (PetscInt b = 0; b < IP_NPAIRS; b++) {
     PetscReal sum;
 
     PetscCall(IPPairProducts(&ip->pair[b], 0.0, NULL, &sum));
-    *worth += sum;
+    *bound += sum;
   }
   PetscFunctionReturn(0);
 }
@@ -151,8 +151,8 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
   PetscCall(IPErrorBoundTerms(tao, &terms));
   if (ip->first.energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *energy = PetscMax(PetscMax(IP_WORTH_TERMS, IP_WORTH_ROUNDING / (IP_WORTH_MULTIPLE * ip->tol)) * terms,
-    IP_WORTH_FIRST * ip->first.energy);
+  *energy = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
+    IP_BOUND_FIRST * ip->first.energy);
   *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
   if (ip->first.gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
   PetscFunctionReturn(0);
@@ -162,7 +162,7 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
 PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal unit = IP_WORTH_MULTIPLE * ip->scale.energy;
+  const PetscReal unit = IP_BOUND_MULTIPLE * ip->scale.energy;
   PetscReal       forces, violation, gap;
 
   PetscFunctionBegin;
@@ -182,7 +182,7 @@ PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  PetscReal     worth = 0.0;
+  PetscReal     bound = 0.0;
   Vec           force;
 
   PetscFunctionBegin;
@@ -191,31 +191,31 @@ PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
-    PetscCall(VecNorm(force, NORM_1, &worth));
+    PetscCall(VecNorm(force, NORM_1, &bound));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-    worth *= ip->relax.by;
+    bound *= ip->relax.by;
   }
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal sum;
 
     if (!ip->pair[b].n) continue;
     PetscCall(ErrorBoundProduct(ip->pair[b].w, ip->pair[b].z, &sum));
-    worth += ip->relax.unknowns * sum;
+    bound += ip->relax.unknowns * sum;
   }
-  *work = worth / (IP_WORTH_MULTIPLE * ip->scale.energy);
+  *work = bound / (IP_BOUND_MULTIPLE * ip->scale.energy);
   PetscFunctionReturn(0);
 }
 
 /* Converts such a relative value to the units of the objective */
 PetscReal IPErrorBoundOfWork(const TAO_IPFILTER *ip, PetscReal work)
 {
-  return work * IP_WORTH_MULTIPLE * ip->scale.energy;
+  return work * IP_BOUND_MULTIPLE * ip->scale.energy;
 }
 
 /* Whether a complementarity gap is within the tolerance */
 PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 {
-  return (PetscBool)(gap <= IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy);
+  return (PetscBool)(gap <= IP_BOUND_MULTIPLE * ip->tol * ip->scale.energy);
 }
 
 /* Norm of the stationarity residual up to which both measures of the KKT error are at most 1 */
@@ -251,6 +251,6 @@ PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
   if (weight > 0.0 && ip->scale.energy < PETSC_INFINITY)
-    mu = PetscMin(mu, 0.5 * IP_WORTH_MULTIPLE * ip->tol * ip->scale.energy / weight);
+    mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * ip->scale.energy / weight);
   return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
 }

@@ -8,8 +8,8 @@
 #define IP_FAR  1e3  /* a constraint is out of reach if its value exceeds its expected change by this factor */
 #define IP_SOFT 1e-8 /* curvatures below this fraction of the largest count as zero */
 
-/* way: expected change of each unknown, |x_j| or its own Newton step */
-static PetscErrorCode ReachUnknowns(Tao tao, Vec way)
+/* distance: expected change of each unknown, |x_j| or its own Newton step */
+static PetscErrorCode ReachUnknowns(Tao tao, Vec distance)
 {
   Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
   const PetscScalar *g, *h;
@@ -19,15 +19,15 @@ static PetscErrorCode ReachUnknowns(Tao tao, Vec way)
 
   PetscFunctionBegin;
   PetscCall(VecMax(hdiag, NULL, &hmax));
-  PetscCall(VecCopy(tao->solution, way));
-  PetscCall(VecAbs(way));
-  PetscCall(VecGetLocalSize(way, &n));
+  PetscCall(VecCopy(tao->solution, distance));
+  PetscCall(VecAbs(distance));
+  PetscCall(VecGetLocalSize(distance, &n));
   PetscCall(VecGetArrayRead(tao->gradient, &g));
   PetscCall(VecGetArrayRead(hdiag, &h));
-  PetscCall(VecGetArray(way, &w));
+  PetscCall(VecGetArray(distance, &w));
   for (PetscInt j = 0; j < n; j++)
     if (PetscRealPart(h[j]) > IP_SOFT * hmax) w[j] += PetscAbsScalar(g[j]) / PetscRealPart(h[j]);
-  PetscCall(VecRestoreArray(way, &w));
+  PetscCall(VecRestoreArray(distance, &w));
   PetscCall(VecRestoreArrayRead(hdiag, &h));
   PetscCall(VecRestoreArrayRead(tao->gradient, &g));
   PetscFunctionReturn(0);
@@ -39,27 +39,28 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   const PetscScalar *c;
-  PetscReal          way[2] = {0.0, PETSC_NINFINITY}; /* the largest, and minus the smallest */
+  PetscReal          distance[2] = {0.0, PETSC_NINFINITY}; /* the largest, and minus the smallest */
   PetscInt           n;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
   for (PetscInt i = 0; i < n; i++) {
-    way[0] = PetscMax(way[0], -PetscRealPart(c[i]) / ip->first.jacobian);
-    if (PetscRealPart(c[i]) > 0.0) way[1] = PetscMax(way[1], -PetscRealPart(c[i]) / ip->first.jacobian);
+    distance[0] = PetscMax(distance[0], -PetscRealPart(c[i]) / ip->first.jacobian);
+    if (PetscRealPart(c[i]) > 0.0) distance[1] = PetscMax(distance[1], -PetscRealPart(c[i]) / ip->first.jacobian);
   }
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, way, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  if (ip->first.equality_jacobian > 0.0) way[0] = PetscMax(way[0], ip->first.equality / ip->first.equality_jacobian);
-  *violated = way[0];
-  *nearest  = way[1] > PETSC_NINFINITY ? -way[1] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  if (ip->first.equality_jacobian > 0.0)
+    distance[0] = PetscMax(distance[0], ip->first.equality / ip->first.equality_jacobian);
+  *violated = distance[0];
+  *nearest  = distance[1] > PETSC_NINFINITY ? -distance[1] : 0.0;
   PetscFunctionReturn(0);
 }
 
 /* Expected change of each constraint: by its own unknowns, or by all unknowns if its own are not expected to change;
    at least what it takes to meet it */
-static PetscErrorCode ReachRows(Tao tao, Vec way)
+static PetscErrorCode ReachRows(Tao tao, Vec distance)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   const PetscScalar *c;
@@ -68,7 +69,7 @@ static PetscErrorCode ReachRows(Tao tao, Vec way)
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(ip->at.c, &ip->stiff.reach));
-  PetscCall(IPOwnTerms(ip->jac.inequality, way, ip->stiff.reach, NULL));
+  PetscCall(IPOwnTerms(ip->jac.inequality, distance, ip->stiff.reach, NULL));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
   PetscCall(VecGetArray(ip->stiff.reach, &r));
@@ -87,19 +88,19 @@ PetscErrorCode IPMeasureReach(Tao tao)
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPFirst      *first = &ip->first;
   PetscReal     largest, violated, nearest;
-  Vec           way;
+  Vec           distance;
 
   PetscFunctionBegin;
   PetscCall(VecDestroy(&ip->stiff.reach));
   if (!ip->mi || !(first->jacobian > 0.0)) PetscFunctionReturn(0);
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &way));
-  PetscCall(ReachUnknowns(tao, way));
-  PetscCall(VecNorm(way, NORM_INFINITY, &largest));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &distance));
+  PetscCall(ReachUnknowns(tao, distance));
+  PetscCall(VecNorm(distance, NORM_INFINITY, &largest));
   PetscCall(ReachViolated(tao, &violated, &nearest));
   first->reach = PetscMax(largest, violated);
   if (first->reach == 0.0) first->reach = nearest;
-  if (first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, way));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &way));
+  if (first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, distance));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &distance));
   if (!ip->stiff.reach) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &largest));
   PetscCall(IPSizeWithinReach(tao, ip->at.c, &first->length));

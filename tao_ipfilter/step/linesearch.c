@@ -44,8 +44,8 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = &ip->search;
-  const PetscReal trace = 1e-10, worth = 1e-2,
-                  factor = search->theta <= trace * SearchFirstViolation(ip) ? worth : IP_OBJ_MAX_INC;
+  const PetscReal trace = 1e-10, reduced = 1e-2,
+                  factor = search->theta <= trace * SearchFirstViolation(ip) ? reduced : IP_OBJ_MAX_INC;
 
   return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY
                                             : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);

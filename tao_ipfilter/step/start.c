@@ -109,9 +109,9 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
   PetscFunctionReturn(0);
 }
 
-/* worth: mean product per pair of bounds: the work of forces on the way to the bounds they push to. Used where the
+/* bound: mean product per pair of bounds: the work of forces on the way to the bounds they push to. Used where the
    objective is almost linear, so that only the bounds will stop the iteration */
-static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
+static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    linear = 100.0; /* Newton steps longer than this many times the distance to bounds count as a
@@ -140,7 +140,7 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *worth)
   PetscCall(VecRestoreArrayRead(ip->stiff.hdiag, &h));
   PetscCall(VecRestoreArrayRead(tao->gradient, &g));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
-  *worth = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+  *bound = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -167,7 +167,7 @@ static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     length, pressure, mean, terms, worth;
+  PetscReal     length, pressure, mean, terms, bound;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
 
@@ -188,9 +188,9 @@ static PetscErrorCode StartPredicted(Tao tao)
   ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
-  PetscCall(BoundsErrorBound(tao, &worth));
-  if (ip->mu < IP_PREDICT_MU * worth) {
-    ip->mu = IP_PREDICT_MU * worth;
+  PetscCall(BoundsErrorBound(tao, &bound));
+  if (ip->mu < IP_PREDICT_MU * bound) {
+    ip->mu = IP_PREDICT_MU * bound;
     PetscCall(StiffenForBarrier(tao, length));
   }
   if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;

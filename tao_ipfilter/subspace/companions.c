@@ -22,8 +22,8 @@ PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
    with the energies of loads on single unknowns. */
 PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
 {
-  const PetscReal most  = 1e7;
-  PetscReal       worth = 0.0, alone = 0.0, *x;
+  const PetscReal most = 1e7;
+  PetscReal       work = 0.0, alone = 0.0, *x;
   PetscScalar    *b;
   PetscRandom     random;
   Vec             load;
@@ -42,12 +42,12 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
     alone += PetscSqr(r - 0.5);
   }
   PetscCall(IPComplianceSolve(compliance, 1, b, x));
-  for (PetscInt i = 0; i < compliance->n; i++) worth += PetscRealPart(b[i]) * x[i];
+  for (PetscInt i = 0; i < compliance->n; i++) work += PetscRealPart(b[i]) * x[i];
   PetscCall(VecRestoreArray(load, &b));
   PetscCall(PetscFree(x));
   PetscCall(PetscRandomDestroy(&random));
   PetscCall(VecDestroy(&load));
-  *needed = (PetscBool) !(worth >= 0.0 && worth <= most * alone);
+  *needed = (PetscBool) !(work >= 0.0 && work <= most * alone);
   PetscFunctionReturn(0);
 }
 

@@ -80,14 +80,14 @@ def judge():
     say("between smooth faces the gap is true after 12 linearizations at most", runs["smooth"]["converged"] and smooth["gap_change"] <= 1e-6 * PUSH and smooth["contact_updates"] <= 12, smooth)
     say("none is damped", smooth["gap_damped"] == 0 and not warnings(runs["smooth"]), runs["smooth"]["warnings"])
     say("smooth, no force to the side", sideways(smooth) < 1e-6 * abs(smooth["reaction"][2]), (smooth["reaction"], smooth["contact_force"]))
-    say("between facets the updates end with a true gap", runs["facets"]["converged"] and not facets["gap_untrue"] and facets["gap_change"] <= 1e-5 * PUSH and facets["gap_true"] > -1e-5 * PUSH, facets["gap_change"])
+    say("between facets the updates end with a true gap", runs["facets"]["converged"] and not facets["gap_unconverged"] and facets["gap_change"] <= 1e-5 * PUSH and facets["gap_true"] > -1e-5 * PUSH, facets["gap_change"])
     size = abs(facets["reaction"][2])
     say("no force to the side", size > 1 and sideways(facets) < 1e-6 * size, (facets["reaction"], facets["contact_force"]))
     corner = last["corner"]
-    say("a corner first, the updates end with a true gap", runs["corner"]["converged"] and not corner["gap_untrue"] and corner["gap_damped"] == 0 and sideways(corner) < 1e-5 * abs(corner["reaction"][2]), corner)
+    say("a corner first, the updates end with a true gap", runs["corner"]["converged"] and not corner["gap_unconverged"] and corner["gap_damped"] == 0 and sideways(corner) < 1e-5 * abs(corner["reaction"][2]), corner)
     say("that updates are damped is told", last["circle"]["gap_damped"] > 0 and len(warnings(runs["circle"])) == 1, runs["circle"]["warnings"])
-    say("a gap that is not true is no convergence", not runs["circle"]["converged"] and last["circle"]["gap_untrue"] and last["circle"]["gap_change"] > 1e-4, runs["circle"]["reason"])
-    say("one linearization converges, its gap is not true", runs["single"]["converged"] and last["single"]["gap_untrue"] and last["single"]["gap_change"] > 1e-2, runs["single"]["reason"])
+    say("a gap that is not true is no convergence", not runs["circle"]["converged"] and last["circle"]["gap_unconverged"] and last["circle"]["gap_change"] > 1e-4, runs["circle"]["reason"])
+    say("one linearization converges, its gap is not true", runs["single"]["converged"] and last["single"]["gap_unconverged"] and last["single"]["gap_change"] > 1e-2, runs["single"]["reason"])
 
 
 if __name__ == "__main__":

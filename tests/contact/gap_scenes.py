@@ -103,7 +103,7 @@ def write():
 def judge():
     for name, _, limit, size in scenes():
         run = load(name.replace(",", "").replace(" ", "_"))
-        good = run["exit_code"] == 0 and not any(each(run, "gap_untrue")) and not sum(each(run, "cuts"))
+        good = run["exit_code"] == 0 and not any(each(run, "gap_unconverged")) and not sum(each(run, "cuts"))
         say("%s: a true gap in every step, none cut, after %d linearizations at most" % (name, limit), good and max(each(run, "contact_updates")) <= limit, (run["reason"], each(run, "contact_updates")))
         say(name + ": nothing goes through more than 1e-5 of the largest displacement", good and max(each(run, "gap_change")) <= 1e-5 * size and min(each(run, "gap_true")) >= -1e-5 * size, each(run, "gap_true"))
         say(name + ": each body in balance to 1e-8", max(each(run, "balance")) <= 1e-8, each(run, "balance"))

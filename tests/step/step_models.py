@@ -32,8 +32,8 @@ for name in ("updated_2", "updated_5"):
     say("%s: the true gap within 1e-6 of the displacement" % name, -0.6e-6 <= last[name]["gap_true"] and last[name]["contact_updates"] < 20, (last[name]["gap_true"], last[name]["contact_updates"]))
 say("updated to the end, 2 and 5 load steps give the same energy to 1e-5", within(last["updated_2"]["energy"], last["updated_5"]["energy"], 1e-5), (last["updated_2"]["energy"], last["updated_5"]["energy"]))
 untrue = runs["untrue"]
-say("a limit on linearizations that comes too early is said, and no convergence", not untrue["converged"] and last["untrue"]["gap_untrue"] and untrue["exit_code"] == 3 and "the gap still changes by" in untrue["reason"], untrue["reason"])
-say("one linearization that is asked for converges, and says how far its gap is off", runs["energy"]["converged"] and last["energy"]["gap_untrue"] and "contact gap error up to" in runs["energy"]["reason"], runs["energy"]["reason"])
+say("a limit on linearizations that comes too early is said, and no convergence", not untrue["converged"] and last["untrue"]["gap_unconverged"] and untrue["exit_code"] == 3 and "the gap still changes by" in untrue["reason"], untrue["reason"])
+say("one linearization that is asked for converges, and says how far its gap is off", runs["energy"]["converged"] and last["energy"]["gap_unconverged"] and "contact gap error up to" in runs["energy"]["reason"], runs["energy"]["reason"])
 say("the step that was too large was cut", last["squash"]["cuts"] > 0 and last["squash"]["substeps"] > 1, (last["squash"]["cuts"], last["squash"]["substeps"]))
 say("cut or not, the same energy to 1e-8", within(last["squash"]["energy"], last["gentle"]["energy"], 1e-8), (last["squash"]["energy"], last["gentle"]["energy"]))
 say("nothing of contact in a scene without it", all(not e["on"] for e in runs["squash"]["effects"] if e["name"] in ("contact", "contact updates", "AMG filter")), runs["squash"]["effects"])

@@ -39,14 +39,14 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
 
 /* Adds the derivatives of one facet's four rows by the facet's vertices and by the normals there (smooth pairs) */
 PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
-  const PetscInt bend[4], const ContactSlopes *slopes)
+  const PetscInt normal_id[4], const ContactSlopes *slopes)
 {
   PetscFunctionBegin;
   for (PetscInt a = 0; a < 4; ++a) {
     PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
     PetscCall(ContactEntriesAdd(&as->by_cover, row[a], 4, node, slopes->cover[a]));
     PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
-    PetscCall(ContactEntriesAdd(&as->by_bend, row[a], 4, bend, slopes->normal[a]));
+    PetscCall(ContactEntriesAdd(&as->by_normal, row[a], 4, normal_id, slopes->normal[a]));
   }
   PetscFunctionReturn(0);
 }
@@ -57,7 +57,7 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscCall(ContactEntriesDestroy(&as->rigid));
   PetscCall(ContactEntriesDestroy(&as->by_cover));
   PetscCall(ContactEntriesDestroy(&as->by_node));
-  PetscCall(ContactEntriesDestroy(&as->by_bend));
+  PetscCall(ContactEntriesDestroy(&as->by_normal));
   PetscCall(PetscFree(as->row));
   PetscCall(PetscFree(as->node));
   for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
@@ -256,18 +256,18 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
   PetscInt n;
-  Mat      bend, through;
+  Mat      by_normals, through;
 
   PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(contact->bends.slopes, NULL, &n));
+  PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
   PetscCall(SlopesCreateMatrix(contact, n, &as->rigid, rigid));
   PetscCall(SlopesHoldCover(contact, as, *rigid));
   PetscCall(SlopesCreateMatrix(contact, n, &as->by_node, bending));
-  PetscCall(SlopesCreateMatrix(contact, 3 * contact->bends.nlocal, &as->by_bend, &bend));
-  PetscCall(MatMatMult(bend, contact->bends.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
+  PetscCall(SlopesCreateMatrix(contact, 3 * contact->smooth.nlocal, &as->by_normal, &by_normals));
+  PetscCall(MatMatMult(by_normals, contact->smooth.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
   PetscCall(MatAXPY(*bending, 1.0, through, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&through));
-  PetscCall(MatDestroy(&bend));
+  PetscCall(MatDestroy(&by_normals));
   PetscFunctionReturn(0);
 }
 
@@ -448,7 +448,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
   PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  if (contact->bends.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
+  if (contact->smooth.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));

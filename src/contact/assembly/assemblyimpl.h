@@ -80,7 +80,7 @@ struct _n_Contact {
   PetscInt                 ndisplacements;
   const SceneDisplacement *displacements; /* prescribed displacements of the bodies' faces; borrowed from the caller */
   PetscBool                smoothed;      /* whether ContactSmoothFind() has found the curved pairs */
-  ContactSmoothNormals     bends;
+  ContactSmoothNormals     smooth;
   Mat         trace;     /* added to the mesh's displacement at the surfaces' vertices; NULL: no face has order 2 */
   ContactRule rule;      /* of the triangles that overlaps are cut into */
   PetscReal   reach;     /* least search distance of pairs without one of their own [length] */
@@ -137,13 +137,13 @@ typedef struct {
                   displacement */
 
   ContactEntries rigid, by_cover, by_node,
-    by_bend; /* derivatives of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
+    by_normal; /* derivatives of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
 } ContactAssembly;
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[],
   const PetscReal value[], const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *, const PetscInt row[4], const PetscInt node[4],
-  const PetscInt bend[4], const ContactSlopes *);
+  const PetscInt normal_id[4], const ContactSlopes *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
 

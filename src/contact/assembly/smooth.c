@@ -48,7 +48,8 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
     undeformed.x = undeformed.reference;
     PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
     PetscCall(ContactRingCreate(contact->comm, u, cosine, surface[k], ring[k]));
-    PetscCall(PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->bend));
+    PetscCall(
+      PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->normal_id));
     undeformed.patch = surface[k]->patch;
     PetscCall(PatchSurface(ring[k], &undeformed, &largest[k], &largest[2 + k]));
   }
@@ -63,8 +64,8 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionBegin;
   PetscCall(ContactRingDestroy(&pair->mortar_ring));
   PetscCall(ContactRingDestroy(&pair->nonmortar_ring));
-  PetscCall(PetscFree2(pair->mortar.patch, pair->mortar.bend));
-  PetscCall(PetscFree2(pair->nonmortar.patch, pair->nonmortar.bend));
+  PetscCall(PetscFree2(pair->mortar.patch, pair->mortar.normal_id));
+  PetscCall(PetscFree2(pair->nonmortar.patch, pair->nonmortar.normal_id));
   pair->bulge          = 0.0;
   pair->mortar.patched = pair->nonmortar.patched = PETSC_FALSE;
   PetscFunctionReturn(0);

@@ -22,7 +22,7 @@ static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
 
     if (pair->mortar.patched) n += pair->mortar_ring.nnormals + pair->nonmortar_ring.nnormals;
   }
-  contact->bends.nlocal = n;
+  contact->smooth.nlocal = n;
   PetscCallMPI(MPI_Scan(&n, &next, 1, MPIU_INT, MPI_SUM, contact->comm));
   *first = next -= n;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
@@ -31,7 +31,7 @@ static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
 
     SmoothNormalsGetSides(&contact->pairs[p], surface, ring);
     for (PetscInt k = 0; k < 2 && surface[0]->patched; ++k) {
-      for (PetscInt i = 0; i < 4 * surface[k]->nfacets; ++i) surface[k]->bend[i] = next + ring[k]->normal[i];
+      for (PetscInt i = 0; i < 4 * surface[k]->nfacets; ++i) surface[k]->normal_id[i] = next + ring[k]->normal[i];
       next += ring[k]->nnormals;
     }
   }
@@ -42,7 +42,7 @@ static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
    rank's normal i */
 static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
 {
-  ContactNormalSlopes *blocks = &contact->bends.blocks;
+  ContactNormalSlopes *blocks = &contact->smooth.blocks;
 
   PetscFunctionBegin;
   blocks->n = 0;
@@ -67,26 +67,26 @@ static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
 /* Collective. Preallocates the matrix from blocks whose nodes are known */
 static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, const PetscInt end[])
 {
-  ContactSmoothNormals *bends = &contact->bends;
+  ContactSmoothNormals *smooth = &contact->smooth;
   PetscInt              n, *row, *column, normal = 0;
   Vec                   u;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(9 * bends->blocks.n, &row, 9 * bends->blocks.n, &column));
-  for (PetscInt b = 0; b < bends->blocks.n; ++b) {
+  PetscCall(PetscMalloc2(9 * smooth->blocks.n, &row, 9 * smooth->blocks.n, &column));
+  for (PetscInt b = 0; b < smooth->blocks.n; ++b) {
     while (b >= end[normal]) ++normal;
     for (PetscInt i = 0; i < 9; ++i) {
       row[9 * b + i]    = 3 * (first + normal) + i / 3;
-      column[9 * b + i] = 3 * bends->blocks.node[b] + i % 3;
+      column[9 * b + i] = 3 * smooth->blocks.node[b] + i % 3;
     }
   }
   PetscCall(DMGetGlobalVector(contact->dm, &u));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(DMRestoreGlobalVector(contact->dm, &u));
-  PetscCall(MatCreate(contact->comm, &bends->slopes));
-  PetscCall(MatSetSizes(bends->slopes, 3 * bends->nlocal, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(bends->slopes, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(bends->slopes, 9 * bends->blocks.n, row, column));
+  PetscCall(MatCreate(contact->comm, &smooth->slopes));
+  PetscCall(MatSetSizes(smooth->slopes, 3 * smooth->nlocal, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(smooth->slopes, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(smooth->slopes, 9 * smooth->blocks.n, row, column));
   PetscCall(PetscFree2(row, column));
   PetscFunctionReturn(0);
 }
@@ -95,16 +95,16 @@ static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, 
    is */
 PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
 {
-  ContactSmoothNormals *bends = &contact->bends;
-  PetscInt              first = 0, total, *end;
+  ContactSmoothNormals *smooth = &contact->smooth;
+  PetscInt              first  = 0, total, *end;
 
   PetscFunctionBegin;
   PetscCall(SmoothNormalsNumber(contact, &first));
-  PetscCallMPI(MPI_Allreduce(&bends->nlocal, &total, 1, MPIU_INT, MPI_SUM, contact->comm));
+  PetscCallMPI(MPI_Allreduce(&smooth->nlocal, &total, 1, MPIU_INT, MPI_SUM, contact->comm));
   if (!total) PetscFunctionReturn(0);
   PetscCall(SmoothNormalsFill(contact, NULL));
-  PetscCall(PetscMalloc2(bends->blocks.n, &bends->blocks.node, 9 * bends->blocks.n, &bends->blocks.value));
-  PetscCall(PetscMalloc1(bends->nlocal, &end));
+  PetscCall(PetscMalloc2(smooth->blocks.n, &smooth->blocks.node, 9 * smooth->blocks.n, &smooth->blocks.value));
+  PetscCall(PetscMalloc1(smooth->nlocal, &end));
   PetscCall(SmoothNormalsFill(contact, end));
   PetscCall(SmoothNormalsPreallocate(contact, first, end));
   PetscCall(PetscFree(end));
@@ -115,17 +115,17 @@ PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
 PetscErrorCode ContactSmoothNormalsUpdate(Contact contact)
 {
   PetscFunctionBegin;
-  if (!contact->bends.slopes) PetscFunctionReturn(0);
+  if (!contact->smooth.slopes) PetscFunctionReturn(0);
   PetscCall(SmoothNormalsFill(contact, NULL));
-  PetscCall(MatSetValuesCOO(contact->bends.slopes, contact->bends.blocks.value, INSERT_VALUES));
+  PetscCall(MatSetValuesCOO(contact->smooth.slopes, contact->smooth.blocks.value, INSERT_VALUES));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ContactSmoothNormalsDestroy(Contact contact)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(contact->bends.blocks.node, contact->bends.blocks.value));
-  PetscCall(MatDestroy(&contact->bends.slopes));
-  contact->bends.nlocal = 0;
+  PetscCall(PetscFree2(contact->smooth.blocks.node, contact->smooth.blocks.value));
+  PetscCall(MatDestroy(&contact->smooth.slopes));
+  contact->smooth.nlocal = 0;
   PetscFunctionReturn(0);
 }

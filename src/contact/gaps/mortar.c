@@ -58,7 +58,7 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
     ContactDualTransformSlopes(facet->dual, &slopes);
   }
   for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
-  PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->bend[4 * k], &slopes));
+  PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
   PetscFunctionReturn(0);
 }
 
@@ -145,7 +145,8 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
       PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
     }
     if (smooth)
-      PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.bend[4 * f], &facet.slopes));
+      PetscCall(
+        ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
     PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
     PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
   }

@@ -150,7 +150,7 @@ static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mas
   PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->rigid));
   PetscCall(ContactEntriesAdd(&assembly->by_node, row, 1, &vertex, gap->vertex));
   PetscCall(ContactEntriesAdd(&assembly->by_node, row, 4, &mortar->node[4 * facet], gap->facet));
-  PetscCall(ContactEntriesAdd(&assembly->by_bend, row, 4, &mortar->bend[4 * facet], gap->normal));
+  PetscCall(ContactEntriesAdd(&assembly->by_normal, row, 4, &mortar->normal_id[4 * facet], gap->normal));
   PetscFunctionReturn(0);
 }
 
@@ -181,7 +181,7 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   offset /= 3;
   value[0] = -mass;
   PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
-  if (mortar->bend) PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
+  if (mortar->normal_id) PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscFunctionReturn(0);
 }

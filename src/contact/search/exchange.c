@@ -7,7 +7,7 @@
 typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
-  PetscInt    n, *node, *border, *bend;
+  PetscInt    n, *node, *border, *normal_id;
   PetscReal  *x, *patch;
 } Outgoing;
 
@@ -32,7 +32,7 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
         if (s->bordered) out->border[out->n] = s->border[f];
         if (s->patched) {
           PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
-          PetscCall(PetscArraycpy(&out->bend[4 * out->n], &s->bend[4 * f], 4));
+          PetscCall(PetscArraycpy(&out->normal_id[4 * out->n], &s->normal_id[4 * f], 4));
         }
       }
       ++out->n;
@@ -106,20 +106,20 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
-    &out.patch, 4 * npatch * out.n, &out.bend));
+    &out.patch, 4 * npatch * out.n, &out.normal_id));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
   PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
-    &in->patch, 4 * npatch * in->n, &in->bend));
+    &in->patch, 4 * npatch * in->n, &in->normal_id));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
   if (npatch) {
     PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
-    PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.bend, in->bend));
+    PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.normal_id, in->normal_id));
   }
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree5(out.x, out.node, out.border, out.patch, out.bend));
+  PetscCall(PetscFree5(out.x, out.node, out.border, out.patch, out.normal_id));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -127,7 +127,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree5(in->x, in->node, in->border, in->patch, in->bend));
+  PetscCall(PetscFree5(in->x, in->node, in->border, in->patch, in->normal_id));
   in->n = 0;
   PetscFunctionReturn(0);
 }

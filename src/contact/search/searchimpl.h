@@ -9,11 +9,11 @@
 /* exchange.c: mortar facets of all ranks that may face this rank's part of the nonmortar face */
 typedef struct {
   PetscInt   n;
-  PetscInt  *node;   /* [4 n] */
-  PetscInt  *border; /* [n] NULL unless the surface's border is known */
-  PetscReal *x;      /* [12 n] */
-  PetscReal *patch;  /* [12 n] NULL unless the surface is smooth */
-  PetscInt  *bend;   /* [4 n] global numbers of the normals, with patch */
+  PetscInt  *node;      /* [4 n] */
+  PetscInt  *border;    /* [n] NULL unless the surface's border is known */
+  PetscReal *x;         /* [12 n] */
+  PetscReal *patch;     /* [12 n] NULL unless the surface is smooth */
+  PetscInt  *normal_id; /* [4 n] global numbers of the normals, with patch */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *,
   ContactCandidates *);

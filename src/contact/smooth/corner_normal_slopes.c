@@ -146,11 +146,10 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
 /* Sums of MendBorder() over the edges that lead inward: c_k = across.d_k, r_k = -(n + m_k).d_k, correction b = sum
    r_k c_k / sum c_k^2 */
 typedef struct {
-  PetscReal along[3], across[3], length, bend, squares;
-} BorderBend;
+  PetscReal along[3], across[3], length, slope, squares;
+} Border;
 
-static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
-  BorderBend *border)
+static void BorderCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3], Border *border)
 {
   PetscReal after[3], before[3], d[3], m[3], sum = 0.0;
 
@@ -166,7 +165,7 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
     sum -= (VectorDot(n, d) + VectorDot(m, d)) * VectorDot(border->across, d);
     border->squares += PetscSqr(VectorDot(border->across, d));
   }
-  border->bend = border->squares > 0.0 ? sum / border->squares : 0.0;
+  border->slope = border->squares > 0.0 ? sum / border->squares : 0.0;
 }
 
 /* Adds A, a derivative by the corrected normal before it is scaled: the mean plus b times the direction across the
@@ -174,14 +173,14 @@ static void BorderBendCreate(const ContactRing *ring, PetscInt first, PetscInt l
 static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
   const PetscReal A[9], ContactNormalSlopes *slopes)
 {
-  PetscReal  AX[3], mean[9], across[9], B[9];
-  BorderBend border;
+  PetscReal AX[3], mean[9], across[9], B[9];
+  Border    border;
 
-  BorderBendCreate(ring, first, last, n, &border);
+  BorderCreate(ring, first, last, n, &border);
   Times(A, border.across, AX);
   for (PetscInt i = 0; i < 9; ++i) {
     mean[i]   = A[i];
-    across[i] = border.bend * A[i];
+    across[i] = border.slope * A[i];
   }
   for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
     PetscReal       after[3], d[3], m[3], c, r, by_edge[3];
@@ -190,7 +189,7 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
     ContactRingEdges(ring, corner, after, d);
     ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
     c = VectorDot(border.across, d);
-    r = -VectorDot(n, d) - VectorDot(m, d) - 2.0 * border.bend * c;
+    r = -VectorDot(n, d) - VectorDot(m, d) - 2.0 * border.slope * c;
     for (PetscInt k = 0; k < 3; ++k) by_edge[k] = -c * (n[k] + m[k]) + r * border.across[k];
     AddOuter(mean, -c * inverse, AX, d, mean);
     AddOuter(across, r * inverse, AX, d, across);

@@ -187,6 +187,6 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
   PetscCall(PetscFree(s->border));
   PetscCall(PetscFree(s->held));
-  PetscCall(PetscFree2(s->patch, s->bend));
+  PetscCall(PetscFree2(s->patch, s->normal_id));
   PetscFunctionReturn(0);
 }

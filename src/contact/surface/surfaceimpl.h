@@ -29,8 +29,8 @@ typedef struct {
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
-  PetscInt  *bend;      /* [4 nfacets] global numbers of these normals */
-  PetscBool  patched;   /* whether patch and bend exist; the same on all ranks */
+  PetscInt  *normal_id; /* [4 nfacets] global numbers of these normals */
+  PetscBool  patched;   /* whether patch and normal_id exist; the same on all ranks */
   PetscBool  cut;       /* whether the facets are parts of order-2 facets; the same on all ranks */
   PetscInt
     *held; /* [nfacets] bit 3 a + c: the displacement of vertex a along axis c is prescribed by a face of the mesh */

@@ -277,7 +277,7 @@ static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey ed
 }
 
 /* Sets the grid's curve unless all its edges are straight */
-PetscErrorCode ShapeGridBend(ShapeGrid *grid)
+PetscErrorCode ShapeGridProject(ShapeGrid *grid)
 {
   ArcSurface s;
   ArcKey    *edges;

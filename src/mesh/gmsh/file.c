@@ -8,11 +8,11 @@ static const PetscInt corner_at[9][8] = {[4] = {0, 1, 2, 3}, [8] = {0, 1, 3, 2, 
 /* Reads the file, on rank 0 */
 static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
 {
-  char complaint[256];
+  char message[256];
 
   PetscFunctionBegin;
-  PetscCall(GmshMeshRead(file, mesh, sizeof(complaint), complaint));
-  PetscCheck(!complaint[0], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s", complaint);
+  PetscCall(GmshMeshRead(file, mesh, sizeof(message), message));
+  PetscCheck(!message[0], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s", message);
   PetscFunctionReturn(0);
 }
 
@@ -277,7 +277,7 @@ static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, P
   PetscCall(GmshCutCoordinates(mesh, number, grid));
   if (body->curved) {
     PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));
-    if (!quadratic && grid->ncorners == 8) PetscCall(ShapeGridBend(grid));
+    if (!quadratic && grid->ncorners == 8) PetscCall(ShapeGridProject(grid));
   }
   PetscCall(GmshCutSurfaces(mesh, volume, nsurfaces, surfaces, number, grid));
   PetscCall(GmshCheckVertices(body, grid));

@@ -19,8 +19,8 @@ typedef struct {
   size_t     length;
 } GmshStream;
 
-PETSC_INTERN void GmshComplain(GmshStream *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-#define GmshWrong(...) (GmshComplain(__VA_ARGS__), PETSC_FALSE)
+PETSC_INTERN void GmshError(GmshStream *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+#define GmshWrong(...) (GmshError(__VA_ARGS__), PETSC_FALSE)
 
 /* Reads a word and one blank after it; the name of the next section, skipping comments */
 PETSC_INTERN PetscBool GmshGetWord(GmshStream *, char word[GMSH_WORD]);
@@ -114,7 +114,7 @@ PETSC_INTERN const PetscInt GmshHexahedronEnds[20][2];
 PETSC_INTERN PetscReal      GmshGetCurve(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[]);
 
 /* curved_edges.c: curves for a grid of straight cells on a curved surface */
-PETSC_INTERN PetscErrorCode ShapeGridBend(ShapeGrid *);
+PETSC_INTERN PetscErrorCode ShapeGridProject(ShapeGrid *);
 
 /* file.c: a Gmsh file, read on rank 0; successive bodies from the same file share it */
 typedef struct {

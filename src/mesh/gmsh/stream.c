@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Stores the first error message */
-void GmshComplain(GmshStream *in, const char format[], ...)
+void GmshError(GmshStream *in, const char format[], ...)
 {
   va_list args;
 

@@ -133,7 +133,7 @@ static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshH
 }
 
 /* Error: no cell is near both faces, or in the box */
-static PetscErrorCode ZoneComplain(const SceneBody bodies[], const SceneRefinement *refinement)
+static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement *refinement)
 {
   const PetscReal  *a = refinement->lower, *b = refinement->upper;
   const char *const body = refinement->body >= 0 ? bodies[refinement->body].name : "";
@@ -166,7 +166,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     marked[c] = PETSC_TRUE;
     *more     = PETSC_TRUE;
   }
-  if (!n) PetscCall(ZoneComplain(bodies, refinement));
+  if (!n) PetscCall(ZoneError(bodies, refinement));
   PetscFunctionReturn(0);
 }
 

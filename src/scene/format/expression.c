@@ -2,11 +2,11 @@
 #include "formatimpl.h"
 #include "src/model/modelimpl.h"
 
-static PetscErrorCode ExpressionComplain(SceneKeys keys, const char key[], const char text[], const char variables[],
+static PetscErrorCode ExpressionError(SceneKeys keys, const char key[], const char text[], const char variables[],
   const Expression *e)
 {
   PetscFunctionBegin;
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text,
+  PetscCall(SceneKeysError(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text,
     *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "",
     *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
   PetscFunctionReturn(0);
@@ -20,9 +20,9 @@ PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[]
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);
-  if (e.wrong) PetscCall(ExpressionComplain(keys, key, text, "t, s", &e));
+  if (e.wrong) PetscCall(ExpressionError(keys, key, text, "t, s", &e));
   else if (PetscIsInfOrNanReal(*value))
-    PetscCall(SceneKeysComplain(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
+    PetscCall(SceneKeysError(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
   PetscFunctionReturn(0);
 }
 
@@ -33,6 +33,6 @@ PetscErrorCode SceneCheckExpression(SceneKeys keys, const char key[], const char
 
   PetscFunctionBegin;
   (void)ExpressionEvaluate(&e);
-  if (e.wrong) PetscCall(ExpressionComplain(keys, key, text, "x, y, z", &e));
+  if (e.wrong) PetscCall(ExpressionError(keys, key, text, "x, y, z", &e));
   PetscFunctionReturn(0);
 }

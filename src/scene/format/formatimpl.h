@@ -50,8 +50,8 @@ typedef struct {
   const struct _n_SceneList *list; /* the list that is being read */
   const struct _n_SceneKey  *top;  /* rows of the top level, for messages about unknown keys */
   SceneKeyLines              lines;
-  char                       complaint[1024]; /* the first error; empty: none */
-  PetscBool                  decides; /* the error decides which keys are valid, so it is reported before unknown
+  char                       error[1024]; /* the first error; empty: none */
+  PetscBool                  decides;     /* the error decides which keys are valid, so it is reported before unknown
                                          keys */
 
   char           library[PETSC_MAX_PATH_LEN]; /* where materials may come from, as text; empty: no library */
@@ -64,11 +64,11 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
-PETSC_INTERN PetscErrorCode SceneKeysComplain(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 /* Reports an error in the key owner_key: file, line (where the file has the key), name, and the text `wrong` */
-PETSC_INTERN PetscErrorCode SceneKeysComplainOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
+PETSC_INTERN PetscErrorCode SceneKeysErrorOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
-/* Begins the complaint, if there is one, with the line of this key */
+/* Begins the error, if there is one, with the line of this key */
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 /* Makes a file's name relative to the folder of the scene */

@@ -71,14 +71,14 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneKeysComplain(SceneKeys keys, const char format[], ...)
+PetscErrorCode SceneKeysError(SceneKeys keys, const char format[], ...)
 {
   va_list args;
 
   PetscFunctionBegin;
-  if (keys->complaint[0]) PetscFunctionReturn(0);
+  if (keys->error[0]) PetscFunctionReturn(0);
   va_start(args, format);
-  PetscCall(PetscVSNPrintf(keys->complaint, sizeof(keys->complaint), format, NULL, args));
+  PetscCall(PetscVSNPrintf(keys->error, sizeof(keys->error), format, NULL, args));
   va_end(args);
   PetscFunctionReturn(0);
 }
@@ -106,7 +106,7 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   va_end(args);
   PetscCall(SceneKeysRemember(keys, key));
   *value = SceneValuesUse(&keys->values, key);
-  if (!*value && required) PetscCall(SceneKeysComplain(keys, "the key \"%s\" is missing", key));
+  if (!*value && required) PetscCall(SceneKeysError(keys, "the key \"%s\" is missing", key));
   PetscFunctionReturn(0);
 }
 
@@ -132,16 +132,16 @@ static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
 PetscErrorCode SceneKeysAddLine(SceneKeys keys, const char key[])
 {
   const size_t line = SceneKeysGetLine(keys, key);
-  char         complaint[sizeof(keys->complaint)];
+  char         message[sizeof(keys->error)];
 
   PetscFunctionBegin;
-  if (!line || !keys->complaint[0]) PetscFunctionReturn(0);
-  PetscCall(PetscStrncpy(complaint, keys->complaint, sizeof(complaint)));
-  (void)snprintf(keys->complaint, sizeof(keys->complaint), "line %zu: %.900s", line, complaint);
+  if (!line || !keys->error[0]) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(message, keys->error, sizeof(message)));
+  (void)snprintf(keys->error, sizeof(keys->error), "line %zu: %.900s", line, message);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneKeysComplainOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
+PetscErrorCode SceneKeysErrorOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
 {
   char   full[SCENE_KEY_LENGTH];
   size_t line;
@@ -149,8 +149,8 @@ PetscErrorCode SceneKeysComplainOf(SceneKeys keys, const char owner[], const cha
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(full, sizeof(full), "%s_%s", owner, key));
   line = SceneKeysGetLine(keys, full);
-  if (line) PetscCall(SceneKeysComplain(keys, "line %zu: %s %s", line, full, wrong));
-  else PetscCall(SceneKeysComplain(keys, "%s %s", full, wrong));
+  if (line) PetscCall(SceneKeysError(keys, "line %zu: %s %s", line, full, wrong));
+  else PetscCall(SceneKeysError(keys, "%s %s", full, wrong));
   PetscFunctionReturn(0);
 }
 
@@ -299,7 +299,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   size_t      shortest = 0, length;
 
   PetscFunctionBegin;
-  PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
+  PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->error);
   /* The shortest unknown key is the outermost one: under a misspelt list every key is unknown */
   for (PetscInt i = 0; i < keys->values.n; ++i) {
     if (keys->values.values[i].used) continue;
@@ -310,7 +310,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
     }
   }
   if (unknown) PetscCall(SceneKeysRaiseUnknown(keys, unknown));
-  PetscCheck(!keys->complaint[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->complaint);
+  PetscCheck(!keys->error[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->error);
   PetscFunctionReturn(0);
 }
 

@@ -27,9 +27,9 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
     if (end == start) end = (char *)text;
   }
   if (end == text || !SceneParseAtEnd(end))
-    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a number", key, text));
+    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a number", key, text));
   else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor))
-    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a finite number", key, text));
+    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a finite number", key, text));
   else *value = (PetscReal)(number / divisor);
   PetscFunctionReturn(0);
 }
@@ -43,9 +43,9 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   errno  = 0;
   number = strtoll(text, &end, 10);
   if (end == text || !SceneParseAtEnd(end))
-    PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is not a whole number", key, text));
+    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a whole number", key, text));
   else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT)
-    PetscCall(SceneKeysComplain(keys, "%s is %s, which PETSc's integer type cannot hold", key, text));
+    PetscCall(SceneKeysError(keys, "%s is %s, which PETSc's integer type cannot hold", key, text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);
 }
@@ -67,7 +67,7 @@ PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[
     if (i) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
     PetscCall(PetscStrlcat(choices, names[i], sizeof(choices)));
   }
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
+  PetscCall(SceneKeysError(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
   PetscFunctionReturn(0);
 }
 
@@ -90,7 +90,7 @@ PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[
   PetscFunctionBegin;
   PetscCall(PetscStrToArray(text, ',', &count, words));
   if (*n != PETSC_DECIDE && *n != count) {
-    PetscCall(SceneKeysComplain(keys, "%s has %d values, it needs %" PetscInt_FMT, key, count, *n));
+    PetscCall(SceneKeysError(keys, "%s has %d values, it needs %" PetscInt_FMT, key, count, *n));
     PetscCall(PetscStrToArrayDestroy(count, *words));
     *words = NULL;
     count  = 0;
@@ -151,7 +151,7 @@ PetscErrorCode SceneParseBody(SceneKeys keys, Scene scene, const char key[], con
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!strcmp(text, scene->bodies[b].name)) *body = b;
   }
-  if (*body < 0) PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no body of the scene", key, text));
+  if (*body < 0) PetscCall(SceneKeysError(keys, "%s is \"%s\", which is no body of the scene", key, text));
   PetscFunctionReturn(0);
 }
 
@@ -170,7 +170,7 @@ PetscErrorCode SceneParseRamp(SceneKeys keys, Scene scene, const char key[], con
     if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
     PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
   }
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
+  PetscCall(SceneKeysError(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
   PetscFunctionReturn(0);
 }
 
@@ -201,13 +201,13 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
     PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
     if (!SceneIsName(words[i]))
       PetscCall(
-        SceneKeysComplain(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
+        SceneKeysError(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
-      if (same) PetscCall(SceneKeysComplain(keys, "the name \"%s\" stands twice in %s", words[i], key));
+      if (same) PetscCall(SceneKeysError(keys, "the name \"%s\" stands twice in %s", words[i], key));
     }
   }
-  if (required && !*n) PetscCall(SceneKeysComplain(keys, "%s is empty", key));
+  if (required && !*n) PetscCall(SceneKeysError(keys, "%s is empty", key));
   PetscCall(PetscStrToArrayDestroy((int)*n, words));
   PetscFunctionReturn(0);
 }

@@ -21,9 +21,9 @@ static PetscErrorCode RowCheckRange(SceneKeys keys, const SceneKey *row, const c
   PetscFunctionBegin;
   for (PetscInt i = 0; i < row->n; ++i) {
     if (row->range == SCENE_ABOVE_0 && !(value[i] > 0))
-      PetscCall(SceneKeysComplain(keys, "%s is %s, which must be above 0", key, text));
+      PetscCall(SceneKeysError(keys, "%s is %s, which must be above 0", key, text));
     if (row->range == SCENE_FROM_0 && !(value[i] >= 0))
-      PetscCall(SceneKeysComplain(keys, "%s is %s, which must not be negative", key, text));
+      PetscCall(SceneKeysError(keys, "%s is %s, which must not be negative", key, text));
   }
   PetscFunctionReturn(0);
 }

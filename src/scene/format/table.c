@@ -37,11 +37,11 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   PetscFunctionBegin;
   PetscCall(TableReadColumn(keys, owner, "times", times, &n, &time));
   PetscCall(TableReadColumn(keys, owner, "values", values, &n, &value));
-  if (!n) PetscCall(SceneKeysComplain(keys, "%s_times is empty, or values are not as many", owner));
+  if (!n) PetscCall(SceneKeysError(keys, "%s_times is empty, or values are not as many", owner));
   for (PetscInt i = 1; i < n; ++i) {
     if (!(time[i] > time[i - 1]))
-      PetscCall(SceneKeysComplain(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i],
-        (double)time[i - 1]));
+      PetscCall(
+        SceneKeysError(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i], (double)time[i - 1]));
   }
   if (n && SceneIsDynamic(scene)) ramp->start = TableInterpolate(n, time, value, 0.0);
   for (PetscInt k = 0; n && k < scene->nsteps; ++k)
@@ -64,10 +64,10 @@ PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], Scene scene,
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &values, "%s_values", owner));
   *found = (PetscBool)(expression || times || values);
   if (expression && (times || values))
-    PetscCall(SceneKeysComplain(keys, "%s has an expression and a table; it is one of the two", owner));
+    PetscCall(SceneKeysError(keys, "%s has an expression and a table; it is one of the two", owner));
   else if (!times != !values)
     PetscCall(
-      SceneKeysComplain(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
+      SceneKeysError(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
   else if (times) PetscCall(TableRead(keys, owner, times, values, scene, ramp));
   if (expression && SceneIsDynamic(scene)) PetscCall(SceneEvaluate(keys, key, expression, 0.0, end, &ramp->start));
   for (PetscInt k = 0; expression && k < scene->nsteps; ++k)

@@ -11,7 +11,7 @@ static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], con
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(elastic); ++i) {
     PetscCall(SceneHasKey(keys, owner, elastic[i], &has));
-    if (has) PetscCall(SceneKeysComplain(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
+    if (has) PetscCall(SceneKeysError(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
   }
   PetscFunctionReturn(0);
 }
@@ -40,7 +40,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order)
-    PetscCall(SceneKeysComplain(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
+    PetscCall(SceneKeysError(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
   PetscFunctionReturn(0);
 }
 

@@ -35,7 +35,7 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_expansion", owner));
   if (text)
     PetscCall(
-      SceneKeysComplain(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
+      SceneKeysError(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
         owner, MaterialTypes[material->type]));
   PetscFunctionReturn(0);
 }
@@ -50,8 +50,8 @@ static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], co
   PetscCall(SceneParseList(keys, key, text, &list->n, &words));
   PetscCall(PetscStrToArrayDestroy((int)list->n, words));
   if (list->n > MATERIAL_LIST) {
-    PetscCall(SceneKeysComplain(keys, "%s has %" PetscInt_FMT " numbers, which must be at most %d", key, list->n,
-      MATERIAL_LIST));
+    PetscCall(
+      SceneKeysError(keys, "%s has %" PetscInt_FMT " numbers, which must be at most %d", key, list->n, MATERIAL_LIST));
     list->n = 0;
   } else PetscCall(SceneParseReals(keys, key, text, list->n, list->value));
   PetscFunctionReturn(0);
@@ -68,15 +68,15 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionBegin;
   if (material->type != MATERIAL_J2) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
-    PetscCall(SceneKeysComplain(keys, "%s_yield = %g is not the first of %s_yield_stresses, %g: leave it out", owner,
+    PetscCall(SceneKeysError(keys, "%s_yield = %g is not the first of %s_yield_stresses, %g: leave it out", owner,
       (double)h->yield, owner, (double)h->stresses.value[0]));
   if (h->stresses.n) h->yield = h->stresses.value[0];
   PetscCall(SceneHasKey(keys, owner, "yield", &has));
   if (!has && h->yield == 0.0)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "the key \"%s_yield\" is missing; a table of %s_plastic_strains and %s_yield_stresses may take its place", owner,
       owner, owner));
-  if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysComplainOf(keys, owner, key, why));
+  if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysErrorOf(keys, owner, key, why));
   PetscFunctionReturn(0);
 }
 
@@ -99,7 +99,7 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
     else if (text && !c->n) PetscCall(SceneReadConstantList(keys, key, text, (MaterialList *)value));
     else if (text) PetscCall(SceneParseReals(keys, key, text, c->n, value));
     if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, c->n, value))
-      PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is no direction", key, text));
+      PetscCall(SceneKeysError(keys, "%s is \"%s\", which is no direction", key, text));
   }
   PetscCall(SceneReadNoExpansion(keys, owner, material));
   PetscCall(SceneCheckHardening(keys, owner, material));

@@ -141,8 +141,7 @@ PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[]
     PetscFunctionReturn(0);
   }
   if (scene->bodies[body].material.type != MATERIAL_RIGID)
-    PetscCall(
-      SceneKeysComplain(keys, "%s_body is \"%s\", which is not rigid: %s", owner, scene->bodies[body].name, why));
+    PetscCall(SceneKeysError(keys, "%s_body is \"%s\", which is not rigid: %s", owner, scene->bodies[body].name, why));
   PetscCall(PetscFree(*face));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, scene->bodies[body].name));
   PetscCall(PetscStrallocpy(whole, face));
@@ -161,19 +160,19 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
   PetscCall(SceneHasKey(keys, owner, "to", &to));
   PetscCall(SceneHasKey(keys, owner, "face", &face));
   if (point ? from || to : !from || !to)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], "
       "to: [x, y, z]}",
       d->name));
   if (d->body < 0)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" is at a point or along an edge of no body; the key body says of which", d->name));
   else if (scene->bodies[d->body].material.type == MATERIAL_RIGID)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole", d->name,
       scene->bodies[d->body].name));
   if (face)
-    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a place; it is one of the two", d->name));
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a place; it is one of the two", d->name));
   d->at = point ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
   if (point) PetscCall(PetscArraycpy(d->to, d->from, 3));
   PetscCall(PetscFree(d->face));
@@ -188,7 +187,7 @@ static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
 {
   PetscFunctionBegin;
   if (SceneTurnsFreely(d) && SceneRotates(d))
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; where one rotation is "
       "free the others are 0",
       d->name));
@@ -205,16 +204,16 @@ static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, Sc
   PetscFunctionBegin;
   d->moves = (PetscBool)(whole || turns);
   if (turns && !center)
-    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
   if (center && !turns)
-    PetscCall(SceneKeysComplain(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
   if (!whole && SceneTurnsFreely(d))
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" has a rotation that is free, which a rigid body can have, as {body: <body>, ...}, and a "
       "face can not",
       d->name));
   else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2]))
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
   if (whole) PetscCall(DisplacementRelease(keys, d));
   PetscFunctionReturn(0);
@@ -236,7 +235,7 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
   else {
     PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
     if (body && face)
-      PetscCall(SceneKeysComplain(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
+      PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
     PetscCall(SceneSetWholeBody(keys, scene, owner, "of an elastic body faces, points and edges are displaced", d->body,
       &d->face));
   }

@@ -1,11 +1,11 @@
 /* dynamics: time steps, and what they need of bodies */
 #include "sectionsimpl.h"
 
-/* A complaint with the line of its key, unless something else was complained of before */
+/* An error with the line of its key, unless something else was complained of before */
 #define DynamicsRequire(condition, keys, key, ...) \
   do { \
-    if (!(condition) && !(keys)->complaint[0]) { \
-      PetscCall(SceneKeysComplain(keys, __VA_ARGS__)); \
+    if (!(condition) && !(keys)->error[0]) { \
+      PetscCall(SceneKeysError(keys, __VA_ARGS__)); \
       PetscCall(SceneKeysAddLine(keys, key)); \
     } \
   } while (0)
@@ -43,16 +43,16 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   if (!any) PetscFunctionReturn(0);
   *d = *(const SceneDynamics *)list->initial;
   PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, PETSC_FALSE, d));
-  for (const SceneKey *row = list->rows; row->name && keys->complaint[0]; ++row) {
+  for (const SceneKey *row = list->rows; row->name && keys->error[0]; ++row) {
     char *named;
     char  key[SCENE_KEY_LENGTH];
 
     PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", list->name, row->name));
-    PetscCall(PetscStrstr(keys->complaint, key, &named));
-    if (named == keys->complaint) PetscCall(SceneKeysAddLine(keys, key));
+    PetscCall(PetscStrstr(keys->error, key, &named));
+    if (named == keys->error) PetscCall(SceneKeysAddLine(keys, key));
   }
   PetscCall(DynamicsCheck(keys, d));
-  if (keys->complaint[0]) d->time_step = d->end_time = 1.0; /* nothing is simulated */
+  if (keys->error[0]) d->time_step = d->end_time = 1.0; /* nothing is simulated */
   scene->nsteps = PetscMax(1, (PetscInt)PetscCeilReal(d->end_time / d->time_step * (1.0 - PETSC_SQRT_MACHINE_EPSILON)));
   d->time_step  = d->end_time / (PetscReal)scene->nsteps;
   PetscFunctionReturn(0);

@@ -54,7 +54,7 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list
     if (b < 0) {
       if (faces[f].of[0])
         PetscCall(
-          SceneKeysComplain(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>",
+          SceneKeysError(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>",
             faces[f].name, faces[f].of));
       PetscCall(PetscFree(faces[f].name));
     } else {

@@ -12,13 +12,13 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   PetscFunctionBegin;
   (void)scene;
   if (material->material.type == MATERIAL_RIGID) {
-    PetscCall(SceneKeysComplain(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
+    PetscCall(SceneKeysError(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
     material->material.type = MATERIAL_LINEAR; /* avoids a second error about its constants */
   }
   PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
   for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
     PetscCall(PetscStrcasecmp(material->name, MaterialTypes[t], &same));
-    if (same) PetscCall(SceneKeysComplain(keys, "the material name \"%s\" is taken by a law", material->name));
+    if (same) PetscCall(SceneKeysError(keys, "the material name \"%s\" is taken by a law", material->name));
   }
   PetscFunctionReturn(0);
 }
@@ -37,8 +37,8 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, P
     for (PetscInt m = 0; m < first; ++m) {
       PetscCall(PetscStrcasecmp(scene->materials[i].name, scene->materials[m].name, &same));
       if (same)
-        PetscCall(SceneKeysComplain(keys, "the material \"%s\" stands in the scene and in its library",
-          scene->materials[i].name));
+        PetscCall(
+          SceneKeysError(keys, "the material \"%s\" stands in the scene and in its library", scene->materials[i].name));
     }
   }
   PetscFunctionReturn(0);
@@ -63,8 +63,7 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscCall(MaterialsReadList(library, rows, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
   if (!same)
-    PetscCall(
-      SceneKeysComplain(keys, "units are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
+    PetscCall(SceneKeysError(keys, "units are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
   if (units && !scene->units) PetscCall(PetscStrallocpy(units, &scene->units));
   PetscCall(SceneKeysCheck(library));
   PetscCall(SceneKeysDestroy(&library));
@@ -86,7 +85,7 @@ PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *
 
 /* Error for a name that is neither a law nor a material: suggests the nearest name and says where materials may come
    from */
-static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const char name[])
+static PetscErrorCode MaterialsError(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;
   char         meant[512];
@@ -107,7 +106,7 @@ static PetscErrorCode MaterialsComplain(SceneKeys keys, const char key[], const 
     PetscCall(PetscStrlcat(meant, k ? ", " : " ", sizeof(meant)));
     PetscCall(PetscStrlcat(meant, names[k], sizeof(meant)));
   }
-  PetscCall(SceneKeysComplain(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
+  PetscCall(SceneKeysError(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
     keys->library[0] ? keys->library : "the scene, which names no library", meant));
   keys->decides = PETSC_TRUE;
   PetscCall(PetscFree(names));
@@ -129,7 +128,7 @@ PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char na
   }
   if (*listed) PetscFunctionReturn(0);
   for (PetscInt t = 0; MaterialTypes[t + 2] && !law; ++t) PetscCall(PetscStrcasecmp(name, MaterialTypes[t], &law));
-  if (!law) PetscCall(MaterialsComplain(keys, key, name));
+  if (!law) PetscCall(MaterialsError(keys, key, name));
   else {
     PetscCall(SceneParseEnum(keys, key, name, MaterialTypes, &type));
     material->type = (MaterialType)type;

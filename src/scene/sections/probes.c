@@ -25,15 +25,15 @@ PetscErrorCode SceneFinishProbe(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneHasKey(keys, owner, "points", &count));
   if (point) {
     if (from || to || count)
-      PetscCall(SceneKeysComplain(keys, "%s is a point, which has neither from, to nor points", owner));
+      PetscCall(SceneKeysError(keys, "%s is a point, which has neither from, to nor points", owner));
     PetscFunctionReturn(0);
   }
   if (!from || !to || !count)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "%s is neither a point, {point: [x, y, z]}, nor a line, {from: [x, y, z], to: [x, y, z], points: N}", owner));
   probe->line = PETSC_TRUE;
   if (probe->n < 2 || probe->n > PROBE_MAX_POINTS) {
-    PetscCall(SceneKeysComplain(keys, "%s_points is %" PetscInt_FMT "; a line has from 2 to %d", owner, probe->n,
+    PetscCall(SceneKeysError(keys, "%s_points is %" PetscInt_FMT "; a line has from 2 to %d", owner, probe->n,
       PROBE_MAX_POINTS));
     probe->n = 2;
   }

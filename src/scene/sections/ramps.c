@@ -21,9 +21,9 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
-  if (steps && factors) PetscCall(SceneKeysComplain(keys, "load_steps and load_factors exclude each other"));
+  if (steps && factors) PetscCall(SceneKeysError(keys, "load_steps and load_factors exclude each other"));
   if ((steps || factors) && SceneIsDynamic(scene))
-    PetscCall(SceneKeysComplain(keys, "%s and dynamics exclude each other: time_step and end_time set the load steps",
+    PetscCall(SceneKeysError(keys, "%s and dynamics exclude each other: time_step and end_time set the load steps",
       steps ? "load_steps" : "load_factors"));
   if (SceneIsDynamic(scene)) {
     PetscCall(PetscMalloc1(scene->nsteps, &ramp->factor));
@@ -40,15 +40,15 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
     scene->nsteps = 1;
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
     if (scene->nsteps > SCENE_MAX_STEPS) {
-      PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps,
-        SCENE_MAX_STEPS));
+      PetscCall(
+        SceneKeysError(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps, SCENE_MAX_STEPS));
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
     PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
   }
   if (scene->nsteps < 1)
-    PetscCall(SceneKeysComplain(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
+    PetscCall(SceneKeysError(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
 }
 
@@ -62,7 +62,7 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
   if (reserved)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
@@ -70,11 +70,11 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
   PetscCall(SceneReadProgram(keys, owner, scene, ramp, &program));
   if (!text && !program)
-    PetscCall(SceneKeysComplain(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values",
-      ramp->name));
+    PetscCall(
+      SceneKeysError(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values", ramp->name));
   if (text && program)
     PetscCall(
-      SceneKeysComplain(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
+      SceneKeysError(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
   if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
   PetscFunctionReturn(0);
 }

@@ -20,8 +20,7 @@ static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], co
   }
   PetscCall(PetscStrallocpy(text, &refinement->face[0]));
   if (SceneFindBody(scene, text, &face) < 0)
-    PetscCall(
-      SceneKeysComplain(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, text));
+    PetscCall(SceneKeysError(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, text));
   PetscFunctionReturn(0);
 }
 
@@ -63,17 +62,17 @@ PetscErrorCode SceneFinishRefinement(SceneKeys keys, Scene scene, const char own
   PetscCall(SceneHasKey(keys, owner, "lower", &lower));
   PetscCall(SceneHasKey(keys, owner, "upper", &upper));
   if (!r->face[0] && !(lower && upper))
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]",
       owner));
   for (PetscInt d = 0; d < 3 && !r->face[0]; ++d) {
     if (!(r->lower[d] <= r->upper[d]))
-      PetscCall(SceneKeysComplain(keys, "%s has lower above upper along %c: %g and %g", owner, "xyz"[d],
+      PetscCall(SceneKeysError(keys, "%s has lower above upper along %c: %g and %g", owner, "xyz"[d],
         (double)r -> lower[d], (double)r -> upper[d]));
   }
   if (r->face[0] && !r->face[1]) r->body = SceneFindBody(scene, r->face[0], &face);
   if (r->levels < 1 || r->levels > REFINEMENT_MAX_LEVELS)
-    PetscCall(SceneKeysComplain(keys, "%s_levels is %" PetscInt_FMT "; it is a number from 1 to %d", owner, r->levels,
+    PetscCall(SceneKeysError(keys, "%s_levels is %" PetscInt_FMT "; it is a number from 1 to %d", owner, r->levels,
       REFINEMENT_MAX_LEVELS));
   PetscFunctionReturn(0);
 }

@@ -26,7 +26,7 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "solver"));
   if (text && text[0])
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
   for (PetscInt i = 0; i < keys->values.n; ++i) {
     const SceneValue *value = &keys->values.values[i];

@@ -17,7 +17,7 @@ static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char ke
   if (yes || no) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, stiffness));
   if (!(*stiffness > 0 && *stiffness <= 0.01))
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "%s is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01", key,
       text));
   PetscFunctionReturn(0);
@@ -46,17 +46,17 @@ PetscErrorCode SceneFinishSpring(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionBegin;
   (void)scene;
   if (spring->distance > 0 && !spring->to)
-    PetscCall(SceneKeysComplain(keys,
+    PetscCall(SceneKeysError(keys,
       "%s_distance is how far away the other face of springs may be, and these are to the ground; the key to names "
       "one",
       owner));
   for (PetscInt d = 0; d < 3; ++d) {
     if (spring->value[d] < 0)
-      PetscCall(SceneKeysComplain(keys, "%s_value has a stiffness of %g along %c, which must not be negative", owner,
+      PetscCall(SceneKeysError(keys, "%s_value has a stiffness of %g along %c, which must not be negative", owner,
         (double)spring->value[d], "xyz"[d]));
   }
   if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0)
-    PetscCall(SceneKeysComplain(keys, "%s_value is zero along each axis: such springs hold nothing", owner));
+    PetscCall(SceneKeysError(keys, "%s_value is zero along each axis: such springs hold nothing", owner));
   PetscFunctionReturn(0);
 }
 

@@ -113,7 +113,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(name, &displacement->name));
   if (!SceneIsName(name))
-    PetscCall(SceneKeysComplain(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
+    PetscCall(SceneKeysError(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "symmetry_%s_face", name));
   PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
   PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
@@ -121,7 +121,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   if (text && strchr(text, ',')) {
     PetscCall(SceneParseReals(keys, key, text, 3, normal));
     if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0)
-      PetscCall(SceneKeysComplain(keys, "%s is zero; it is x, y, z or a vector", key));
+      PetscCall(SceneKeysError(keys, "%s is zero; it is x, y, z or a vector", key));
     SymmetrySetNormal(normal, displacement);
   } else {
     if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
@@ -156,8 +156,8 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
     for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
       PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
       if (same)
-        PetscCall(SceneKeysComplain(keys,
-          "\"%s\" in symmetry is also the name of another displacement or symmetry plane", words[i]));
+        PetscCall(SceneKeysError(keys, "\"%s\" in symmetry is also the name of another displacement or symmetry plane",
+          words[i]));
     }
   }
   PetscCall(PetscStrToArrayDestroy((int)n, words));

@@ -13,7 +13,7 @@ static const PetscReal tied = 1e4;
    Rotation of the normals between sim->linearization and at_u: over all pairs the largest sum_r p_r m_r |n' - n| /
    sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->linearization, or negative
 */
-static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const ContactSolution *sol,
+static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
 {
   ContactLinearization solved = sim->linearization;
@@ -47,7 +47,7 @@ static PetscErrorCode ContactUpdateTruthMeasureTurn(Simulation sim, const Contac
 
 /* Largest difference over the rows between the slip measured along the tangents at u and the slip of the solution
    [length]. Both are counted from the last state of equilibrium. */
-static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
+static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
   ContactLinearization solved = sim->linearization;
@@ -55,17 +55,17 @@ static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const
   const PetscScalar   *s, *a;
   PetscReal            worst = 0.0;
   PetscBool            turned;
-  Vec                  way, slip;
+  Vec                  increment, slip;
 
   PetscFunctionBegin;
   *change = 0.0;
   if (!sol->slip) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &way));
-  PetscCall(ArcsGetExcess(&bodies, sim->path.u, u, way, &turned));
-  if (!turned) PetscCall(VecZeroEntries(way));
-  PetscCall(VecAXPBYPCZ(way, 1.0, -1.0, 1.0, u, sim->path.u));
+  PetscCall(VecDuplicate(u, &increment));
+  PetscCall(ArcsGetExcess(&bodies, sim->path.u, u, increment, &turned));
+  if (!turned) PetscCall(VecZeroEntries(increment));
+  PetscCall(VecAXPBYPCZ(increment, 1.0, -1.0, 1.0, u, sim->path.u));
   PetscCall(MatCreateVecs(at_u->slip, NULL, &slip));
-  PetscCall(MatMult(at_u->slip, way, slip));
+  PetscCall(MatMult(at_u->slip, increment, slip));
   PetscCall(VecGetArrayRead(slip, &s));
   PetscCall(VecGetArrayRead(sol->slip, &a));
   for (PetscInt r = 0; r < solved->nlocal; ++r) {
@@ -81,15 +81,15 @@ static PetscErrorCode ContactUpdateTruthMeasureSlip(Simulation sim, Vec u, const
   PetscCall(VecRestoreArrayRead(sol->slip, &a));
   PetscCall(VecRestoreArrayRead(slip, &s));
   PetscCall(VecDestroy(&slip));
-  PetscCall(VecDestroy(&way));
+  PetscCall(VecDestroy(&increment));
   PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscFunctionReturn(0);
 }
 
 /* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
-   normals, the change of the slip, and untruth, which all three, and what free rotations are off, are worth as changes
+   normals, the change of the slip, and update_error, which all three, and what free rotations are off, are worth as changes
    of the gap */
-PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
+PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
   PetscReal size;
@@ -98,10 +98,11 @@ PetscErrorCode ContactUpdateMeasureTruth(Simulation sim, Vec u, const ContactSol
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   PetscCall(ContactHistoryFollowRows(&sim->history, sim->linearization, at_u, &row));
-  PetscCall(ContactUpdateTruthMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
-  PetscCall(ContactUpdateTruthMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
+  PetscCall(ContactUpdateErrorMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
+  PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
   PetscCall(PetscFree(row));
-  report->untruth = PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
-  report->untruth = PetscMax(report->untruth, tied * report->straightened);
+  report->update_error =
+    PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
+  report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }
