@@ -86,9 +86,9 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the turning of the
-   normals, the change of the slip, and update_error, which all three, and what free rotations are off, are worth as changes
-   of the gap */
+/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the rotation
+   of the normals, the change of the slip, and update_error: the largest of the three and of the correction of free
+   rotations, each as an equivalent change of the gap [length] */
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
