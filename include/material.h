@@ -12,6 +12,7 @@
   LAW(MOONEY_RIVLIN, MooneyRivlin, "mooney_rivlin") /* compressible Mooney-Rivlin, finite strain */ \
   LAW(ORTHOTROPIC, Orthotropic, "orthotropic")      /* small strain, three planes of symmetry */ \
   LAW(J2, J2, "j2")                                 /* small strain, plasticity of von Mises with hardening */ \
+  LAW(J2_FINITE, J2Finite, "j2_finite")             /* the same at finite strain */ \
   LAW(RIGID, Rigid, "rigid")                        /* no strain: every displacement of the body is prescribed */
 
 #define MATERIAL_TYPE(name, law, text) MATERIAL_##name,
@@ -21,7 +22,10 @@ PETSC_EXTERN const char *const MaterialTypes[];
 
 #define MATERIAL_OWN 8 /* number of constants and moduli that a law may have without a named member here */
 
-#define MATERIAL_HISTORY 7 /* values that a law may keep at a point */
+#define MATERIAL_PLASTIC     7 /* plastic strain xx yy zz xy yz zx, and its equivalent */
+#define MATERIAL_DEFORMATION 9 /* j2_finite: the inverse of the plastic deformation gradient, minus I */
+/* Values that a law may keep at a point: those above, in this order */
+#define MATERIAL_HISTORY (MATERIAL_PLASTIC + MATERIAL_DEFORMATION)
 
 #define MATERIAL_LIST 32
 typedef struct {
@@ -53,7 +57,7 @@ typedef struct {
                    */
   PetscReal
     expansion[3]; /* small strain: linear thermal expansion, of an orthotropic law along its axes [1/temperature] */
-  MaterialHardening hardening; /* j2 */
+  MaterialHardening hardening; /* j2, j2_finite */
   PetscReal         density;   /* mass per undeformed volume; 0: not given. Used in dynamics only */
   PetscReal         own[MATERIAL_OWN];
 } Material;
@@ -65,7 +69,7 @@ typedef struct {
   PetscReal                share;         /* Mooney-Rivlin: c01/(c10 + c01) */
   PetscReal                stiffness[36]; /* orthotropic: of strains xx yy zz 2xy 2yz 2zx */
   PetscReal                own[MATERIAL_OWN];
-  const MaterialHardening *hardening; /* j2: of the Material, which must stay where it is */
+  const MaterialHardening *hardening; /* j2, j2_finite: of the Material, which must stay where it is */
   const PetscReal         *history;   /* of the point, from the law's advance(); NULL: elastic, without any */
 } MaterialModuli;
 
@@ -104,6 +108,8 @@ typedef struct {
   /* Of laws with a history, whose functions above are of the step from the history of their moduli: writes the one
      at H, and returns whether it differs. NULL: there is none. After it energy and stress at H are the same */
   PetscBool (*advance)(const MaterialModuli *, const PetscReal H[9], PetscReal history[MATERIAL_HISTORY]);
+  /* Leaves of H its elastic part, with which the functions above have the same stress without history */
+  void (*elastic)(const PetscReal history[MATERIAL_HISTORY], PetscReal H[9]);
   /* The part of the energy that is plastic work [force/length^2] */
   PetscReal (*work)(const MaterialModuli *, const PetscReal history[MATERIAL_HISTORY]);
   PetscBool               finite; /* strains are */
@@ -117,6 +123,8 @@ typedef struct {
 
 /* Whether strains are finite */
 PETSC_EXTERN PetscBool MaterialIsFinite(const Material *);
+/* Whether a law has plastic strains */
+PETSC_EXTERN PetscBool MaterialYields(const Material *);
 /* Lame parameters [force/length^2]: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)) */
 PETSC_EXTERN PetscErrorCode MaterialGetLame(const Material *, PetscReal *lambda, PetscReal *mu);
 /* Sets an equivalent Young's modulus for a material with other constants */
@@ -126,7 +134,8 @@ PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9
 /* Moduli for the law, and for its isochoric part */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
-/* Whether hardening comes to an end: loads beyond a limit are then carried by no plastic strain, however large */
+/* Whether hardening comes to an end at small strain: loads beyond a limit are then carried by no plastic strain, however
+   large. At finite strain the change of shape may carry them */
 PETSC_EXTERN PetscBool MaterialCollapses(const Material *);
 /* Whether a law of plasticity has such a hardening; if not, which constant is wrong and why */
 PETSC_EXTERN PetscBool MaterialCheckHardening(const MaterialHardening *, const char **key, char why[], size_t length);

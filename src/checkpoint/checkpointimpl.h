@@ -13,10 +13,13 @@
 PETSC_INTERN PetscErrorCode CheckpointFindField(Checkpoint, const char name[], const CheckpointField **);
 
 /* plastic.c: the plastic strains at the quadrature points, and where these are; read in any parts by the ranks */
-#define CHECKPOINT_PLASTIC_PLACES "plastic_places"
-#define CHECKPOINT_PLASTIC        "plastic_history"
-PETSC_INTERN PetscErrorCode CheckpointAddPlastic(Elasticity, Checkpoint);
-PETSC_INTERN PetscErrorCode CheckpointGetPlastic(MPI_Comm, Elasticity, Checkpoint);
+#define CHECKPOINT_PLASTIC_PLACES      "plastic_places"
+#define CHECKPOINT_PLASTIC             "plastic_history"
+#define CHECKPOINT_PLASTIC_DEFORMATION "plastic_deformation"
+/* 0: no law yields; 1: plastic strains are kept; 2: and plastic deformations */
+PETSC_INTERN int            CheckpointPlasticParts(Scene);
+PETSC_INTERN PetscErrorCode CheckpointAddPlastic(Scene, Elasticity, Checkpoint);
+PETSC_INTERN PetscErrorCode CheckpointGetPlastic(Scene, MPI_Comm, Elasticity, Checkpoint);
 
 /* read.c, write.c: numbers of a checkpoint, stored as attributes of its file; ends with a NULL name */
 typedef struct {

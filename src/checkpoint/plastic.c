@@ -38,17 +38,42 @@ static void PlasticSetKey(const PetscReal place[4], PetscReal step, int shift, P
   key->at[3] = (PetscInt64)place[3];
 }
 
-PetscErrorCode CheckpointAddPlastic(Elasticity elasticity, Checkpoint checkpoint)
+/* What a history consists of; the deformation is kept only if a law has one */
+static const struct {
+  const char *name;
+  PetscInt    at, n;
+} parts[] = {
+  {CHECKPOINT_PLASTIC, 0, MATERIAL_PLASTIC},
+  {CHECKPOINT_PLASTIC_DEFORMATION, MATERIAL_PLASTIC, MATERIAL_DEFORMATION},
+};
+
+int CheckpointPlasticParts(Scene scene)
+{
+  int n = 0;
+
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const Material *material = &scene->bodies[b].material;
+
+    if (MaterialYields(material)) n = PetscMax(n, MaterialIsFinite(material) ? 2 : 1);
+  }
+  return n;
+}
+
+PetscErrorCode CheckpointAddPlastic(Scene scene, Elasticity elasticity, Checkpoint checkpoint)
 {
   PetscInt   n;
   PetscReal *places, *history, *values;
+
   PetscFunctionBegin;
   PetscCall(ElasticityGetHistory(elasticity, &n, &places, &history));
   if (!places) PetscFunctionReturn(0);
   PetscCall(CheckpointAddField(checkpoint, CHECKPOINT_PLASTIC_PLACES, 4, n, &values));
   PetscCall(PetscArraycpy(values, places, 4 * n));
-  PetscCall(CheckpointAddField(checkpoint, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, n, &values));
-  PetscCall(PetscArraycpy(values, history, MATERIAL_HISTORY * n));
+  for (int p = 0; p < CheckpointPlasticParts(scene); ++p) {
+    PetscCall(CheckpointAddField(checkpoint, parts[p].name, parts[p].n, n, &values));
+    for (PetscInt i = 0; i < n; ++i)
+      PetscCall(PetscArraycpy(values + parts[p].n * i, history + MATERIAL_HISTORY * i + parts[p].at, parts[p].n));
+  }
   PetscCall(PetscFree(places));
   PetscFunctionReturn(0);
 }
@@ -73,8 +98,8 @@ static PetscErrorCode PlasticIndexCreate(MPI_Comm comm, PetscInt n, const PetscR
   PetscFunctionReturn(0);
 }
 
-/* Takes what is of this rank's points from records of the file, which it marks as found */
-static void PlasticTake(PlasticIndex *index, PetscInt n, const PetscReal places[], const PetscReal from[],
+/* Takes a part of the history of this rank's points from records of the file, and marks them as found */
+static void PlasticTake(PlasticIndex *index, int part, PetscInt n, const PetscReal places[], const PetscReal from[],
   PetscReal history[])
 {
   for (PetscInt i = 0; i < n && index->n; ++i) {
@@ -88,18 +113,22 @@ static void PlasticTake(PlasticIndex *index, PetscInt n, const PetscReal places[
     }
     if (!own) continue;
     index->found[own->point] = PETSC_TRUE;
-    for (int k = 0; k < MATERIAL_HISTORY; ++k)
-      history[MATERIAL_HISTORY * own->point + k] = from[MATERIAL_HISTORY * i + k];
+    for (PetscInt k = 0; k < parts[part].n; ++k)
+      history[MATERIAL_HISTORY * own->point + parts[part].at + k] = from[parts[part].n * i + k];
   }
 }
 
 /* The records of each rank in turn to all */
-static PetscErrorCode PlasticTakeAll(MPI_Comm comm, const CheckpointField *places, const CheckpointField *field,
-  PlasticIndex *index, PetscReal history[])
+static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpoint, PlasticIndex *index,
+  PetscReal history[])
 {
-  PetscMPIInt size, rank;
+  const CheckpointField *places, *field;
+  const PetscInt         width = parts[part].n;
+  PetscMPIInt            size, rank;
 
   PetscFunctionBegin;
+  PetscCall(CheckpointFindField(checkpoint, CHECKPOINT_PLASTIC_PLACES, &places));
+  PetscCall(CheckpointFindField(checkpoint, parts[part].name, &field));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   for (PetscMPIInt r = 0; r < size; ++r) {
@@ -107,33 +136,31 @@ static PetscErrorCode PlasticTakeAll(MPI_Comm comm, const CheckpointField *place
     PetscReal *at, *from;
 
     PetscCallMPI(MPI_Bcast(&n, 1, MPIU_INT, r, comm));
-    PetscCall(PetscMalloc2(4 * n, &at, MATERIAL_HISTORY * n, &from));
+    PetscCall(PetscMalloc2(4 * n, &at, width * n, &from));
     if (r == rank) {
       PetscCall(PetscArraycpy(at, places->values, 4 * n));
-      PetscCall(PetscArraycpy(from, field->values, MATERIAL_HISTORY * n));
+      PetscCall(PetscArraycpy(from, field->values, width * n));
     }
     PetscCallMPI(MPI_Bcast(at, (PetscMPIInt)(4 * n), MPIU_REAL, r, comm));
-    PetscCallMPI(MPI_Bcast(from, (PetscMPIInt)(MATERIAL_HISTORY * n), MPIU_REAL, r, comm));
-    PlasticTake(index, n, at, from, history);
+    PetscCallMPI(MPI_Bcast(from, (PetscMPIInt)(width * n), MPIU_REAL, r, comm));
+    PlasticTake(index, part, n, at, from, history);
     PetscCall(PetscFree2(at, from));
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CheckpointGetPlastic(MPI_Comm comm, Elasticity elasticity, Checkpoint checkpoint)
+PetscErrorCode CheckpointGetPlastic(Scene scene, MPI_Comm comm, Elasticity elasticity, Checkpoint checkpoint)
 {
-  const CheckpointField *at, *field;
-  PlasticIndex           index;
-  PetscInt               n, counts[2] = {0, 0};
-  PetscReal             *places, *history;
+  PlasticIndex index;
+  PetscInt     n, counts[2] = {0, 0};
+  PetscReal   *places, *history;
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetHistory(elasticity, &n, &places, &history));
   if (!places) PetscFunctionReturn(0);
-  PetscCall(CheckpointFindField(checkpoint, CHECKPOINT_PLASTIC_PLACES, &at));
-  PetscCall(CheckpointFindField(checkpoint, CHECKPOINT_PLASTIC, &field));
   PetscCall(PlasticIndexCreate(comm, n, places, &index));
-  PetscCall(PlasticTakeAll(comm, at, field, &index, history));
+  for (int p = 0; p < CheckpointPlasticParts(scene); ++p)
+    PetscCall(PlasticTakeAll(comm, p, checkpoint, &index, history));
   for (PetscInt i = 0; i < n; ++i) counts[0] += !index.found[i];
   counts[1] = n;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));

@@ -324,15 +324,13 @@ static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt
 
 static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
 {
-  PetscBool frictional = PETSC_FALSE, yields = PETSC_FALSE;
+  const int plastic    = CheckpointPlasticParts(r->scene);
+  PetscBool frictional = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < r->scene->nbodies; ++b)
-    yields = (PetscBool)(yields || r->scene->bodies[b].material.type == MATERIAL_J2);
-  if (yields) {
-    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
-    PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_HISTORY, checkpoint));
-  }
+  if (plastic) PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_PLACES, 4, checkpoint));
+  if (plastic) PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC, MATERIAL_PLASTIC, checkpoint));
+  if (plastic > 1) PetscCall(RestartReadRecords(r, CHECKPOINT_PLASTIC_DEFORMATION, MATERIAL_DEFORMATION, checkpoint));
   for (PetscInt p = 0; p < r->scene->npairs; ++p)
     frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&r->scene->pairs[p]));
   PetscCall(RestartReadField(r, "displacement", 3, PETSC_FALSE, checkpoint));

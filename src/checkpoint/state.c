@@ -134,7 +134,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
     PetscCall(CheckpointAddVec(*checkpoint, "auxiliary_acceleration", n / 3, sim->dynamics.auxiliary));
   }
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
-  PetscCall(CheckpointAddPlastic(sim->elasticity, *checkpoint));
+  PetscCall(CheckpointAddPlastic(sim->scene, sim->elasticity, *checkpoint));
   PetscFunctionReturn(0);
 }
 
@@ -182,7 +182,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
-  PetscCall(CheckpointGetPlastic(sim->comm, sim->elasticity, checkpoint));
+  PetscCall(CheckpointGetPlastic(sim->scene, sim->comm, sim->elasticity, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);

@@ -78,7 +78,7 @@ PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
   *yielded = PETSC_FALSE;
   if (!e->yields) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < e->npoints && !*yielded; ++i)
-    *yielded = (PetscBool)(e->history[MATERIAL_HISTORY * (i + 1) - 1] > 0);
+    *yielded = (PetscBool)(e->history[MATERIAL_HISTORY * i + MATERIAL_PLASTIC - 1] > 0);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, yielded, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
   PetscFunctionReturn(0);
 }
@@ -130,7 +130,7 @@ PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal la
       const PetscReal *history = cell.material->moduli.history + MATERIAL_HISTORY * q;
 
       *work += w[q] * cell.material->law->work(&cell.material->moduli, history);
-      largest[e->cellbody[c]] = PetscMax(largest[e->cellbody[c]], history[MATERIAL_HISTORY - 1]);
+      largest[e->cellbody[c]] = PetscMax(largest[e->cellbody[c]], history[MATERIAL_PLASTIC - 1]);
     }
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &zero, &x));
@@ -226,7 +226,7 @@ PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, Pet
 
   Output Parameter:
 . strain - means over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
-           equivalent, MATERIAL_HISTORY values; free with `PetscFree()`. `NULL` on every rank if no law yields
+           equivalent, MATERIAL_PLASTIC values; free with `PetscFree()`. `NULL` on every rank if no law yields
 
   Level: intermediate
 
@@ -241,7 +241,7 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
   *strain = NULL;
   if (!e->yields) PetscFunctionReturn(0);
   PetscCall(ElasticityGetLocals(e, NULL, &local, &zero, &x));
-  PetscCall(PetscCalloc1(MATERIAL_HISTORY * e->ncells + 1, strain));
+  PetscCall(PetscCalloc1(MATERIAL_PLASTIC * e->ncells + 1, strain));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscReal w[CELL_MAX_POINTS], volume = 0;
     CellState cell;
@@ -249,8 +249,8 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
     if (!HistoryGetCell(e, c, x, &cell, w)) continue;
     for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) volume += w[q];
     for (PetscInt q = 0; q < cell.body->basis->npoints; ++q) {
-      for (int k = 0; k < MATERIAL_HISTORY; ++k)
-        (*strain)[MATERIAL_HISTORY * c + k] += w[q] / volume * cell.material->moduli.history[MATERIAL_HISTORY * q + k];
+      for (int k = 0; k < MATERIAL_PLASTIC; ++k)
+        (*strain)[MATERIAL_PLASTIC * c + k] += w[q] / volume * cell.material->moduli.history[MATERIAL_HISTORY * q + k];
     }
   }
   PetscCall(ElasticityRestoreLocals(e, &local, &zero, &x));

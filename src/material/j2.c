@@ -208,6 +208,13 @@ static PetscBool MaterialAdvance_J2(const MaterialModuli *m, const PetscReal H[9
   return (PetscBool)(s.increment > 0);
 }
 
+static void MaterialElastic_J2(const PetscReal history[MATERIAL_HISTORY], PetscReal H[9])
+{
+  static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+
+  for (int i = 0; i < 9; ++i) H[i] -= history[at[i]];
+}
+
 static PetscReal MaterialDilatation_J2(const PetscReal H[9], PetscReal C[9])
 {
   return MaterialLawLinear.dilatation(H, C);
@@ -307,22 +314,11 @@ static PetscErrorCode MaterialModuli_J2(const Material *material, MaterialModuli
   PetscFunctionReturn(0);
 }
 
-#define J2_NUMBER(name, member, symbol) \
-  { \
-    name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, symbol, 0, 0 \
-  }
-
 static const MaterialConstant constants[] = {
   MATERIAL_YOUNG,
   MATERIAL_POISSON,
   {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0},
-  J2_NUMBER("yield", yield, NULL),
-  J2_NUMBER("hardening", modulus, NULL),
-  J2_NUMBER("kinematic", kinematic, NULL),
-  J2_NUMBER("saturation", saturation, NULL),
-  J2_NUMBER("saturation_rate", rate, NULL),
-  {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, NULL, 0, 0},
-  {"yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0},
+  MATERIAL_HARDENING,
   MATERIAL_DENSITY,
   {NULL},
 };
@@ -337,6 +333,7 @@ const MaterialLaw MaterialLawJ2 = {
   .dilatation = MaterialDilatation_J2,
   .curvature  = MaterialCurvature_J2,
   .advance    = MaterialAdvance_J2,
+  .elastic    = MaterialElastic_J2,
   .work       = MaterialWork_J2,
   .constants  = constants,
   .moduli     = MaterialModuli_J2,

@@ -99,6 +99,11 @@ PetscBool MaterialIsFinite(const Material *material)
   return laws[material->type]->finite;
 }
 
+PetscBool MaterialYields(const Material *material)
+{
+  return (PetscBool)(laws[material->type]->advance != NULL);
+}
+
 /*@
   MaterialGetLaw - Gets the functions that evaluate a material's energy density, stress and tangent at a point
 

@@ -27,6 +27,35 @@ MATERIAL_LAWS(MATERIAL_LAW)
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
 
+/* Constants of a MaterialHardening */
+#define MATERIAL_HARDENING_NUMBER(name, member) \
+  { \
+    name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, NULL, 0, 0 \
+  }
+#define MATERIAL_HARDENING \
+  MATERIAL_HARDENING_NUMBER("yield", yield), MATERIAL_HARDENING_NUMBER("hardening", modulus), \
+    MATERIAL_HARDENING_NUMBER("kinematic", kinematic), MATERIAL_HARDENING_NUMBER("saturation", saturation), \
+    MATERIAL_HARDENING_NUMBER("saturation_rate", rate), \
+    {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, NULL, 0, 0}, \
+  { \
+    "yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0 \
+  }
+
+/* logarithmic.c: E = 1/2 ln C of the displacement gradient H */
+typedef struct {
+  PetscReal c[3], V[3][3]; /* eigenvalues of C - I; columns: their eigenvectors */
+  PetscReal E[9];
+} Logarithmic;
+/* Eigenvalues c and, in columns, eigenvectors V of a symmetric matrix; the matrix that has them */
+PETSC_INTERN void LogarithmicEigen(const PetscReal M[9], PetscReal c[3], PetscReal V[3][3]);
+PETSC_INTERN void LogarithmicCompose(const PetscReal c[3], PetscReal V[3][3], PetscReal M[9]);
+/* False if F is singular */
+PETSC_INTERN PetscBool LogarithmicStrain(const PetscReal H[9], Logarithmic *);
+/* P = dW/dF of an energy with T = dW/dE; and A = dP/dF with also D = d2W/dE dE, which it overwrites */
+PETSC_INTERN void LogarithmicStress(Logarithmic *, const PetscReal H[9], const PetscReal T[9], PetscReal P[9]);
+PETSC_INTERN void LogarithmicTangent(Logarithmic *, const PetscReal H[9], const PetscReal T[9], PetscReal D[81],
+  PetscReal A[81]);
+
 /* orthotropic.c: rows of R are the material's axes; false if they are not independent */
 PETSC_INTERN PetscBool OrthotropicAxes(const Material *, PetscReal R[3][3]);
 

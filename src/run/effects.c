@@ -81,7 +81,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(MeshGetOrders(sim->dm, scene->nbodies, orders));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
-    if (scene->bodies[b].material.type == MATERIAL_J2) ++plastic;
+    if (MaterialYields(&scene->bodies[b].material)) ++plastic;
     if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
     if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
     if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;

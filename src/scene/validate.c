@@ -29,10 +29,10 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
       "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable "
       "under compression, so it takes full or bbar",
       file, body->name, MaterialTypes[body->material.type]);
-    SceneRequire(scene->model != MODEL_QUADRATIC || body->material.type != MATERIAL_J2,
-      "%s: body \"%s\" has material j2 with model quadratic, whose single tangent leaves the yield surface; take model "
+    SceneRequire(scene->model != MODEL_QUADRATIC || !MaterialYields(&body->material),
+      "%s: body \"%s\" has material %s with model quadratic, whose single tangent leaves the yield surface; take model "
       "energy",
-      file, body->name);
+      file, body->name, MaterialTypes[body->material.type]);
     SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT,
       "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to "
       "average; use material neohookean near incompressibility, or element full",

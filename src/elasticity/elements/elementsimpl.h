@@ -115,13 +115,10 @@ static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, Petsc
   return own;
 }
 
-/* Subtracts the plastic strain at point q from a displacement gradient */
+/* Leaves the elastic part of the displacement gradient at point q */
 static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H[9])
 {
-  static const int at[9]   = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-  const PetscReal *history = cell->moduli.history;
-
-  for (int i = 0; history && i < 9; ++i) H[i] -= history[MATERIAL_HISTORY * q + at[i]];
+  if (cell->moduli.history) cell->law->elastic(cell->moduli.history + MATERIAL_HISTORY * q, H);
 }
 
 #define ELEMENT_STRAINS 10

@@ -13,7 +13,7 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
   const PetscReal volumetric = m->moduli.bulk * error[9] * error[9];
   PetscReal       A[81], isochoric = 0;
 
-  if (m->law->constant || m->law->advance) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
+  if (m->law->constant || !m->law->finite) return 2 * m->law->energy(&m->isochoric, error) + volumetric;
   if (!m->law->tangent(&m->isochoric, H, A)) return PETSC_INFINITY;
   for (int i = 0; i < 9; ++i) {
     for (int j = 0; j < 9; ++j) isochoric += error[i] * A[9 * i + j] * error[j];

@@ -66,7 +66,7 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscBool          has;
 
   PetscFunctionBegin;
-  if (material->type != MATERIAL_J2) PetscFunctionReturn(0);
+  if (!MaterialYields(material)) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
     PetscCall(SceneKeysError(keys, "%s_yield = %g is not the first of %s_yield_stresses, %g: leave it out", owner,
       (double)h->yield, owner, (double)h->stresses.value[0]));

@@ -78,8 +78,8 @@ static const SceneKey body_rows[] = {
     "whether refinement puts new vertices on the curved surface; `false`: on the facets of level 0. Not for `box`"),
   SECTION("material", "`linear`",
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
-    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `rigid`; or the "
-    "name of a material. For its constants see below"),
+    "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `j2_finite` (finite "
+    "strain, plasticity), `rigid`; or the name of a material. For its constants see below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
     "(modes for bending)"),

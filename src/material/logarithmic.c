@@ -1,0 +1,199 @@
+/*
+   Logarithmic strain E = 1/2 ln C, C = F^T F, and the stress and tangent of an energy that is a function of E. In
+   eigenvectors of C, whose eigenvalues are 1 + c_a, with f(c) = 1/2 ln(1 + c) and its divided differences (Miehe,
+   Comparison of two algorithms for the computation of fourth-order isotropic tensor functions, 1998):
+
+     dE_ab = f[a,b] dC_ab,   d2E_ab(X, Y) = sum_k f[a,k,b] (X_ak Y_kb + Y_ak X_kb)
+
+   Divided differences are continuous where eigenvalues coalesce, so that no case is special.
+*/
+#include "materialimpl.h"
+
+/* One rotation of Jacobi, which makes the entry (p, q) of A zero; V: columns that become eigenvectors */
+static void LogarithmicRotate(PetscReal A[3][3], PetscReal V[3][3], int p, int q)
+{
+  const int       r    = 3 - p - q;
+  const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q];
+  PetscReal       t, c, s;
+
+  if (off == 0) return;
+  t = off / (half + (half >= 0 ? 1 : -1) * hypot(half, off));
+  c = 1 / PetscSqrtReal(1 + t * t);
+  s = t * c;
+  A[p][p] -= t * off;
+  A[q][q] += t * off;
+  A[p][q] = A[q][p] = 0;
+  for (int k = 0; k < 4; ++k) {
+    PetscReal *x = k < 3 ? &V[k][p] : &A[r][p], *y = k < 3 ? &V[k][q] : &A[r][q], z = *x;
+
+    *x = c * z - s * *y;
+    *y = s * z + c * *y;
+  }
+  A[p][r] = A[r][p];
+  A[q][r] = A[r][q];
+}
+
+void LogarithmicEigen(const PetscReal M[9], PetscReal c[3], PetscReal V[3][3])
+{
+  PetscReal A[3][3];
+
+  for (int i = 0; i < 9; ++i) {
+    A[i / 3][i % 3] = M[i];
+    V[i / 3][i % 3] = i % 4 ? 0 : 1;
+  }
+  for (int sweep = 0; sweep < 12 && (A[0][1] != 0 || A[1][2] != 0 || A[0][2] != 0); ++sweep) {
+    LogarithmicRotate(A, V, 0, 1);
+    LogarithmicRotate(A, V, 1, 2);
+    LogarithmicRotate(A, V, 0, 2);
+  }
+  for (int a = 0; a < 3; ++a) c[a] = A[a][a];
+}
+
+void LogarithmicCompose(const PetscReal value[3], PetscReal V[3][3], PetscReal M[9])
+{
+  for (int i = 0; i < 9; ++i) {
+    M[i] = 0;
+    for (int a = 0; a < 3; ++a) M[i] += value[a] * V[i / 3][a] * V[i % 3][a];
+  }
+}
+
+PetscBool LogarithmicStrain(const PetscReal H[9], Logarithmic *s)
+{
+  PetscReal M[9], logs[3];
+
+  for (int i = 0; i < 9; ++i) {
+    const int p = i / 3, q = i % 3;
+
+    M[i] = H[3 * p + q] + H[3 * q + p] + H[p] * H[q] + H[3 + p] * H[3 + q] + H[6 + p] * H[6 + q];
+  }
+  LogarithmicEigen(M, s->c, s->V);
+  for (int a = 0; a < 3; ++a) {
+    if (!(s->c[a] > -1)) return PETSC_FALSE; /* by rounding */
+    logs[a] = 0.5 * log1p(s->c[a]);
+  }
+  LogarithmicCompose(logs, s->V, s->E);
+  return PETSC_TRUE;
+}
+
+/* f[a,b] */
+static PetscReal LogarithmicFirst(PetscReal a, PetscReal b)
+{
+  const PetscReal t = (b - a) / (1 + a);
+
+  return 0.5 * (t == 0 ? 1 : log1p(t) / t) / (1 + a);
+}
+
+/* f[a,b,c], by Taylor's series about the mean where all three are close */
+static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
+{
+  const PetscReal low = PetscMin(a, PetscMin(b, c)), high = PetscMax(a, PetscMax(b, c)), mean = (a + b + c) / 3;
+  const PetscReal close = 0.1, middle = a + b + c - low - high, scale = -1 / (1 + mean);
+  PetscReal       h[3] = {1, 0, 0}, sum = 0, power = -0.5 * scale * scale, pairs, product;
+
+  if (high - low > close * (1 + low))
+    return (LogarithmicFirst(middle, high) - LogarithmicFirst(low, middle)) / (high - low);
+  pairs   = (a - mean) * (b - mean) + (b - mean) * (c - mean) + (c - mean) * (a - mean);
+  product = (a - mean) * (b - mean) * (c - mean);
+  for (int k = 2; k < 18; ++k) { /* h[0]: the sum of all products of k - 2 distances from the mean */
+    const PetscReal next = product * h[2] - pairs * h[1];
+
+    sum += power / k * h[0];
+    power *= scale;
+    h[2] = h[1];
+    h[1] = h[0];
+    h[0] = next;
+  }
+  return sum;
+}
+
+/* Index 0, 1, 2 or 3 of R by the rows of M: R_..j.. = sum_a M_aj R_..a.. */
+static void TensorTransform(PetscReal R[81], int index, PetscReal (*M)[3])
+{
+  static const int strides[4] = {27, 9, 3, 1};
+  const int        stride     = strides[index];
+
+  for (int k = 0; k < 27; ++k) {
+    PetscReal      *r    = R + k / stride * 3 * stride + k % stride;
+    const PetscReal x[3] = {r[0], r[stride], r[2 * stride]};
+
+    for (int j = 0; j < 3; ++j) r[j * stride] = M[0][j] * x[0] + M[1][j] * x[1] + M[2][j] * x[2];
+  }
+}
+
+/* T in eigenvectors of C, and from it half the second Piola-Kirchhoff stress S there */
+static void LogarithmicTurnStress(Logarithmic *s, const PetscReal T[9], PetscReal turned[3][3], PetscReal half[3][3])
+{
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      turned[a][b] = 0;
+      for (int k = 0; k < 9; ++k) turned[a][b] += s->V[k / 3][a] * T[k] * s->V[k % 3][b];
+      half[a][b] = LogarithmicFirst(s->c[a], s->c[b]) * turned[a][b];
+    }
+  }
+}
+
+/* S = dW/dE : 2 dE/dC */
+static void LogarithmicSecondStress(Logarithmic *s, PetscReal half[3][3], PetscReal S[3][3])
+{
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      S[i][j] = 0;
+      for (int k = 0; k < 9; ++k) S[i][j] += 2 * s->V[i][k / 3] * half[k / 3][k % 3] * s->V[j][k % 3];
+    }
+  }
+}
+
+void LogarithmicStress(Logarithmic *s, const PetscReal H[9], const PetscReal T[9], PetscReal P[9])
+{
+  PetscReal turned[3][3], half[3][3], S[3][3];
+
+  LogarithmicTurnStress(s, T, turned, half);
+  LogarithmicSecondStress(s, half, S);
+  for (int i = 0; i < 9; ++i) {
+    P[i] = S[i / 3][i % 3];
+    for (int k = 0; k < 3; ++k) P[i] += H[3 * (i / 3) + k] * S[k][i % 3];
+  }
+}
+
+/* D becomes d2W/dC dC in eigenvectors of C */
+static void LogarithmicCurvature(Logarithmic *s, PetscReal turned[3][3], PetscReal D[81])
+{
+  for (int index = 0; index < 4; ++index) TensorTransform(D, index, s->V);
+  for (int p = 0; p < 9; ++p) {
+    for (int q = 0; q < 9; ++q)
+      D[9 * p + q] *= LogarithmicFirst(s->c[p / 3], s->c[p % 3]) * LogarithmicFirst(s->c[q / 3], s->c[q % 3]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        const PetscReal term = 0.5 * turned[i][j] * LogarithmicSecond(s->c[i], s->c[k], s->c[j]);
+
+        D[9 * (3 * i + k) + 3 * k + j] += term;
+        D[9 * (3 * k + i) + 3 * k + j] += term;
+        D[9 * (3 * i + k) + 3 * j + k] += term;
+        D[9 * (3 * k + i) + 3 * j + k] += term;
+      }
+    }
+  }
+}
+
+void LogarithmicTangent(Logarithmic *s, const PetscReal H[9], const PetscReal T[9], PetscReal D[81], PetscReal A[81])
+{
+  PetscReal turned[3][3], half[3][3], S[3][3], along[3][3], back[3][3];
+
+  LogarithmicTurnStress(s, T, turned, half);
+  LogarithmicSecondStress(s, half, S);
+  LogarithmicCurvature(s, turned, D);
+  for (int a = 0; a < 3; ++a) {
+    for (int i = 0; i < 3; ++i) {
+      along[a][i] = s->V[i][a];
+      for (int k = 0; k < 3; ++k) along[a][i] += H[3 * i + k] * s->V[k][a];
+      back[a][i] = s->V[i][a];
+    }
+  }
+  for (int index = 0; index < 4; ++index) TensorTransform(D, index, index % 2 ? along : back);
+  for (int p = 0; p < 9; ++p) { /* p = i j, q = k l of A; j i, l k of D */
+    for (int q = 0; q < 9; ++q)
+      A[9 * p + q] = 4 * D[9 * (3 * (p % 3) + p / 3) + 3 * (q % 3) + q / 3] + (p / 3 == q / 3 ? S[p % 3][q % 3] : 0);
+  }
+}
