@@ -294,8 +294,18 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 2}}
       args: -mode default
+
+   test:
+      suffix: 2
+      nsize: 2
+      args: -mode default -problems HS6,HS26,HS35,HS38,HS93,HS98,MPCC,cubic
+
+   test:
+      suffix: 2_long
+      nsize: 2
+      args: -mode default
+      output_file: output/ipfilter_nlp_1.out
 
    test:
       suffix: direct
@@ -336,7 +346,11 @@ int main(int argc, char **argv)
 
    test:
       suffix: dense
-      nsize: {{1 2}}
       args: -mode dense
+
+   test:
+      suffix: dense_2
+      nsize: 2
+      args: -mode dense -problems HS1,HS14,HS39,HS43,HS71,HS104,HS113,circles
 
 TEST*/
