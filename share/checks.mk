@@ -69,7 +69,8 @@ fuzz:
 	done
 
 # The nonlinear programs beside IPOPT (coinor-libipopt-dev), a program of its own because IPOPT brings another MUMPS. The table goes to
-# tests/stress/nlp.md, the performance profile beside it, that of 500 drawn at random to tests/stress/nlp_random.md
+# tests/stress/nlp.md, the performance profile beside it, that of 500 drawn at random to tests/stress/nlp_random.md, that of the same programs
+# in other forms to tests/stress/nlp_forms.md
 nlp: all
 	@mkdir -p build/nlp
 	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/stress/nlp_tao.c -o build/nlp/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
@@ -77,6 +78,7 @@ nlp: all
 	gcc build/nlp/ipopt.o -o build/nlp/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/nlp.py --folder build/nlp
 	$(PYTHON) -B tests/stress/nlp_random.py --folder build/nlp
+	$(PYTHON) -B tests/stress/nlp_forms.py --folder build/nlp
 
 # Obstacle problems on a grid beside TRON and IPOPT; the table goes to tests/stress/grid.md. GRID="--sizes 100 300" runs some
 GRID ?=

@@ -123,7 +123,7 @@ PetscErrorCode PosesFind(const Bodies *b, Vec u0, Vec u1, BodyPose poses[])
   PetscFunctionReturn(0);
 }
 
-/* Where the pose takes a place */
+/* Position of a point after the rigid motion */
 void PosePlace(const BodyPose *pose, const PetscReal x0[3], PetscReal x1[3])
 {
   for (int i = 0; i < 3; ++i) {

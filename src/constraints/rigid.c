@@ -356,7 +356,8 @@ static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Ve
   PetscFunctionReturn(0);
 }
 
-/* Place and angle of a body where the nodes are, as far as they are free, and at what is prescribed else */
+/* Position and rotation angle of a body: those of the nodes for free components, the prescribed values for the others
+   */
 static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, const BodyPose *last, const BodyPose *now,
   RigidBody *body)
 {
@@ -376,8 +377,8 @@ static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, co
   RigidGetAxes(body->angle, body->axis);
 }
 
-/* Bodies that turn freely are linearized about a displacement u, at what a time prescribes; u_last: of the last state.
-   rigid->given becomes that of these bodies */
+/* Linearizes free rotations about the displacement u and the prescribed values of a time. u_last: displacement of the
+   last state. Replaces rigid->given */
 PetscErrorCode RigidTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u)
 {
   RigidBodies *rigid = c->rigid;

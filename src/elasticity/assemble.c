@@ -56,7 +56,7 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
     }
   }
   PetscCall(MatSetOption(tangent, MAT_KEEP_NONZERO_PATTERN,
-    PETSC_TRUE)); /* options set before the first assembly are not passed to the blocks of an MPIBAIJ matrix */
+    PETSC_TRUE)); /* PETSc passes options to the blocks of an MPIBAIJ matrix only after its first assembly */
   PetscCall(MatZeroRows(tangent, n, rows, 0, NULL, NULL));
   PetscCall(PetscFree(seen));
   PetscCall(PetscFree(rows));

@@ -9,7 +9,7 @@ typedef struct {
   Vec shear, slid; /* friction force on the mortar side [force], and slip x area; NULL without friction */
 } PairVertices;
 
-/* force = J^T (mass x pressure) of the pair's rows */
+/* contact force J^T (mass x pressure) of the rows of the pair */
 static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec force)
 {
   const PetscScalar *mass;

@@ -215,10 +215,8 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
   PetscFunctionReturn(0);
 }
 
-/*
-   left: the load that contact leaves unbalanced; size: sum of the magnitudes of nodal loads. none: proof that no
-   equilibrium exists, or only one with contact forces a thousand times the loads
-*/
+/* left: the part of the loads that contact forces cannot balance; size: sum of the magnitudes of the nodal loads. none:
+   no equilibrium exists, or only one with contact forces of a thousand times the loads */
 static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
   const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
 {

@@ -52,8 +52,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscFunctionReturn(0);
 }
 
-/* Each vertex passes its values to better covered vertices of its facets; out: what they gain. carried NULL: out =
-   sum of the areas to which a vertex passes */
+/* Each vertex passes its values to better covered vertices of its facets; out: the values received. carried NULL: out =
+   sum of the areas of the receiving vertices */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
   Vec                local[3]; /* cover, carried, out */

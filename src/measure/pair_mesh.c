@@ -130,8 +130,8 @@ static PetscBool PairLoadTurns(const RunReport *run)
   return PETSC_FALSE;
 }
 
-/* Number of times that the force turns back by more than a tenth while the contact is narrow; forces: the last two
-   extremes */
+/* Number of times that the force changes its direction by more than a tenth of its size while the contact is narrow;
+   forces: the last two extreme values */
 static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal forces[2])
 {
   PetscInt  turns = 0, sense = 0;

@@ -1,4 +1,4 @@
-/* Where rigid bodies are, and what they have turned by since the start. */
+/* Positions of rigid bodies, and their rotations since the start. */
 #include "measureimpl.h"
 
 static PetscBool RigidPlacesHas(Scene scene, PetscInt body)

@@ -3,7 +3,7 @@
 
 static const PetscReal negligible_pressure = 1e-3; /* relative to the largest pressure */
 static const PetscReal open_share          = 1e-3; /* A row is open if its force is below this fraction of (stiffness x
-                                             slack); its pressure is then only the barrier's */
+                                                      slack). Such a force comes from the barrier term alone */
 
 PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
 {

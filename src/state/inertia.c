@@ -17,8 +17,8 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* What mass and damping do to the bodies at u, a new vector, but for the contact forces of the impact scheme that
-   are no multipliers; NULL in a static analysis */
+/* Forces of inertia and damping at u, in a new vector, without contact forces of the impact scheme that are not
+   multipliers; NULL in a static analysis */
 PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
 {
   PetscReal energy = 0.0;

@@ -12,7 +12,7 @@ typedef struct {
   PetscErrorCode (*destroy)(void *);
   void     *ctx;
   PetscReal first; /* residual */
-  PetscInt  later; /* later solves with the same matrix */
+  PetscInt  later; /* number of later solves with the same matrix */
   PetscBool left;  /* stopped in order to factor the matrix */
 } LinearPatience;
 

@@ -166,8 +166,8 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Whether contact can hold the loads at all; bodies that move have inertia beside it. With friction it is asked before
-   a solve, because a solve that finds no solution takes long */
+/* Whether contact forces can balance the loads; in dynamics inertia balances the rest. With friction this is tested
+   before a solve, because a solve without a solution takes long */
 static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;

@@ -17,7 +17,7 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* Magnitude of the objective, the larger of the present and the first value: the scale for what is left to gain */
+/* The larger of the present and the first magnitude of the objective. Possible decreases are compared with it */
 PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 {
   return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first.f)), ip->first.gradient * ip->first.x);

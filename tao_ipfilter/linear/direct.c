@@ -77,8 +77,8 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Lower bound of the memory of the factors: that of the matrix itself [1e6 bytes]. If it is too much, no analysis is
-   made */
+/* Lower bound of the memory of the factors: the memory of the matrix [1e6 bytes]. Above the limit no symbolic
+   factorization is made */
 static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 {
   MatInfo info;

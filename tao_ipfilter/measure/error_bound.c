@@ -177,8 +177,8 @@ PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* What a relaxation of constraints and bounds is worth, over the same: their multipliers times what they are
-   raised by */
+/* Bound of the change of the objective due to relaxed constraints and bounds: sum of their multipliers times their
+   relaxations, over the same unit */
 PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

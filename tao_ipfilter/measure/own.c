@@ -67,9 +67,9 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscFunctionReturn(0);
 }
 
-/* own: largest violation of all (relaxed) constraints, relative to their own terms; and of what was relaxed, without
-   the relaxation, relative to no less than what the largest unknown would contribute: such rows have terms that
-   vanish */
+/* own: largest violation of all (relaxed) constraints relative to the terms of their rows. For relaxed constraints also
+   the violation without the relaxation; its terms are at least the contribution of the largest unknown, because terms
+   of such rows may vanish */
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;

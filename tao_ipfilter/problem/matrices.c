@@ -121,7 +121,8 @@ PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
   PetscFunctionReturn(0);
 }
 
-/* needed: whether the Hessian's entries are needed; reader: by what; instead: what would not need them */
+/* needed: whether the entries of the Hessian are needed; reader: what needs them; instead: which option would not need
+   them */
 static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *reader[], const char *instead[])
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

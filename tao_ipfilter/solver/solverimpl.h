@@ -308,13 +308,13 @@ typedef struct {
 
 /* relax.c: relaxation of constraints without an interior */
 typedef struct {
-  PetscReal by;          /* amount that is added to c_I, */
-  PetscReal size;        /* size of the constraints, of which it is a fraction, */
-  PetscReal unknowns;    /* amount by which bounds are moved, */
-  PetscReal told;        /* larger of both in the caller's units, */
-  PetscInt  times;       /* and number of relaxations */
-  PetscReal least_slack; /* smallest slack after the last step, */
-  PetscReal least_bound; /* and smallest distance from a bound */
+  PetscReal by;          /* amount added to c_I */
+  PetscReal size;        /* size of the constraints; `by` is a fraction of it */
+  PetscReal unknowns;    /* amount by which bounds are moved */
+  PetscReal told;        /* larger one of `by` and `unknowns`, in the caller's units */
+  PetscInt  times;       /* number of relaxations */
+  PetscReal least_slack; /* smallest slack after the last step */
+  PetscReal least_bound; /* smallest distance from a bound after the last step */
   PetscInt  nvanished;   /* consecutive iterates with a vanishing slack */
 } IPRelaxation;
 

@@ -36,7 +36,7 @@ static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
   return PetscMax(ip->scale.balance, ip->first.pressure);
 }
 
-/* Whether the least slack is as small as rounding, and its multiplier larger than what balances the gradient */
+/* Whether the smallest slack is of rounding size and its multiplier is larger than one that balances the gradient */
 static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
   const PetscReal larger = 10.0;
@@ -45,10 +45,11 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->opt.scaling == IP_SCALING_NONE || ip->mu > larger * ip->relax.least_slack * RelaxBalance(ip));
 }
 
-/* The same, or the multiplier of a slack on the central path of a mu that does not fall is so much larger than what
-   balances the objective's gradient that no slack of a constraint with an interior would be so small; or that of a
-   bound is, and it cancels that of an equality constraint. Far from feasible points that happens on the way. Without
-   scales nothing says what balances. */
+/* vanished: constraints have no interior. Either a slack is of rounding size (RelaxRounding()). Or mu does not fall,
+   and the multiplier of a slack on the central path is too large for a constraint with an interior, compared with the
+   multiplier that balances the gradient of the objective. Or the multiplier of a bound is that large, and cancels the
+   multiplier of an equality constraint. At infeasible points this also happens in passing, so they are excluded.
+   Without scales there is no such comparison. */
 static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -96,8 +97,8 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes constraints and bounds by a fraction of the tolerance times their size. mu becomes no more than what the
-   width that they have now admits at large multipliers. */
+/* Relaxes constraints and bounds by a fraction of the tolerance times their size. Reduces mu to the largest value that
+   the relaxed constraints allow with large multipliers */
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

@@ -144,8 +144,8 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
-/* A stiffness no less than what keeps the slacks of the central path within the size of the constraints, where mu has
-   come from the bounds, which know nothing of the rows */
+/* Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Used if mu
+   was computed from the bounds alone */
 static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

@@ -120,7 +120,7 @@ static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, 
   PetscFunctionReturn(0);
 }
 
-/* Sets up B for K alone */
+/* Sets up the preconditioner B of the Hessian K without constraints */
 static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
 {
   const PetscReal usual = 35.0;

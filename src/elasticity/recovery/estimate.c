@@ -57,10 +57,8 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
   }
 }
 
-/*
-   Selects from the remaining bodies some of which no two share a node, and removes them: those that are the first at
-   all of their nodes
-*/
+/* Selects bodies of which no two share a node, and removes them from the remaining ones: those that come first at all
+   of their nodes */
 static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
   PetscBool *more)
 {

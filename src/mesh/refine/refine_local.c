@@ -52,8 +52,8 @@ static PetscErrorCode LocalIsMade(const char label[], PetscBool *made)
   PetscFunctionReturn(0);
 }
 
-/* Labels a facet. On the boundary it gets the labels of the original facet that contains it. A facet inside with
-   only one cell belongs to a coarse cell, or to fine ones beside it */
+/* Labels a facet. A facet of the boundary gets the labels of the original facet that contains it. An inner facet with
+   only one cell lies between a coarse cell and fine cells */
 static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, PetscInt facet)
 {
   const PetscInt *cells;

@@ -1,6 +1,4 @@
-/*
-   The format of scene files: from text to keys, from keys to values. Independent of what a scene contains.
-*/
+/* The format of scene files: reads keys from text, and values from keys. Independent of the contents of scenes. */
 #ifndef FORMATIMPL_H
 #define FORMATIMPL_H
 

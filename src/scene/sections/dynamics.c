@@ -1,7 +1,7 @@
-/* dynamics: time steps, and what they need of bodies */
+/* dynamics: time steps, and the properties of bodies that they require */
 #include "sectionsimpl.h"
 
-/* An error with the line of its key, unless something else was complained of before */
+/* Records an error, with the line of its key, unless there is one already */
 #define DynamicsRequire(condition, keys, key, ...) \
   do { \
     if (!(condition) && !(keys)->error[0]) { \

@@ -16,7 +16,7 @@ PETSC_INTERN const SceneList *SceneFindList(const char name[]);
 PETSC_INTERN PetscErrorCode SceneReadRamps(SceneKeys, Scene);
 PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
-/* dynamics.c: time steps, before the ramps; whether a body has what they need */
+/* dynamics.c: time steps, read before the ramps; the properties of bodies that they require */
 PETSC_INTERN PetscErrorCode SceneReadDynamics(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owner[], const SceneBody *);
 

@@ -18,8 +18,7 @@ static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char ke
   PetscCall(SceneParseReal(keys, key, text, stiffness));
   if (!(*stiffness > 0 && *stiffness <= 0.01))
     PetscCall(SceneKeysError(keys,
-      "%s is %s; it is true, false, or what they are worth of a body's stiffness, above 0 and at most 0.01", key,
-      text));
+      "%s is %s; it must be true, false, or a fraction of the body's stiffness, above 0 and at most 0.01", key, text));
   PetscFunctionReturn(0);
 }
 
