@@ -42,6 +42,7 @@ Exit code:\n\
 #include <options.h>
 #include <scene.h>
 #include <mesh.h>
+#include <contact.h>
 #include <step.h>
 #include <accuracy.h>
 #include <checkpoint.h>
@@ -546,6 +547,7 @@ static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
   if (!app->quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
+  PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());
   if (app->check) PetscCall(AppCheckScene(scene));
   else {

@@ -29,6 +29,8 @@ typedef struct {
   PetscInt  *pair;    /* contact pair of each local row */
 } * ContactLinearization;
 
+/* Collective. Finds the pairs and ties that the scene's rules (contact: auto) leave open, and adds them to the scene */
+PETSC_EXTERN PetscErrorCode ContactDetect(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);

@@ -13,6 +13,7 @@
 #include "model.h"
 
 #define MESH_BODY_LABEL      "body"
+#define MESH_SURFACE         "surface_" /* with a number: a part of the boundary of a body from a file */
 #define MESH_MAX_NODES       27 /* of a cell */
 #define MESH_MAX_FACET_NODES 9
 
@@ -55,6 +56,16 @@ PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
    its parts of faces */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
+/* The surfaces of all bodies at refinement level 0, on all ranks: the faces of shapes; of bodies from files the parts of
+   the boundary between sharp edges, for which they get faces surface_1, surface_2, ... */
+typedef struct {
+  PetscInt   n, *surface; /* facets, and the surface of each */
+  PetscReal *x;           /* [12 n] corners, counterclockwise seen from outside; a triangle repeats the last [length] */
+  PetscInt   nsurfaces, *body;
+  char     **name; /* "<body>.<face>" */
+} MeshSurfaces;
+PETSC_EXTERN PetscErrorCode MeshSurfacesCreate(MPI_Comm, PetscInt nbodies, SceneBody[], MeshSurfaces *);
+PETSC_EXTERN PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *);
 /* Checks that the faces of a scene have facets, and that every body is held by displacements or contact */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);

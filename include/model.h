@@ -66,6 +66,8 @@ typedef struct {
   char     *volume;     /* physical name */
   PetscReal scale;      /* factor of its coordinates; 0 stands for 1 */
   char     *converted;  /* the temporary Gmsh file that a file of another format, or with a scale, became; else NULL */
+  PetscInt  nsurfaces;  /* number of its faces surface_1, surface_2, ..., which are the parts of the boundary between
+                           sharp edges; 0: it has none, until something needs them */
   int       descriptor; /* of that file, for the first body that has it, on the first rank; 0: none */
 } SceneGmsh;
 
@@ -204,6 +206,10 @@ typedef struct {
   PetscReal friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
   PetscReal shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
   PetscInt  friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
+  PetscReal tie;               /* only of rules: surfaces that are nearer than this are tied [length]; 0: none */
+  char     *except;            /* only of rules: bodies and faces without contact, or two of them as "a/b" */
+  const char *why;             /* found by a rule: why the nonmortar side is that; NULL: the scene names both sides */
+  PetscReal apart;             /* found by a rule: smallest distance along a normal in the undeformed state [length] */
   PetscBool smooth;            /* measure the gap between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
@@ -266,6 +272,8 @@ typedef struct _n_Scene {
   SceneTemperature *temperatures;
   PetscInt          npairs;
   SceneContactPair *pairs;
+  PetscInt nrules; /* contact entries that name no faces; ContactDetect() turns them into pairs and ties */
+  SceneContactPair *rules;
   PetscInt          nties;
   SceneTie         *ties;
   PetscInt          nrefinements;

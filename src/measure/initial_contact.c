@@ -118,6 +118,7 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscReal area = 0.0;
 
+    if (sim->scene->pairs[p].why) continue; /* found by a rule, in case they meet */
     for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
     if (area == 0.0)
       PetscCall(ReportWarn(sim->comm, &sim->report,

@@ -45,11 +45,18 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
     PetscCall(GmshGetPhysicalNames(comm, body, 2, &nown, &surfaces, NULL));
     own = (const char *const *)surfaces;
   }
-  *n = nown + body->nsubfaces;
+  *n = nown + body->gmsh.nsurfaces + body->nsubfaces;
   PetscCall(PetscMalloc1(*n, names));
   for (PetscInt f = 0; f < nown; ++f) PetscCall(PetscStrallocpy(own[f], &(*names)[f]));
+  for (PetscInt f = 0; f < body->gmsh.nsurfaces; ++f, ++nown) {
+    char name[32];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), MESH_SURFACE "%" PetscInt_FMT, f + 1));
+    PetscCall(PetscStrallocpy(name, &(*names)[nown]));
+  }
   for (PetscInt f = 0; f < body->nsubfaces; ++f)
     PetscCall(PetscStrallocpy(body->subfaces[f].name, &(*names)[nown + f]));
+  nown -= body->gmsh.nsurfaces;
   if (surfaces) PetscCall(NamesDestroy(&nown, &surfaces));
   PetscFunctionReturn(0);
 }

@@ -23,6 +23,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   PetscFunctionBegin;
   PetscCall(StepEventsRegister());
   PetscCall(PetscAMGFInitializePackage());
+  PetscCall(ContactDetect(comm, scene));
   PetscCall(PetscNew(sim));
   (*sim)->comm     = comm;
   (*sim)->scene    = scene;

@@ -270,6 +270,13 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
     else
       PetscCall(
         PetscViewerASCIIPrintf(viewer, "facets pair within a distance that is chosen from the size of the faces\n"));
+    if (here->why) {
+      PetscCall(PetscViewerASCIIPrintf(viewer, "    found by a rule; %s is nonmortar because %s; ", here->nonmortar,
+        here->why));
+      if (here->apart < PETSC_MAX_REAL)
+        PetscCall(PetscViewerASCIIPrintf(viewer, "smallest distance at the start %.4g\n", (double)here->apart));
+      else PetscCall(PetscViewerASCIIPrintf(viewer, "the faces meet during the run\n"));
+    }
     PetscCall(DescribeSides(dm, here, viewer));
   }
   PetscFunctionReturn(0);

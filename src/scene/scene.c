@@ -46,6 +46,21 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
+/* Bodies from files get faces for the parts of their boundaries if the file refers to one, as in part.surface_2 */
+static PetscErrorCode SceneFindSurfaces(SceneKeys keys, Scene scene)
+{
+  PetscBool    named = PETSC_FALSE;
+  MeshSurfaces surfaces;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < keys->values.n && !named; ++i)
+    named = (PetscBool)(strstr(keys->values.values[i].text, "." MESH_SURFACE) != NULL);
+  if (!named || keys->error[0]) PetscFunctionReturn(0);
+  PetscCall(MeshSurfacesCreate(keys->comm, scene->nbodies, scene->bodies, &surfaces));
+  PetscCall(MeshSurfacesDestroy(&surfaces));
+  PetscFunctionReturn(0);
+}
+
 /* Reads the lists in the order of the table; quantities derived from a list are computed before they are needed */
 static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 {
@@ -56,9 +71,11 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
     else if (list->entries)
       PetscCall(
         SceneReadList(keys, scene, list, (PetscInt *)((char *)scene + list->count), (char *)scene + list->entries));
+    if (!strcmp(list->name, "contact")) PetscCall(SceneSplitRules(scene));
     if (!strcmp(list->name, "bodies")) {
       PetscCall(SceneScaleRigid(scene));
       PetscCall(GmshConvert(keys->comm, scene->nbodies, scene->bodies));
+      PetscCall(SceneFindSurfaces(keys, scene));
     }
   }
   PetscFunctionReturn(0);
@@ -162,6 +179,11 @@ PetscErrorCode SceneDestroy(Scene *scene)
     }
     PetscCall(PetscFree(entries));
   }
+  for (PetscInt r = 0; r < s->nrules; ++r) {
+    PetscCall(PetscFree(s->rules[r].name));
+    PetscCall(SceneFreeRows(SceneFindList("contact")->rows, &s->rules[r]));
+  }
+  PetscCall(PetscFree(s->rules));
   PetscCall(SceneDestroyOptions(s));
   for (PetscInt r = 0; r < s->nramps; ++r) {
     PetscCall(PetscFree(s->ramps[r].name));

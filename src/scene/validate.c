@@ -116,6 +116,27 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
   PetscFunctionReturn(0);
 }
 
+/* What a pair, or a rule for pairs, does not go with */
+static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[], Scene scene,
+  const SceneContactPair *here)
+{
+  PetscFunctionBegin;
+  SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds,
+    "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
+  for (PetscInt q = 0; q < scene->npressures; ++q)
+    SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows,
+      "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
+      "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
+      "be dead, or the pair without friction",
+      file, here->name, scene->pressures[q].name);
+  SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
+                 (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
+    "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
+    "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
+    file, here->name);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -125,19 +146,7 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
 
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
     PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
-    SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds,
-      "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
-    for (PetscInt q = 0; q < scene->npressures; ++q)
-      SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows,
-        "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
-        "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
-        "be dead, or the pair without friction",
-        file, here->name, scene->pressures[q].name);
-    SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
-                   (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
-      "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
-      "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
-      file, here->name);
+    PetscCall(SceneValidatePairEffects(comm, file, scene, here));
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
     SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name,
       here->mortar);
@@ -174,6 +183,8 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateSprings(comm, file, scene));
   PetscCall(SceneValidateTemperatures(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
+  PetscCall(SceneValidateRules(comm, file, scene));
+  for (PetscInt r = 0; r < scene->nrules; ++r) PetscCall(SceneValidatePairEffects(comm, file, scene, &scene->rules[r]));
   PetscCall(SceneValidateTies(comm, file, scene));
   PetscCall(SceneValidateRefinements(comm, file, scene));
   PetscFunctionReturn(0);

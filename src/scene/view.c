@@ -90,6 +90,7 @@ static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const ch
     PetscCall(PetscViewerASCIIPopTab(viewer));
   } else if (!strcmp(name, "ramps"))
     PetscCall(SceneViewNumbered(scene, viewer, name, scene->nramps - 1, SceneViewRamp));
+  else if (!strcmp(name, "contact")) PetscCall(SceneViewPairs(scene, viewer, list));
   else if (!strcmp(name, "solver")) PetscCall(SceneViewNumbered(scene, viewer, name, scene->noptions, SceneViewOption));
   else if (list && list->entries)
     PetscCall(SceneViewEntries(scene, viewer, list, *(const PetscInt *)((const char *)scene + list->count),

@@ -7,7 +7,7 @@
 #include <vector3.h>
 #include <stdlib.h>
 
-#define ARC_FEATURE 35.0 /* degrees; the default of contact */
+#define ARC_FEATURE SHAPE_SHARP
 #define ARC_FLAT    1e-6 /* relative to an edge: smaller heights are rounding of the file */
 
 /* The boundary facets of a grid, vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet f;

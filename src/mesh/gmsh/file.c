@@ -285,6 +285,22 @@ static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, P
   PetscFunctionReturn(0);
 }
 
+/* Adds the parts of the boundary between sharp edges as faces, after the n faces that the file names; on rank 0 */
+static PetscErrorCode GmshAddSurfaces(PetscInt n, ShapeGrid *grid)
+{
+  ShapeBoundary boundary;
+
+  PetscFunctionBegin;
+  PetscCall(ShapeBoundaryCreate(grid, grid->coordinates, &boundary));
+  PetscCall(ShapeBoundarySplit(grid->coordinates, SHAPE_SHARP, &boundary));
+  PetscCall(PetscRealloc(sizeof(PetscInt) * 4 * (grid->nfacets + boundary.n), &grid->facets));
+  PetscCall(PetscRealloc(sizeof(PetscInt) * (grid->nfacets + boundary.n), &grid->facetface));
+  PetscCall(PetscArraycpy(grid->facets + 4 * grid->nfacets, boundary.vertex, 4 * boundary.n));
+  for (PetscInt f = 0; f < boundary.n; ++f) grid->facetface[grid->nfacets++] = n + boundary.region[f];
+  PetscCall(ShapeBoundaryDestroy(&boundary));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *body, ShapeGrid *grid)
 {
   RankError      error;
@@ -297,6 +313,7 @@ PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *b
   PetscCall(GmshGetPhysicalNames(comm, body, 2, &n, &surfaces, &tags));
   PetscCall(RankErrorBegin(&error));
   if (file->mesh.nelements) ierr = GmshCutBody(&file->mesh, body, volume, n, tags, grid);
+  if (!ierr && file->mesh.nelements && body->gmsh.nsurfaces) ierr = GmshAddSurfaces(n, grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
   PetscCall(NamesDestroy(&n, &surfaces));

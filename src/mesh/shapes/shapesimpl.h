@@ -50,6 +50,22 @@ PETSC_INTERN PetscErrorCode ShapeCheckTotal(MPI_Comm, const SceneBody *, PetscRe
 PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, PetscReal grading, PetscInt even,
   PetscInt n);
 
+/* regions.c: the boundary of a grid on one rank. Create: each facet is a region of its own; x: 3 coordinates per
+   vertex. Split: the regions lie between edges at which facets make more than an angle. UseFaces: the regions are the
+   faces of a shape. MatchFaces: number of the region that each of the first faces is; negative: it is none */
+#define SHAPE_SHARP 35.0 /* degrees; larger angles are edges of the body */
+typedef struct {
+  PetscInt  n;
+  PetscInt *vertex; /* [4 n] counterclockwise seen from outside; a triangle repeats the last one */
+  PetscInt *region, nregions;
+} ShapeBoundary;
+PETSC_INTERN PetscErrorCode ShapeBoundaryCreate(const ShapeGrid *, const PetscReal x[], ShapeBoundary *);
+PETSC_INTERN PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeBoundary *);
+PETSC_INTERN PetscErrorCode ShapeBoundaryUseFaces(const ShapeGrid *, PetscInt nfaces, ShapeBoundary *);
+PETSC_INTERN PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *, const ShapeGrid *, PetscInt nfaces,
+  PetscInt region[]);
+PETSC_INTERN PetscErrorCode ShapeBoundaryDestroy(ShapeBoundary *);
+
 /* Keys of shapes in scenes: values of a SceneBody. A key with an underscore may be nested, as outer: {radius: 1} */
 typedef enum { KEY_REALS, KEY_INTS, KEY_AXIS, KEY_DIRECTION, KEY_TEXT } KeyType;
 

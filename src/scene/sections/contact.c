@@ -1,6 +1,7 @@
 /* contact: keys of a contact pair that are not single values */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
+#include <string.h>
 
 /* Reads true, false, or a length */
 static PetscErrorCode InterferenceRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
@@ -72,6 +73,138 @@ static PetscErrorCode StickView(Scene scene, PetscViewer viewer, const void *ent
 
 const SceneOwn SceneOwnStick = {StickRead, StickIsShown, StickView, 0};
 
+/* Reads a list of names of bodies and faces, or of two of them joined by a slash; stored with commas */
+static PetscErrorCode ExceptRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
+{
+  SceneContactPair *pair   = entry;
+  PetscInt          n      = PETSC_DECIDE;
+  size_t            length = 0, used = 0;
+  char            **words;
+
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(SceneParseList(keys, key, text, &n, &words));
+  for (PetscInt i = 0; i < n; ++i) length += strlen(words[i]) + 1;
+  PetscCall(PetscCalloc1(length + 1, &pair->except));
+  for (PetscInt i = 0; i < n; used += strlen(words[i++]) + 1)
+    (void)snprintf(pair->except + used, length + 1 - used, "%s%s", words[i], i + 1 < n ? "," : "");
+  if (words) PetscCall(PetscStrToArrayDestroy((int)n, words));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool ExceptIsShown(const void *entry)
+{
+  return (PetscBool)(((const SceneContactPair *)entry)->except != NULL);
+}
+
+static PetscErrorCode ExceptView(Scene scene, PetscViewer viewer, const void *entry)
+{
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "[%s]", ((const SceneContactPair *)entry)->except));
+  PetscFunctionReturn(0);
+}
+
+const SceneOwn SceneOwnExcept = {ExceptRead, ExceptIsShown, ExceptView, 1};
+
+/* Whether an entry names no faces: the entry `auto`, or one with two bodies */
+static PetscBool PairIsRule(const SceneContactPair *pair)
+{
+  return (
+    PetscBool)(!pair->mortar || !pair->nonmortar || (!strchr(pair->mortar, '.') && !strchr(pair->nonmortar, '.')));
+}
+
+/* Checks which sides and which keys of rules an entry has */
+static PetscErrorCode FinishSides(SceneKeys keys, const char owner[], SceneContactPair *pair)
+{
+  PetscBool any;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
+  if (any && (pair->mortar || pair->nonmortar))
+    PetscCall(SceneKeysError(keys, "%s_%s is given, but the entry %s is for all surfaces: give the entry another name",
+      owner, pair->mortar ? "mortar" : "nonmortar", pair->name));
+  if (!any && !pair->mortar) PetscCall(SceneKeysError(keys, "the key \"%s_mortar\" is missing", owner));
+  if (!any && !pair->nonmortar) PetscCall(SceneKeysError(keys, "the key \"%s_nonmortar\" is missing", owner));
+  if (!any && pair->except) PetscCall(SceneKeysErrorOf(keys, owner, "except", "is only for the entry auto of contact"));
+  if (pair->tie > 0.0 && !PairIsRule(pair))
+    PetscCall(SceneKeysErrorOf(keys, owner, "tie",
+      "is only for the entry auto of contact, and for pairs of bodies; "
+      "two faces are tied under ties"));
+  PetscFunctionReturn(0);
+}
+
+/* Takes the entries that name no faces out of the pairs */
+PetscErrorCode SceneSplitRules(Scene scene)
+{
+  const PetscInt n = scene->npairs;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < n; ++p) scene->nrules += PairIsRule(&scene->pairs[p]) ? 1 : 0;
+  if (!scene->nrules) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(scene->nrules, &scene->rules));
+  scene->nrules = scene->npairs = 0;
+  for (PetscInt p = 0; p < n; ++p) {
+    if (PairIsRule(&scene->pairs[p])) scene->rules[scene->nrules++] = scene->pairs[p];
+    else scene->pairs[scene->npairs++] = scene->pairs[p];
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Prints rules and pairs as one list */
+PetscErrorCode SceneViewPairs(Scene scene, PetscViewer viewer, const SceneList *list)
+{
+  SceneContactPair *all;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nrules + scene->npairs, &all));
+  PetscCall(PetscArraycpy(all, scene->rules, scene->nrules));
+  PetscCall(PetscArraycpy(all + scene->nrules, scene->pairs, scene->npairs));
+  PetscCall(SceneViewEntries(scene, viewer, list, scene->nrules + scene->npairs, all));
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(0);
+}
+
+/* Checks that a part of a text is a body, or a face of one */
+static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene scene, const char owner[],
+  const char text[], size_t length)
+{
+  char name[SCENE_KEY_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(name, text, PetscMin(length + 1, sizeof(name))));
+  if (!strchr(name, '.')) {
+    PetscBool found = PETSC_FALSE;
+
+    for (PetscInt b = 0; b < scene->nbodies; ++b) found = (PetscBool)(found || !strcmp(name, scene->bodies[b].name));
+    PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: contact pair \"%s\" names \"%s\", which is no body of the scene",
+      file, owner, name);
+  } else PetscCall(SceneValidateFace(comm, file, scene, "contact pair", owner, name));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneValidateRules(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nrules; ++r) {
+    const SceneContactPair *rule = &scene->rules[r];
+
+    if (rule->mortar) {
+      PetscCall(ValidateSurface(comm, file, scene, rule->name, rule->mortar, strlen(rule->mortar)));
+      PetscCall(ValidateSurface(comm, file, scene, rule->name, rule->nonmortar, strlen(rule->nonmortar)));
+      PetscCheck(strcmp(rule->mortar, rule->nonmortar), comm, PETSC_ERR_USER_INPUT,
+        "%s: contact pair \"%s\" has the same body \"%s\" on both sides", file, rule->name, rule->mortar);
+    }
+    for (const char *at = rule->except; at && *at;) {
+      const size_t length = strcspn(at, ",/");
+
+      PetscCall(ValidateSurface(comm, file, scene, rule->name, at, length));
+      at += length + (at[length] != 0);
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Finishes a pair: its ramps must exist; a shear limit without a coefficient holds for any normal force */
 PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
@@ -80,6 +213,7 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
 
   PetscFunctionBegin;
   (void)scene;
+  PetscCall(FinishSides(keys, owner, pair));
   PetscCall(SceneHasKey(keys, owner, "interference", &interference));
   PetscCall(SceneHasKey(keys, owner, "friction", &coefficient));
   PetscCall(SceneHasKey(keys, owner, "shear_limit", &limit));

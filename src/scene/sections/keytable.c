@@ -52,7 +52,7 @@ static const SceneKey top_rows[] = {
     "springs as a fraction of the body's stiffness, above 0 and at most 0.01"),
   SECTION("temperatures", "none", "list of temperatures of bodies with thermal expansion"),
   SECTION("body_forces", "none", "list of forces per undeformed volume, with fixed direction"),
-  SECTION("contact", "none: no search, no optimizer", "list of contact pairs"),
+  SECTION("contact", "none: no search, no optimizer", "list of contact pairs, or `auto`"),
   SECTION("ties", "none", "list of pairs of faces joined without sliding or opening"),
   SECTION("refinements", "none", "list of zones in which cells are refined further than by `refine`"),
   SECTION("probes", "none", "list of points and lines at which results are written"),
@@ -167,9 +167,10 @@ static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTempera
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey contact_rows[] = {
-  TEXT("mortar", NULL, SceneContactPair, mortar, REQUIRED, "", "the mortar (master) face, preferably the larger one"),
-  TEXT("nonmortar", NULL, SceneContactPair, nonmortar, REQUIRED, "",
-    "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one"),
+  TEXT("mortar", NULL, SceneContactPair, mortar, OPTIONAL, "required but in `auto`",
+    "the mortar (master) face, preferably the larger one; or a body, see [contact: auto](#contact-auto)"),
+  TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required but in `auto`",
+    "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
     "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices (see"
@@ -192,6 +193,10 @@ static const SceneKey contact_rows[] = {
   ANSWER("smooth", NULL, SceneContactPair, smooth, "`true`",
     "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than "
     "35 degrees stay sharp. `false`: between the facets"),
+  REALS("tie", NULL, 1, SceneContactPair, tie, OPTIONAL, FROM_0, "L", "none",
+    "only of `auto` and of pairs of bodies: surfaces that are nearer than this are tied"),
+  OWN("except", NULL, SceneContactPair, except, OPTIONAL, SceneOwnExcept, "", "none",
+    "only of `auto`: bodies and faces that get no contact, or two of them as `a/b`"),
   {NULL}};
 
 static const SceneKey tie_rows[] = {TEXT("mortar", NULL, SceneTie, mortar, REQUIRED, "", "a face"),

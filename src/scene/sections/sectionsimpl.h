@@ -84,8 +84,11 @@ PETSC_INTERN PetscErrorCode SceneFinishSpring(SceneKeys, Scene, const char owner
 PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, const char file[], Scene);
 
 /* contact.c, ties.c, refinements.c, probes.c */
-PETSC_INTERN const SceneOwn SceneOwnInterference, SceneOwnStick, SceneOwnNear;
+PETSC_INTERN const SceneOwn SceneOwnInterference, SceneOwnStick, SceneOwnExcept, SceneOwnNear;
 PETSC_INTERN PetscErrorCode SceneFinishPair(SceneKeys, Scene, const char owner[], void *entry);
+PETSC_INTERN PetscErrorCode SceneSplitRules(Scene);
+PETSC_INTERN PetscErrorCode SceneViewPairs(Scene, PetscViewer, const SceneList *);
+PETSC_INTERN PetscErrorCode SceneValidateRules(MPI_Comm, const char file[], Scene);
 PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, const char file[], Scene);
 PETSC_INTERN PetscBool      SceneRefinementHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishRefinement(SceneKeys, Scene, const char owner[], void *entry);

@@ -1,0 +1,205 @@
+/* Pairs and ties from the scene's rules */
+#include "detectimpl.h"
+#include <string.h>
+
+static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
+{
+  MeshSurfaces *s = &m->surfaces;
+  PetscReal    *volume;
+
+  PetscFunctionBegin;
+  m->comm = comm;
+  PetscCall(MeshSurfacesCreate(comm, scene->nbodies, scene->bodies, s));
+  PetscCall(PetscCalloc2(s->nsurfaces, &m->area, s->nsurfaces, &m->nfacets));
+  PetscCall(PetscCalloc3(scene->nbodies, &m->thickness, 6 * scene->nbodies, &m->box, scene->nbodies, &m->fine));
+  PetscCall(PetscCalloc1(scene->nbodies, &volume));
+  for (PetscInt i = 0; i < 6 * scene->nbodies; ++i) m->box[i] = i % 6 < 3 ? PETSC_MAX_REAL : PETSC_MIN_REAL;
+  for (PetscInt f = 0; f < s->n; ++f) {
+    const PetscReal *x    = &s->x[12 * f];
+    const PetscInt   body = s->body[s->surface[f]], order = scene->bodies[body].order;
+    const PetscReal  origin[3] = {s->x[0], s->x[1], s->x[2]};
+    PetscReal        n[3], mass[4], box[6];
+
+    ContactFacetAreaVector(x, n);
+    for (PetscInt c = 0; c < 3; ++c)
+      volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
+    m->thickness[body] += ContactFacetMass(x, mass); /* the area, until all facets are known */
+    m->area[s->surface[f]] += ContactFacetMass(x, mass);
+    ++m->nfacets[s->surface[f]];
+    m->fine[body] = order == 2 || (!order && ContactFacetIsTriangle(x)) ? 0.25 : 1.0;
+    ContactFacetBox(x, box);
+    for (PetscInt c = 0; c < 3; ++c) {
+      m->box[6 * body + c]     = PetscMin(m->box[6 * body + c], box[c]);
+      m->box[6 * body + 3 + c] = PetscMax(m->box[6 * body + 3 + c], box[3 + c]);
+    }
+  }
+  for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * volume[b] / m->thickness[b];
+  PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ModelDestroy(DetectModel *m)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshSurfacesDestroy(&m->surfaces));
+  PetscCall(PetscFree2(m->area, m->nfacets));
+  PetscCall(PetscFree3(m->thickness, m->box, m->fine));
+  PetscFunctionReturn(0);
+}
+
+/* A name that no pair and no tie has: nonmortar and mortar body, with a number from 2 on */
+static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const char mortar[], char **name)
+{
+  char      text[PETSC_MAX_PATH_LEN];
+  PetscBool taken = PETSC_TRUE, same;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 1; taken; ++k) {
+    PetscCall(PetscSNPrintf(text, sizeof(text), "%s_%s", nonmortar, mortar));
+    if (k > 1) PetscCall(PetscSNPrintf(text, sizeof(text), "%s_%s_%" PetscInt_FMT, nonmortar, mortar, k));
+    taken = PETSC_FALSE;
+    for (PetscInt p = 0; p < scene->npairs + scene->nties; ++p) {
+      PetscCall(
+        PetscStrcasecmp(text, p < scene->npairs ? scene->pairs[p].name : scene->ties[p - scene->npairs].name, &same));
+      taken = (PetscBool)(taken || same);
+    }
+  }
+  PetscCall(PetscStrallocpy(text, name));
+  PetscFunctionReturn(0);
+}
+
+/* Adds a pair or a tie to the scene */
+static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const char mortar[], const char nonmortar[],
+  const char name[], PetscBool tied, const char why[], PetscReal apart)
+{
+  PetscFunctionBegin;
+  if (tied) {
+    SceneTie *tie;
+
+    PetscCall(PetscRealloc(sizeof(*tie) * (scene->nties + 1), &scene->ties));
+    tie  = &scene->ties[scene->nties++];
+    *tie = (SceneTie){.distance = rule->tie};
+    PetscCall(PetscStrallocpy(name, &tie->name));
+    PetscCall(PetscStrallocpy(mortar, &tie->mortar));
+    PetscCall(PetscStrallocpy(nonmortar, &tie->nonmortar));
+  } else {
+    SceneContactPair *pair;
+
+    PetscCall(PetscRealloc(sizeof(*pair) * (scene->npairs + 1), &scene->pairs));
+    pair         = &scene->pairs[scene->npairs++];
+    *pair        = *rule;
+    pair->why    = why;
+    pair->apart  = apart;
+    pair->tie    = 0.0;
+    pair->except = NULL;
+    PetscCall(PetscStrallocpy(name, &pair->name));
+    PetscCall(PetscStrallocpy(mortar, &pair->mortar));
+    PetscCall(PetscStrallocpy(nonmortar, &pair->nonmortar));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Decides on sides of a pair that was found, and whether it is tied: where one of the surfaces is near the other with
+   all its facets */
+static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const SceneContactPair *rule,
+  const DetectPair *found, SceneContactPair *pair, PetscBool *tied)
+{
+  const MeshSurfaces *s    = &model->surfaces;
+  PetscInt            side = DetectNonmortar(model, scene, found, &pair->why);
+
+  PetscFunctionBegin;
+  if (rule->mortar) {
+    side      = strcmp(rule->nonmortar, scene->bodies[s->body[found->surface[0]]].name) ? 1 : 0;
+    pair->why = "the scene says so";
+  }
+  *tied = PETSC_FALSE;
+  for (PetscInt turn = 0; turn < 2 && !*tied; ++turn) {
+    const PetscInt  k     = turn ? 1 - side : side;
+    const PetscBool rigid = (PetscBool)(scene->bodies[s->body[found->surface[k]]].material.type == MATERIAL_RIGID);
+
+    *tied = (PetscBool)(!rigid && found->tied[k] == model->nfacets[found->surface[k]]);
+    if (*tied) side = k;
+  }
+  PetscCheck(*tied || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
+    "contact rule \"%s\" with tie = %g: of the faces %s and %s only parts are that near each other: cut these parts "
+    "out "
+    "under faces, and list the tie",
+    rule->name, (double)rule->tie, s->name[found->surface[0]], s->name[found->surface[1]]);
+  pair->nonmortar = s->name[found->surface[side]];
+  pair->mortar    = s->name[found->surface[1 - side]];
+  PetscCall(RuleMakeName(scene, scene->bodies[s->body[found->surface[side]]].name,
+    scene->bodies[s->body[found->surface[1 - side]]].name, &pair->name));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RulesDestroy(Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nrules; ++r) {
+    PetscCall(PetscFree(scene->rules[r].name));
+    PetscCall(PetscFree(scene->rules[r].mortar));
+    PetscCall(PetscFree(scene->rules[r].nonmortar));
+    PetscCall(PetscFree(scene->rules[r].except));
+  }
+  PetscCall(PetscFree(scene->rules));
+  scene->nrules = 0;
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactDetect - Finds the contact pairs and ties that a scene's rules leave open (`contact: auto`), and adds them to
+  the scene
+
+  Collective
+
+  Input Parameters:
++ comm  - communicator
+- scene - the scene, the same on all ranks
+
+  Level: intermediate
+
+  Notes:
+  Without rules, or if they have been applied before, this does nothing. The scene then has pairs and ties as if the
+  file listed them; `SceneView()` prints them, too.
+
+  From five points of each facet at refinement level 0 a ray goes along the normal. The first facet that it hits, of
+  another body and with an opposing normal, makes a pair of the two surfaces if it is within the distance. This is done
+  for the undeformed bodies, and for up to 32 states of the load program with the bodies moved as prescribed. Bodies in
+  between hide what is behind them. The cost is O(N log N) in the number of facets, divided by the number of ranks.
+
+  It is an error if no surfaces face each other, and the scene lists no pairs either.
+
+.seealso: `SceneLoad()`, `ContactCreate()`, `MeshSurfacesCreate()`
+@*/
+PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
+{
+  DetectModel              model;
+  DetectPair              *found;
+  const SceneContactPair **rules;
+  SceneContactPair        *pairs;
+  PetscBool               *tied;
+  PetscInt                 n;
+
+  PetscFunctionBegin;
+  if (!scene->nrules) PetscFunctionReturn(0);
+  PetscCall(ModelCreate(comm, scene, &model));
+  PetscCall(DetectFacing(&model, scene, &n, &found));
+  PetscCheck(n || scene->npairs || scene->nties, comm, PETSC_ERR_USER_INPUT,
+    "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the distance, which the key "
+    "distance sets",
+    scene->name);
+  PetscCall(PetscMalloc3(n, &rules, n, &pairs, n, &tied));
+  for (PetscInt i = 0; i < n; ++i) /* before the scene has pairs that were found */
+    rules[i] = DetectFindRule(&model, scene, found[i].surface[0], found[i].surface[1]);
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscCall(RuleApply(&model, scene, rules[i], &found[i], &pairs[i], &tied[i]));
+    PetscCall(RuleJoin(scene, rules[i], pairs[i].mortar, pairs[i].nonmortar, pairs[i].name, tied[i], pairs[i].why,
+      found[i].apart));
+    PetscCall(PetscFree(pairs[i].name));
+  }
+  PetscCall(PetscFree3(rules, pairs, tied));
+  PetscCall(PetscFree(found));
+  PetscCall(ModelDestroy(&model));
+  PetscCall(RulesDestroy(scene));
+  PetscFunctionReturn(0);
+}

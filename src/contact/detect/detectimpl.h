@@ -1,0 +1,61 @@
+/*
+   Detection: pairs of surfaces that face each other, from the facets of refinement level 0.
+*/
+#ifndef DETECTIMPL_H
+#define DETECTIMPL_H
+
+#include "src/contact/search/searchimpl.h"
+
+/* moves.c: rigid motions of the bodies that the scene prescribes, in one state of the load program */
+typedef struct {
+  PetscBool moves;
+  PetscReal shift[3], rotation[3], center[3]; /* [length], [radians], [length] */
+} DetectMove;
+PETSC_INTERN PetscErrorCode DetectMoves(Scene, PetscReal time, DetectMove moves[]);
+PETSC_INTERN void           DetectMovePoints(const DetectMove *, PetscInt n, const PetscReal from[], PetscReal to[]);
+
+/* The facets, and sizes of surfaces and bodies; the same on all ranks */
+typedef struct {
+  MPI_Comm     comm;
+  MeshSurfaces surfaces;
+  PetscReal   *area;      /* of each surface [length^2] */
+  PetscInt    *nfacets;   /* of each surface */
+  PetscReal   *thickness; /* of each body: 2 volume / area [length] */
+  PetscReal   *box;       /* [6 bodies] undeformed */
+  PetscReal   *fine;      /* of each body: area of the parts of its facets over theirs, 1/4 where it has order 2 */
+} DetectModel;
+
+/* rules.c: the rule for two surfaces; NULL: they get no contact. detect.c has the public function */
+PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
+
+/* rays.c: the facets in one state, with a tree; calls `hit` for each facet of another body that a ray from a facet
+   along its normal meets: those behind it up to depth, and the first one in front, up to reach */
+typedef struct {
+  PetscInt  from, to; /* facets */
+  PetscReal distance; /* negative: the bodies overlap [length] */
+} DetectHit;
+typedef struct {
+  const DetectModel *model;
+  ContactCandidates  facets;
+  ContactTree        tree;
+} DetectState;
+PETSC_INTERN PetscErrorCode DetectStateCreate(const DetectModel *, const DetectMove[], DetectState *);
+PETSC_INTERN PetscErrorCode DetectStateDestroy(DetectState *);
+#define DETECT_RAYS 5  /* of a facet */
+#define DETECT_HITS 16 /* of a ray, at most */
+PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt ray, PetscReal reach,
+  DetectHit hits[DETECT_HITS]);
+
+/* facing.c: two surfaces that face each other. Number 0 is the surface with the smaller number */
+typedef struct {
+  PetscInt  surface[2];
+  PetscReal apart;    /* smallest distance in the undeformed state; PETSC_MAX_REAL: they meet later [length] */
+  PetscReal facet[2]; /* mean area of the facets that face the other surface; 0: none */
+  PetscInt  tied[2];  /* facets all of whose rays meet the other surface within the rule's distance for ties */
+} DetectPair;
+PETSC_INTERN PetscErrorCode DetectFacing(const DetectModel *, Scene, PetscInt *n, DetectPair **);
+
+/* sides.c: which of two surfaces is nonmortar, and why */
+PETSC_INTERN PetscInt DetectNonmortar(const DetectModel *, Scene, const DetectPair *, const char **why);
+
+#endif

@@ -1,0 +1,300 @@
+/* Pairs of surfaces that face each other in some state of the load program */
+#include "detectimpl.h"
+#include <stdlib.h>
+
+#define FACING_STATES   32   /* at most */
+#define FACING_FRACTION 0.25 /* default distance, relative to the square root of the smaller surface's area */
+
+/* What the facets of two surfaces found; reals only, so that records can be sent as they are */
+typedef struct {
+  PetscReal surface[2], apart, area[2], count[2], tied[2];
+} FacingRecord;
+#define FACING_REALS ((PetscMPIInt)(sizeof(FacingRecord) / sizeof(PetscReal)))
+
+typedef struct {
+  PetscInt      n, max;
+  FacingRecord *record;
+} FacingList;
+
+static int FacingCompare(const void *a, const void *b)
+{
+  const FacingRecord *x = (const FacingRecord *)a, *y = (const FacingRecord *)b;
+
+  for (int i = 0; i < 2; ++i) {
+    if (x->surface[i] != y->surface[i]) return x->surface[i] < y->surface[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+/* Sorts the records and adds up those of the same surfaces */
+static void FacingMerge(FacingList *list)
+{
+  PetscInt n = 0;
+
+  if (list->n) qsort(list->record, (size_t)list->n, sizeof(*list->record), FacingCompare);
+  for (PetscInt i = 0; i < list->n; ++i) {
+    const FacingRecord *from = &list->record[i];
+    FacingRecord       *to   = n ? &list->record[n - 1] : NULL;
+
+    if (!to || FacingCompare(from, to)) {
+      list->record[n++] = *from;
+      continue;
+    }
+    to->apart = PetscMin(to->apart, from->apart);
+    for (PetscInt side = 0; side < 2; ++side) {
+      to->area[side] += from->area[side];
+      to->count[side] += from->count[side];
+      to->tied[side] += from->tied[side];
+    }
+  }
+  list->n = n;
+}
+
+static PetscErrorCode FacingAppend(const FacingRecord *record, FacingList *list)
+{
+  PetscFunctionBegin;
+  if (list->n == list->max) {
+    FacingMerge(list);
+    if (2 * list->n >= list->max) list->max = 2 * list->max + 1024;
+    PetscCall(PetscRealloc(sizeof(*list->record) * list->max, &list->record));
+  }
+  list->record[list->n++] = *record;
+  PetscFunctionReturn(0);
+}
+
+/* Limits of a search [length] */
+typedef struct {
+  Scene            scene;
+  PetscReal        extent, reach; /* largest prescribed motion; reach of all rays */
+  const PetscBool *prescribed;    /* bodies all of whose displacement components are prescribed somewhere */
+} FacingLimits;
+
+static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limits, const SceneContactPair *rule,
+  PetscInt i, PetscInt j)
+{
+  const PetscInt *body = model->surfaces.body;
+  const PetscReal own  = FACING_FRACTION * PetscSqrtReal(PetscMin(model->area[i], model->area[j]));
+
+  return (rule->distance > 0.0 ? rule->distance : own) +
+         (limits->prescribed[body[i]] && limits->prescribed[body[j]] ? 0.0 : limits->extent);
+}
+
+/* Shoots from one facet, and adds a record for each surface that it faces */
+static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLimits *limits, PetscInt f,
+  PetscBool start, FacingList *list)
+{
+  const DetectModel  *model = state->model;
+  const MeshSurfaces *s     = &model->surfaces;
+  const PetscInt      mine  = s->surface[f];
+  FacingRecord        found[DETECT_RAYS * DETECT_HITS];
+  PetscInt            n = 0;
+  PetscReal           mass[4];
+
+  PetscFunctionBegin;
+  for (PetscInt ray = 0; ray < DETECT_RAYS; ++ray) {
+    DetectHit      hits[DETECT_HITS];
+    const PetscInt nhits = DetectShoot(state, f, ray, limits->reach, hits);
+
+    for (PetscInt h = 0; h < nhits; ++h) {
+      const PetscInt          its = s->surface[hits[h].to], side = mine < its ? 0 : 1;
+      const SceneContactPair *rule = DetectFindRule(model, limits->scene, mine, its);
+      PetscInt                k;
+
+      if (!rule || hits[h].distance > FacingReach(model, limits, rule, mine, its)) continue;
+      for (k = 0; k < n && found[k].surface[1 - side] != (PetscReal)its;) ++k;
+      if (k == n) {
+        found[n]                   = (FacingRecord){.apart = PETSC_MAX_REAL};
+        found[n].surface[side]     = (PetscReal)mine;
+        found[n].surface[1 - side] = (PetscReal)its;
+        found[n].area[side]        = model->fine[s->body[mine]] * ContactFacetMass(&s->x[12 * f], mass);
+        found[n++].count[side]     = 1.0;
+      }
+      if (start) found[k].apart = PetscMin(found[k].apart, hits[h].distance);
+      if (start && rule->tie > 0.0 && PetscAbsReal(hits[h].distance) <= rule->tie) found[k].tied[side] += 1.0;
+    }
+  }
+  for (PetscInt k = 0; k < n; ++k) {
+    for (PetscInt side = 0; side < 2; ++side) found[k].tied[side] = found[k].tied[side] >= DETECT_RAYS ? 1.0 : 0.0;
+    PetscCall(FacingAppend(&found[k], list));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Boxes of the bodies in this state, widened */
+static void FacingBoxes(const DetectState *state, PetscInt nbodies, PetscReal margin, PetscReal box[])
+{
+  const MeshSurfaces *s = &state->model->surfaces;
+
+  for (PetscInt i = 0; i < 6 * nbodies; ++i) box[i] = i % 6 < 3 ? PETSC_MAX_REAL : PETSC_MIN_REAL;
+  for (PetscInt f = 0; f < s->n; ++f) {
+    PetscReal *of = &box[6 * s->body[s->surface[f]]];
+
+    for (PetscInt c = 0; c < 3; ++c) {
+      of[c]     = PetscMin(of[c], state->tree.box[6 * f + c] - margin);
+      of[3 + c] = PetscMax(of[3 + c], state->tree.box[6 * f + 3 + c] + margin);
+    }
+  }
+}
+
+/* Shoots from this rank's share of the facets; after the first state only where a body moves */
+static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *limits, const DetectMove moves[],
+  PetscBool start, FacingList *list)
+{
+  const MeshSurfaces *s       = &state->model->surfaces;
+  const PetscInt      nbodies = limits->scene->nbodies;
+  PetscReal          *box;
+  PetscMPIInt         rank, size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(state->model->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(state->model->comm, &size));
+  PetscCall(PetscMalloc1(6 * nbodies, &box));
+  FacingBoxes(state, nbodies, limits->reach, box);
+  for (PetscInt f = rank; f < s->n; f += size) {
+    const PetscInt body = s->body[s->surface[f]];
+    PetscBool      may  = (PetscBool)(start || moves[body].moves);
+
+    for (PetscInt b = 0; b < nbodies && !may; ++b)
+      may = (PetscBool)(moves[b].moves && ContactBoxesMeet(&state->tree.box[6 * f], &box[6 * b]));
+    if (may) PetscCall(FacingShootFacet(state, limits, f, start, list));
+  }
+  PetscCall(PetscFree(box));
+  PetscFunctionReturn(0);
+}
+
+/* Largest motion of a corner of the bodies' boxes over the program [length]; how many states are looked at */
+static PetscErrorCode FacingMeasureMoves(const DetectModel *model, Scene scene, PetscReal *extent, PetscInt *nstates)
+{
+  DetectMove *moves;
+  PetscReal   way = 0.0, size = PETSC_MAX_REAL;
+
+  PetscFunctionBegin;
+  *extent = 0.0;
+  PetscCall(PetscMalloc1(scene->nbodies, &moves));
+  for (PetscInt k = 1; k <= FACING_STATES; ++k) {
+    PetscReal most = 0.0;
+
+    PetscCall(DetectMoves(scene, (PetscReal)(k * scene->nsteps) / FACING_STATES, moves));
+    for (PetscInt b = 0; b < scene->nbodies; ++b) {
+      PetscReal diagonal[3];
+
+      for (PetscInt c = 0; c < 3; ++c) diagonal[c] = model->box[6 * b + 3 + c] - model->box[6 * b + c];
+      size = PetscMin(size, VectorNorm(diagonal));
+      for (PetscInt i = 0; i < 8 && moves[b].moves; ++i) {
+        PetscReal x[3], y[3];
+
+        for (PetscInt c = 0; c < 3; ++c) x[c] = model->box[6 * b + c + (i >> c & 1 ? 3 : 0)];
+        DetectMovePoints(&moves[b], 1, x, y);
+        for (PetscInt c = 0; c < 3; ++c) y[c] -= x[c];
+        most = PetscMax(most, VectorNorm(y));
+      }
+    }
+    *extent = PetscMax(*extent, most);
+    way += most / FACING_STATES;
+  }
+  PetscCall(PetscFree(moves));
+  *nstates = *extent > 0.0 ? PetscMax(2, PetscMin(FACING_STATES, 1 + (PetscInt)(16.0 * way / size))) : 0;
+  PetscFunctionReturn(0);
+}
+
+/* Bodies all of whose components are prescribed somewhere */
+static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    PetscBool all[3] = {PETSC_FALSE, PETSC_FALSE, PETSC_FALSE};
+    size_t    length;
+
+    PetscCall(PetscStrlen(scene->bodies[b].name, &length));
+    for (PetscInt i = 0; i < scene->ndisplacements; ++i) {
+      const SceneDisplacement *d    = &scene->displacements[i];
+      PetscBool                same = (PetscBool)(d->at != DISPLACEMENT_FACE && d->body == b);
+
+      if (d->at == DISPLACEMENT_FACE) {
+        PetscCall(PetscStrncmp(d->face, scene->bodies[b].name, length, &same));
+        same = (PetscBool)(same && d->face[length] == '.');
+      }
+      for (PetscInt c = 0; c < 3; ++c) all[c] = (PetscBool)(all[c] || (same && d->fixed[c]));
+    }
+    prescribed[b] = (PetscBool)(all[0] && all[1] && all[2]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Collects the records of all ranks on every rank */
+static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
+{
+  PetscMPIInt   size, mine, *count, *start;
+  FacingRecord *all;
+
+  PetscFunctionBegin;
+  FacingMerge(list);
+  mine = FACING_REALS * (PetscMPIInt)list->n;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
+  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
+  start[0] = 0;
+  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
+  PetscCall(PetscMalloc1(start[size] / FACING_REALS, &all));
+  PetscCallMPI(MPI_Allgatherv(list->record, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
+  PetscCall(PetscFree(list->record));
+  list->n      = start[size] / FACING_REALS;
+  list->record = all;
+  FacingMerge(list);
+  PetscCall(PetscFree2(count, start));
+  PetscFunctionReturn(0);
+}
+
+/* Reach of all rays: the largest distance of the rules, and the largest motion */
+static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, PetscReal extent)
+{
+  PetscReal reach = 0.0, largest = 0.0;
+
+  for (PetscInt i = 0; i < model->surfaces.nsurfaces; ++i) largest = PetscMax(largest, model->area[i]);
+  for (PetscInt r = 0; r < scene->nrules; ++r)
+    reach = PetscMax(reach,
+      scene->rules[r].distance > 0.0 ? scene->rules[r].distance : FACING_FRACTION * PetscSqrtReal(largest));
+  return reach + extent;
+}
+
+/* Collective. The pairs that the scene's rules let, sorted by their surfaces */
+PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, DetectPair **pairs)
+{
+  FacingLimits limits  = {.scene = scene};
+  FacingList   list    = {0, 0, NULL};
+  PetscInt     nstates = 0;
+  PetscBool   *prescribed;
+  DetectMove  *moves;
+
+  PetscFunctionBegin;
+  PetscCall(FacingMeasureMoves(model, scene, &limits.extent, &nstates));
+  PetscCall(PetscMalloc2(scene->nbodies, &moves, scene->nbodies, &prescribed));
+  PetscCall(FacingFindPrescribed(scene, prescribed));
+  limits.prescribed = prescribed;
+  limits.reach      = FacingLargestReach(model, scene, limits.extent);
+  for (PetscInt k = 0; k <= nstates; ++k) {
+    DetectState state;
+
+    if (k) PetscCall(DetectMoves(scene, (PetscReal)(k * scene->nsteps) / (PetscReal)nstates, moves));
+    else PetscCall(PetscArrayzero(moves, scene->nbodies));
+    PetscCall(DetectStateCreate(model, moves, &state));
+    PetscCall(FacingShoot(&state, &limits, moves, (PetscBool)!k, &list));
+    PetscCall(DetectStateDestroy(&state));
+  }
+  PetscCall(PetscFree2(moves, prescribed));
+  PetscCall(FacingGather(model->comm, &list));
+  *n = list.n;
+  PetscCall(PetscCalloc1(list.n, pairs));
+  for (PetscInt i = 0; i < list.n; ++i) {
+    (*pairs)[i].apart = list.record[i].apart;
+    for (PetscInt side = 0; side < 2; ++side) {
+      const PetscReal count = list.record[i].count[side];
+
+      (*pairs)[i].surface[side] = (PetscInt)list.record[i].surface[side];
+      (*pairs)[i].facet[side]   = count > 0.0 ? list.record[i].area[side] / count : 0.0;
+      (*pairs)[i].tied[side]    = (PetscInt)list.record[i].tied[side];
+    }
+  }
+  PetscCall(PetscFree(list.record));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,45 @@
+/* Which of two surfaces is nonmortar: the first of these rules that tells them apart */
+#include "detectimpl.h"
+
+#define SIDES_FINER  2.25 /* ratio of the facets' mean areas, 1.5 of their sizes */
+#define SIDES_SOFTER 2.0  /* ratio of Young's moduli */
+#define SIDES_LARGER 1.25 /* ratio of the surfaces' areas */
+
+/* Mean area of the facets that face the other surface, as fine as the displacements are */
+static PetscReal SidesFacet(const DetectModel *model, const DetectPair *pair, PetscInt side)
+{
+  const PetscInt s = pair->surface[side];
+
+  if (pair->facet[side] > 0.0) return pair->facet[side];
+  return model->fine[model->surfaces.body[s]] * model->area[s] / (PetscReal)model->nfacets[s];
+}
+
+/* The side with the smaller value, PETSC_DECIDE if they differ by less than the ratio */
+static PetscInt SidesSmaller(PetscReal first, PetscReal second, PetscReal ratio)
+{
+  if (first * ratio <= second) return 0;
+  return second * ratio <= first ? 1 : PETSC_DECIDE;
+}
+
+PetscInt DetectNonmortar(const DetectModel *model, Scene scene, const DetectPair *pair, const char **why)
+{
+  const SceneBody *body[2];
+  PetscInt         side;
+
+  for (side = 0; side < 2; ++side) body[side] = &scene->bodies[model->surfaces.body[pair->surface[side]]];
+  *why = "the other body is rigid";
+  for (side = 0; side < 2; ++side) {
+    if (body[1 - side]->material.type == MATERIAL_RIGID) return side;
+  }
+  *why = "its facets are finer";
+  side = SidesSmaller(SidesFacet(model, pair, 0), SidesFacet(model, pair, 1), SIDES_FINER);
+  if (side >= 0) return side;
+  *why = "it is the smaller surface";
+  side = SidesSmaller(model->area[pair->surface[0]], model->area[pair->surface[1]], SIDES_LARGER);
+  if (side >= 0) return side;
+  *why = "its body is softer";
+  side = SidesSmaller(body[0]->material.young, body[1]->material.young, SIDES_SOFTER);
+  if (side >= 0) return side;
+  *why = "its body is listed later";
+  return 1;
+}
