@@ -1,7 +1,9 @@
 """Runs the notebook of share/python cell by cell, and the package's calls (python_package.sh)"""
 import json
 import os
+import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 
 import h5py
 import numpy as np
@@ -35,6 +37,29 @@ def calls():
     print("two ranks: the same energy:", np.allclose(two.history["energy"], run.history["energy"], rtol=1e-8))
 
 
+def vtk():
+    """Read back by VTK: times, places, fields, cells"""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+    run = contact.load("here")
+    path = run.write_vtk("written.pvd")
+    sets = ElementTree.parse(path).getroot().findall("./Collection/DataSet")
+    print("times:", [float(item.get("timestep")) for item in sets] == list(run.history["time"]))
+    for step, item in zip(run.steps, sets):
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(item.get("file"))
+        reader.Update()
+        grid = reader.GetOutput()
+        data, cells = grid.GetPointData(), grid.GetCellData()
+        print("step", step, "cells and points:", grid.GetNumberOfCells() == len(run.cells), np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), run.points))
+        print("fields:", np.array_equal(vtk_to_numpy(data.GetArray("displacement")), run.displacement(step)), np.array_equal(vtk_to_numpy(cells.GetArray("von_mises")), run.field("von_mises", step)),
+              np.array_equal(vtk_to_numpy(cells.GetArray("stress"))[:, [0, 1, 3]].T, [run.field("stress_" + name, step) for name in ("xx", "yy", "xy")]))
+    done = subprocess.run([sys.executable, "-B", os.path.join(FOLDER, "contact_mesh.py"), "here.xmf", "again.pvd"])
+    with open("again_0002.vtu") as one, open("written_0002.vtu") as other:
+        print("contact-mesh writes the same:", done.returncode == 0 and one.read() == other.read())
+
+
 def refused():
     run = contact.load("here")
     for call in (
@@ -45,6 +70,7 @@ def refused():
         lambda: run.field("heat"),
         lambda: run.field("von_mises", step=7),
         lambda: run.plot("heat"),
+        lambda: run.write_vtk("here.vtk"),
     ):
         try:
             print("accepted:", call())
@@ -54,4 +80,5 @@ def refused():
 
 notebook()
 calls()
+vtk()
 refused()

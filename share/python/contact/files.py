@@ -33,9 +33,13 @@ class Files:
         self.bodies = [notes[f"body {b}"] for b in range(len(notes)) if f"body {b}" in notes]
         self.units = notes.get("units", "")
         folder = os.path.dirname(base)
-        items = root.iterfind(".//Attribute[@Name='displacement']/DataItem")
-        files = [os.path.join(folder, item.text.strip().rsplit(":", 1)[0]) for item in items]
-        self.files = {int(re.search(r"_(\d+)\.h5$", file).group(1)): file for file in files if os.path.exists(file)}
+        self.files, self.times = {}, {}
+        for grid in root.iterfind(".//Grid/Grid"):
+            item = grid.find("./Attribute[@Name='displacement']/DataItem")
+            file = os.path.join(folder, item.text.strip().rsplit(":", 1)[0])
+            step = int(re.search(r"_(\d+)\.h5$", file).group(1))
+            if os.path.exists(file):
+                self.files[step], self.times[step] = file, float(grid.find("./Time").get("Value"))
         if not self.files:
             raise ContactError(f"{base}.xmf lists no load step whose file exists")
         with h5py.File(base + ".h5", "r") as mesh:

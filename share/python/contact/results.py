@@ -8,10 +8,10 @@ import sys
 
 import numpy as np
 
+from . import vtu
 from .files import ContactError, Files
 
 FIELDS = {"pressure": "contact_pressure", "gap": "contact_gap", "status": "contact_status", "slip": "contact_slip"}
-VTK_CELLS = {4: 10, 10: 24, 8: 12}  # VTK's type of a cell by its number of nodes
 
 
 def read_table(path):
@@ -124,13 +124,17 @@ class Run:
 
         step = self.files.step(step)
         cells = np.concatenate([[len(cell), *cell] for cell in self.cells])
-        grid = pyvista.UnstructuredGrid(cells, np.array([VTK_CELLS[len(cell)] for cell in self.cells], np.uint8), self.points)
+        grid = pyvista.UnstructuredGrid(cells, np.array([vtu.VTK_CELLS[len(cell)] for cell in self.cells], np.uint8), self.points)
         with h5py.File(self.files.files[step], "r") as file:
             for name, values in file.items():
                 if len(values) in (grid.n_points, grid.n_cells):
                     (grid.point_data if len(values) == grid.n_points else grid.cell_data)[name] = values[:]
         grid.cell_data["body"] = self.files.body
         return grid
+
+    def write_vtk(self, path=None):
+        """Writes the fields of all load steps as .vtu files and a .pvd, whose name it returns"""
+        return vtu.write(self.files, os.fspath(path or self.base + ".pvd"))
 
     def plot(self, field, picture=None, step=None, **options):
         """Draws a field on the deformed bodies and returns the picture's file: options are those of share/plot/draw.py, only="slab" """

@@ -1,9 +1,12 @@
-"""contact-mesh IN OUT turns a mesh into a Gmsh file; contact-mesh IN -check says what is in it."""
+"""contact-mesh IN OUT turns a mesh into a Gmsh file, or results BASE.xmf into files of VTK, OUT.pvd; contact-mesh IN -check says what is
+in a mesh."""
 import argparse
 import os
 import sys
 
 import numpy as np
+
+from contact import ContactError, load
 
 from . import formats
 from .model import FACETS, KINDS, MeshError
@@ -38,6 +41,14 @@ def check(mesh):
         raise MeshError("a coordinate is not a number")
 
 
+def write_results(source, target):
+    """Results of a run as files of VTK"""
+    try:
+        load(source).write_vtk(target)
+    except (ContactError, OSError) as error:
+        sys.exit(f"contact-mesh: error: {error}")
+
+
 def main():
     parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__, epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
     parser.add_argument("input")
@@ -50,6 +61,9 @@ def main():
         parser.error("an output file, or -check")
     if not np.isfinite(given.scale) or given.scale <= 0:
         sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
+    if given.input.endswith(".xmf") and given.output:
+        write_results(given.input, given.output)
+        return
     if given.output and os.path.splitext(given.output)[1].lower() not in formats.WRITTEN:
         sys.exit(f"contact-mesh: error: {given.output}: its ending is none of {', '.join(formats.WRITTEN)}")
     try:
