@@ -1,7 +1,7 @@
 /*
    Inertia. In a time step the energy of the bodies has the term
 
-     c/2 (u - centre)^T M (u - centre) + rest^T u
+     c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u
 
    whose gradient is the force that mass and damping take; every file builds on those before it.
 */
@@ -16,6 +16,7 @@ typedef struct {
   Vec       auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
   Vec       inert;                  /* 1 in rows with mass that move freely, else 0 */
   Vec       rest;    /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
+  Vec       turn;    /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
   PetscReal inertia; /* c of the time step under way [1/time^2] */
   Vec       centre;  /* of this step [length] */
   PetscReal kinetic; /* energy at time 0 [force length] */
@@ -49,5 +50,8 @@ PETSC_INTERN PetscErrorCode SchemeBegin(const SceneDynamics *, PetscReal dt, Vec
 PETSC_INTERN PetscErrorCode SchemePredict(const Dynamics *, PetscReal dt, Vec u, Vec predicted);
 PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
+
+/* turn.c */
+PETSC_INTERN PetscErrorCode TurnSetForce(const Constraints *, Vec before, Vec u, Vec load, Dynamics *);
 
 #endif

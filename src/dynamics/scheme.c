@@ -68,14 +68,18 @@ PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dyna
 /* Adds the term of this step at u; force may be NULL */
 PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
-  PetscScalar work = 0.0;
+  const Vec constant[2] = {d->rest, d->turn};
 
   PetscFunctionBegin;
   if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
-  if (!d->rest) PetscFunctionReturn(0);
-  PetscCall(VecDot(d->rest, u, &work));
-  *energy += PetscRealPart(work);
-  if (force) PetscCall(VecAXPY(force, 1.0, d->rest));
+  for (int k = 0; k < 2; ++k) {
+    PetscScalar work;
+
+    if (!constant[k]) continue;
+    PetscCall(VecDot(constant[k], u, &work));
+    *energy += PetscRealPart(work);
+    if (force) PetscCall(VecAXPY(force, 1.0, constant[k]));
+  }
   PetscFunctionReturn(0);
 }
 

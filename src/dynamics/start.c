@@ -165,5 +165,6 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->inert));
   PetscCall(VecDestroy(&d->centre));
   PetscCall(VecDestroy(&d->rest));
+  PetscCall(VecDestroy(&d->turn));
   PetscFunctionReturn(0);
 }

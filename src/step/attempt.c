@@ -63,20 +63,33 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscFunctionReturn(0);
 }
 
+/* What may be left of the linearization of rotations: relative to displacements, and rounding of the places. In time
+   steps it decides about energy and angular momentum (turn.c) */
+static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowed)
+{
+  const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->tolerances.optimizer, 1e-12);
+  PetscReal       size, extent;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+  *allowed = PetscMax(part * size, 32.0 * PETSC_MACHINE_EPSILON * extent);
+  PetscFunctionReturn(0);
+}
+
 /* Without contact. Rigid bodies that turn freely are linearized again until their rotation is finite */
 static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
 {
-  const PetscInt most = 50;
-  PetscReal      size;
-  PetscBool      again = PETSC_FALSE;
+  const PetscInt most    = 50;
+  PetscReal      allowed = 0.0;
+  PetscBool      again   = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; !k || again; ++k) {
     if (k || foreseen) PetscCall(StepProblemTurn(p, u));
     PetscCall(AttemptSolve(p, (PetscBool)(foreseen || k), u, report, sol));
-    PetscCall(VecNorm(u, NORM_INFINITY, &size));
-    again = (PetscBool)(report->converged &&
-                        report->straightened > PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12) * size);
+    PetscCall(AttemptGetAllowed(p->sim, u, &allowed));
+    again = (PetscBool)(report->converged && report->straightened > allowed);
     if (k < most || !again) continue;
     PetscCall(
       ReportReason(report, PETSC_FALSE, "rigid bodies that turn freely come to no rest: use smaller load steps"));

@@ -15,6 +15,7 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   PetscCall(VecDestroy(&p->load));
   PetscCall(DeadLoadsGet(&sim->loads, p->time, &p->load));
   PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
+  PetscCall(TurnSetForce(&constraints, sim->path.u, u, p->load, &sim->dynamics));
   PetscFunctionReturn(0);
 }
 

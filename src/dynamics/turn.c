@@ -1,0 +1,157 @@
+/*
+   Rigid bodies that turn freely, in the impact scheme. The solver balances moments with the arms x' of the end of a
+   step, so that the forces that keep the body rigid do work: energy is lost to first order. With the arms of the mean
+   of both ends they do none, for x' - x is normal to them, and energy and angular momentum stay. Nodal forces with the
+   difference of both moments, and no resultant, are added; they are those of the last iterate.
+*/
+#include "dynamicsimpl.h"
+
+/* Of a body: where its centre of rotation was and is; the moment that is missing, sum w r r^T of the arms r about the
+   mean of its places, and from these w x r is the force by weight */
+typedef struct {
+  PetscBool turns;
+  PetscReal before[3], after[3], moment[3], arms[6], w[3];
+} TurnBody;
+
+static void TurnCross(const PetscReal a[3], const PetscReal b[3], PetscReal product[3])
+{
+  for (int k = 0; k < 3; ++k) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* Bodies that turn, and where their centres were */
+static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodies[])
+{
+  for (PetscInt r = 0; r < c->rigid->n; ++r) {
+    const RigidBody *rigid = &c->rigid->bodies[r];
+    const BodyPose  *pose  = &poses[rigid->body];
+    TurnBody        *body  = &bodies[rigid->body];
+
+    body->turns = rigid->turns;
+    for (int i = 0; i < 3; ++i) {
+      body->after[i]  = rigid->place[i];
+      body->before[i] = pose->from[i];
+      for (int j = 0; j < 3; ++j) body->before[i] += pose->Q[j][i] * (rigid->place[j] - pose->to[j]);
+    }
+  }
+}
+
+/* The rows of each node: places before and after, and its part of a vector */
+static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal before[3], PetscReal after[3],
+  PetscReal f[3])
+{
+  for (int k = 0; k < 3; ++k) {
+    before[k] = PetscRealPart(arrays[0][i + k] + arrays[1][i + k]);
+    after[k]  = PetscRealPart(arrays[0][i + k] + arrays[2][i + k]);
+    f[k]      = PetscRealPart(arrays[3][i + k]);
+  }
+}
+
+/* Adds -1/2 (way of each node beside that of the centre) x force, and the arms */
+static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force, const BodyPose poses[],
+  TurnBody bodies[])
+{
+  static const int   row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  Vec                vectors[4] = {c->bodies.places.x, before, u, force};
+  const PetscScalar *arrays[4], *m;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(u, &n));
+  for (int k = 0; k < 4; ++k) PetscCall(VecGetArrayRead(vectors[k], &arrays[k]));
+  PetscCall(VecGetArrayRead(c->bodies.mass, &m));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscInt b    = c->bodies.places.body[i / 3];
+    TurnBody      *body = &bodies[b];
+    PetscReal      x[3], y[3], f[3], moment[3];
+
+    if (!body->turns) continue;
+    TurnGetNode(arrays, i, x, y, f);
+    for (int k = 0; k < 3; ++k) x[k] = (y[k] - body->after[k]) - (x[k] - body->before[k]);
+    TurnCross(x, f, moment);
+    for (int k = 0; k < 3; ++k) body->moment[k] -= 0.5 * moment[k];
+    for (int k = 0; k < 6; ++k)
+      body->arms[k] +=
+        PetscRealPart(m[i]) * (y[row[k]] - poses[b].to[row[k]]) * (y[column[k]] - poses[b].to[column[k]]);
+  }
+  PetscCall(VecRestoreArrayRead(c->bodies.mass, &m));
+  for (int k = 0; k < 4; ++k) PetscCall(VecRestoreArrayRead(vectors[k], &arrays[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Solves (tr(S) I - S) w = moment, S = sum w r r^T, by Cramer's rule */
+static void TurnSolve(TurnBody *body)
+{
+  const PetscReal *s       = body->arms;
+  const PetscReal  J[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[0] + s[2], -s[4]}, {-s[5], -s[4], s[0] + s[1]}};
+  PetscReal        cofactor[3][3], det = 0.0;
+
+  for (int k = 0; k < 3; ++k) TurnCross(J[(k + 1) % 3], J[(k + 2) % 3], cofactor[k]);
+  for (int k = 0; k < 3; ++k) det += J[0][k] * cofactor[0][k];
+  for (int i = 0; i < 3; ++i) {
+    body->w[i] = 0.0;
+    for (int k = 0; k < 3; ++k) body->w[i] += cofactor[k][i] * body->moment[k] / det;
+  }
+}
+
+static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose poses[], const TurnBody bodies[], Vec turn)
+{
+  const PetscScalar *x, *a, *m;
+  PetscScalar       *f;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
+  PetscCall(VecGetArrayRead(c->bodies.mass, &m));
+  PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArray(turn, &f));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscInt b = c->bodies.places.body[i / 3];
+    PetscReal      arm[3], force[3];
+
+    for (int k = 0; k < 3; ++k) arm[k] = PetscRealPart(x[i + k] + a[i + k]) - poses[b].to[k];
+    TurnCross(bodies[b].w, arm, force);
+    for (int k = 0; k < 3; ++k) f[i + k] = PetscRealPart(m[i]) * force[k];
+  }
+  PetscCall(VecRestoreArray(turn, &f));
+  PetscCall(VecRestoreArrayRead(u, &a));
+  PetscCall(VecRestoreArrayRead(c->bodies.mass, &m));
+  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
+  PetscFunctionReturn(0);
+}
+
+/* The forces of a step from a displacement to u, where its rigid bodies are; load: dead ones at its end, NULL: none */
+PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Dynamics *d)
+{
+  const PetscInt nbodies = c->bodies.scene->nbodies;
+  PetscReal      energy  = 0.0, *sums;
+  BodyPose      *poses;
+  TurnBody      *bodies;
+  Vec            force;
+
+  PetscFunctionBegin;
+  if (!d->rest || !c->rigid->turns) PetscFunctionReturn(0);
+  PetscCall(VecDestroy(&d->turn));
+  PetscCall(PetscMalloc2(nbodies, &poses, 9 * nbodies, &sums));
+  PetscCall(PetscCalloc1(nbodies, &bodies));
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(VecZeroEntries(force));
+  PetscCall(SchemeAddForce(d, u, &energy, force));
+  if (load) PetscCall(VecAXPY(force, -1.0, load));
+  PetscCall(PosesFind(&c->bodies, before, u, poses));
+  TurnFind(c, poses, bodies);
+  PetscCall(TurnSum(c, before, u, force, poses, bodies));
+  for (PetscInt i = 0; i < 9 * nbodies; ++i)
+    sums[i] = i % 9 < 3 ? bodies[i / 9].moment[i % 9] : bodies[i / 9].arms[i % 9 - 3];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(9 * nbodies), MPIU_REAL, MPIU_SUM, c->bodies.comm));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    for (int k = 0; k < 3; ++k) bodies[b].moment[k] = sums[9 * b + k];
+    for (int k = 0; k < 6; ++k) bodies[b].arms[k] = sums[9 * b + 3 + k];
+    if (bodies[b].turns) TurnSolve(&bodies[b]);
+  }
+  PetscCall(TurnSpread(c, u, poses, bodies, force));
+  d->turn = force;
+  PetscCall(PetscFree(bodies));
+  PetscCall(PetscFree2(poses, sums));
+  PetscFunctionReturn(0);
+}
