@@ -1,7 +1,7 @@
 /*
    Inertia. In a time step the energy of the bodies has the term
 
-     c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u
+     c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u + viscosity E(u - viscous)
 
    whose gradient is the force that mass and damping take; every file builds on those before it.
 */
@@ -19,8 +19,12 @@ typedef struct {
   Vec       turn;    /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
   PetscReal inertia; /* c of the time step under way [1/time^2] */
   Vec       centre;  /* of this step [length] */
-  PetscReal kinetic; /* energy at time 0 [force length] */
-  PetscReal damped;  /* work that damping has taken up [force length] */
+  PetscReal
+      viscosity; /* part of the elastic energy of u - viscous that damping by stiffness adds to this step; 0: none */
+  Vec viscous;   /* NULL: none [length] */
+  Elasticity elasticity; /* borrowed */
+  PetscReal  kinetic;    /* energy at time 0 [force length] */
+  PetscReal  damped;     /* work that damping has taken up [force length] */
 } Dynamics;
 
 static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
@@ -49,6 +53,7 @@ PETSC_INTERN PetscErrorCode DynamicsDestroy(Dynamics *);
 PETSC_INTERN PetscErrorCode SchemeBegin(const SceneDynamics *, PetscReal dt, Vec u, Dynamics *);
 PETSC_INTERN PetscErrorCode SchemePredict(const Dynamics *, PetscReal dt, Vec u, Vec predicted);
 PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode SchemeGetDamping(const SceneDynamics *, const Dynamics *, Vec velocity, Vec force);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
 
 /* turn.c */

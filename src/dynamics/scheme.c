@@ -5,7 +5,8 @@
      M w' + dE/du(u') = f' + contact,   (1 - am) a' + am a = (1 - af) w' + af w,
      u' = u + dt v + dt^2 ((1/2 - beta) a + beta a'),   v' = v + dt ((1 - gamma) a + gamma a').
 
-   So M w' = c M (u' - centre). Damping in proportion to mass adds to c and moves the centre.
+   So M w' = c M (u' - centre). Damping in proportion to mass adds to c and moves the centre; that in proportion to the
+   stiffness K adds K (u' - viscous), for v' = gamma/(beta dt) (u' - viscous).
 
    Impact (Kane, Repetto, Ortiz and Marsden 1999): the trapezoidal rule of all forces but those of contact, which are
    those at the end of the step. Their work is never positive where a gap is linear.
@@ -47,6 +48,20 @@ PetscErrorCode SchemePredict(const Dynamics *d, PetscReal dt, Vec u, Vec predict
   PetscFunctionReturn(0);
 }
 
+/* Where v' is zero; to that of damping by stiffness */
+static PetscErrorCode SchemeSetViscous(const SceneDynamics *scene, SchemeNumbers s, PetscReal dt, Vec u, Dynamics *d)
+{
+  const PetscReal way = s.beta * dt / s.gamma;
+
+  PetscFunctionBegin;
+  if (!d->viscous) PetscFunctionReturn(0);
+  d->viscosity = scene->damping_stiffness / way;
+  PetscCall(SchemeContinue(dt, 0.5 - s.beta, u, d->velocity, d->auxiliary, d->viscous));
+  PetscCall(VecAXPY(d->viscous, -way, d->velocity));
+  PetscCall(VecAXPY(d->viscous, -way * dt * (1.0 - s.gamma), d->auxiliary));
+  PetscFunctionReturn(0);
+}
+
 /* Sets c and the centre */
 PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dynamics *d)
 {
@@ -57,11 +72,32 @@ PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dyna
 
   PetscFunctionBegin;
   d->inertia = inert + damped;
+  PetscCall(SchemeSetViscous(scene, s, dt, u, d));
   PetscCall(SchemeContinue(dt, 0.5 - s.beta, u, d->velocity, d->auxiliary, d->centre));
   PetscCall(VecAXPY(d->centre, inert / d->inertia * back * s.af, d->acceleration));
   PetscCall(VecAXPY(d->centre, -inert / d->inertia * back * s.am, d->auxiliary));
   PetscCall(VecAXPY(d->centre, -damped / d->inertia * factor, d->velocity));
   PetscCall(VecAXPY(d->centre, -damped / d->inertia * factor * dt * (1.0 - s.gamma), d->auxiliary));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
+{
+  PetscReal stored;
+  Vec       way, product;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecWAXPY(way, -1.0, d->viscous, u));
+  PetscCall(ElasticityEnergy(d->elasticity, way, &stored));
+  *energy += d->viscosity * stored;
+  if (force) {
+    PetscCall(VecDuplicate(u, &product));
+    PetscCall(ElasticityForce(d->elasticity, way, product));
+    PetscCall(VecAXPY(force, d->viscosity, product));
+    PetscCall(VecDestroy(&product));
+  }
+  PetscCall(VecDestroy(&way));
   PetscFunctionReturn(0);
 }
 
@@ -72,6 +108,7 @@ PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec f
 
   PetscFunctionBegin;
   if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
+  if (d->viscous) PetscCall(SchemeAddViscous(d, u, energy, force));
   for (int k = 0; k < 2; ++k) {
     PetscScalar work;
 
@@ -107,6 +144,22 @@ static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Ve
   PetscFunctionReturn(0);
 }
 
+/* (damping_mass M + damping_stiffness K) velocity */
+PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, Vec velocity, Vec force)
+{
+  Vec elastic;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(d->mass, velocity, force));
+  PetscCall(VecScale(force, scene->damping_mass));
+  if (!d->viscous) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(force, &elastic));
+  PetscCall(ElasticityForce(d->elasticity, velocity, elastic));
+  PetscCall(VecAXPY(force, scene->damping_stiffness, elastic));
+  PetscCall(VecDestroy(&elastic));
+  PetscFunctionReturn(0);
+}
+
 /* Work that damping takes up on the way to u, by the trapezoidal rule; v: velocity there */
 static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, Vec u, Vec v, Dynamics *d)
 {
@@ -114,14 +167,14 @@ static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, V
   Vec         increment, force;
 
   PetscFunctionBegin;
-  if (scene->damping_mass == 0.0) PetscFunctionReturn(0);
+  if (scene->damping_mass == 0.0 && !d->viscous) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(VecWAXPY(increment, 1.0, d->velocity, v));
-  PetscCall(MatMult(d->mass, increment, force));
+  PetscCall(SchemeGetDamping(scene, d, increment, force));
   PetscCall(VecWAXPY(increment, -1.0, before, u));
   PetscCall(VecDot(force, increment, &product));
-  d->damped += 0.5 * scene->damping_mass * PetscRealPart(product);
+  d->damped += 0.5 * PetscRealPart(product);
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&increment));
   PetscFunctionReturn(0);

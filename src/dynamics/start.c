@@ -61,7 +61,7 @@ static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat 
   PetscFunctionReturn(0);
 }
 
-/* M a = f - dE/du at time 0; no acceleration where there is no mass */
+/* M a = f - dE/du - damping at time 0; no acceleration where there is no mass */
 static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   PetscReal size;
@@ -76,6 +76,8 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
   PetscCall(VecDuplicate(d->velocity, &force));
   PetscCall(VecZeroEntries(zero));
   PetscCall(ElasticityForce(c->bodies.elasticity, zero, force));
+  PetscCall(SchemeGetDamping(&c->bodies.scene->dynamics, d, d->velocity, zero));
+  PetscCall(VecAXPY(force, 1.0, zero));
   PetscCall(VecScale(force, -1.0));
   PetscCall(DeadLoadsGet(loads, 0.0, &load));
   if (load) PetscCall(VecAXPY(force, 1.0, load));
@@ -110,8 +112,7 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
 /* Internal, damping and dead forces at u, which is the state, at a time in load steps */
 PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, PetscReal time, Vec u, Dynamics *d)
 {
-  const PetscReal damping = c->bodies.scene->dynamics.damping_mass;
-  Vec             add;
+  Vec add;
 
   PetscFunctionBegin;
   if (!d->rest) PetscFunctionReturn(0);
@@ -120,8 +121,8 @@ PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, Pet
   if (add) PetscCall(VecAXPY(d->rest, -1.0, add));
   PetscCall(VecDestroy(&add));
   PetscCall(VecDuplicate(u, &add));
-  PetscCall(MatMult(d->mass, d->velocity, add));
-  PetscCall(VecAXPY(d->rest, damping, add));
+  PetscCall(SchemeGetDamping(&c->bodies.scene->dynamics, d, d->velocity, add));
+  PetscCall(VecAXPY(d->rest, 1.0, add));
   PetscCall(VecDestroy(&add));
   PetscFunctionReturn(0);
 }
@@ -141,6 +142,8 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dyna
   PetscCall(VecDuplicate(c->bodies.mass, &d->acceleration));
   PetscCall(VecDuplicate(c->bodies.mass, &d->auxiliary));
   PetscCall(VecDuplicate(c->bodies.mass, &d->centre));
+  d->elasticity = c->bodies.elasticity;
+  if (scene->damping_stiffness > 0.0) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
   if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->rest));
   PetscCall(StartVelocity(c, d));
   PetscCall(StartAcceleration(c, loads, d));
@@ -149,7 +152,7 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dyna
   PetscCall(VecZeroEntries(u));
   PetscCall(MassMeasure(c, d, u, &d->kinetic, momentum, spin));
   PetscCall(SchemeBegin(scene, scene->time_step, u, d));
-  PetscCall(ElasticitySetInertia(c->bodies.elasticity, d->inertia, 0.0, &changed));
+  PetscCall(ElasticitySetInertia(c->bodies.elasticity, d->inertia, d->viscosity, &changed));
   PetscCall(DynamicsSetRest(c, loads, 0.0, u, d));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
@@ -164,6 +167,7 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->auxiliary));
   PetscCall(VecDestroy(&d->inert));
   PetscCall(VecDestroy(&d->centre));
+  PetscCall(VecDestroy(&d->viscous));
   PetscCall(VecDestroy(&d->rest));
   PetscCall(VecDestroy(&d->turn));
   PetscFunctionReturn(0);

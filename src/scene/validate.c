@@ -137,6 +137,28 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
+/* Damping by stiffness multiplies a stiffness that stays */
+static PetscErrorCode SceneValidateDamping(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscFunctionBegin;
+  if (scene->dynamics.damping_stiffness == 0.0) PetscFunctionReturn(0);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const MaterialLaw *law;
+
+    PetscCall(MaterialGetLaw(&scene->bodies[b].material, &law));
+    SceneRequire(law->constant || scene->bodies[b].material.type == MATERIAL_RIGID,
+      "%s: dynamics has damping_stiffness = %g, and body \"%s\" is of law %s: it is for laws linear and orthotropic; "
+      "take damping_mass",
+      file, (double)scene->dynamics.damping_stiffness, scene->bodies[b].name,
+      MaterialTypes[scene->bodies[b].material.type]);
+  }
+  SceneRequire(!scene->nsprings && scene->weak_springs == 0.0 && !scene->ntemperatures,
+    "%s: dynamics has damping_stiffness = %g, which does not go with springs, weak_springs or temperatures: take "
+    "damping_mass",
+    file, (double)scene->dynamics.damping_stiffness);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -182,6 +204,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateSprings(comm, file, scene));
   PetscCall(SceneValidateTemperatures(comm, file, scene));
+  PetscCall(SceneValidateDamping(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));
   PetscCall(SceneValidateRules(comm, file, scene));
   for (PetscInt r = 0; r < scene->nrules; ++r) PetscCall(SceneValidatePairEffects(comm, file, scene, &scene->rules[r]));

@@ -13,7 +13,7 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
 
   PetscFunctionBegin;
   PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim, time), sim->path.u, d));
-  PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, 0.0, changed));
+  PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, d->viscosity, changed));
   PetscFunctionReturn(0);
 }
 

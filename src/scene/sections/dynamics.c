@@ -26,6 +26,8 @@ static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
     "dynamics_spectral_radius is %g, which must lie between 0 and 1", (double)d->spectral_radius);
   DynamicsRequire(d->damping_mass >= 0.0, keys, "dynamics_damping_mass",
     "dynamics_damping_mass is %g, which must not be negative", (double)d->damping_mass);
+  DynamicsRequire(d->damping_stiffness >= 0.0, keys, "dynamics_damping_stiffness",
+    "dynamics_damping_stiffness is %g, which must not be negative", (double)d->damping_stiffness);
   PetscFunctionReturn(0);
 }
 

@@ -257,6 +257,8 @@ static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynami
     "cells have; `lumped`; `consistent`"),
   REALS("damping_mass", NULL, 1, SceneDynamics, damping_mass, OPTIONAL, ANY, "1/T", "0",
     "Rayleigh damping: forces of this times mass times velocity"),
+  REALS("damping_stiffness", NULL, 1, SceneDynamics, damping_stiffness, OPTIONAL, ANY, "T", "0",
+    "Rayleigh damping: forces of this times stiffness times velocity, of bodies of linear laws"),
   {NULL}};
 
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
