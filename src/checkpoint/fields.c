@@ -11,24 +11,8 @@ const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
   [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
 };
 
-/*@C
-   CheckpointNamePairField - Gets the name of a field of a contact pair in a checkpoint
-
-   Not Collective
-
-   Input Parameters:
-+  pair   - the pair
-.  kind   - one of CheckpointPairFields
--  length - of the name
-
-   Output Parameters:
-+  name - of the field
--  kept - whether checkpoints contain this field for this pair
-
-   Level: developer
-
-.seealso: `CheckpointAddField()`
-@*/
+/* Gets the name of a field of a contact pair in a checkpoint. kind: one of CheckpointPairFields; length: of the name;
+   name: of the field; kept: whether checkpoints contain this field for this pair. */
 PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length,
   char name[], PetscBool *kept)
 {
@@ -40,24 +24,9 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
   PetscFunctionReturn(0);
 }
 
-/*@C
-   CheckpointAddField - Adds a field to a checkpoint, with zeros at the vertices that this rank owns
-
-   Not Collective
-
-   Input Parameters:
-+  checkpoint - the checkpoint
-.  name       - of the field
-.  components - values per vertex
--  nvertices  - vertices of this rank, or other records
-
-   Output Parameter:
-.  values - array of the field's values, to be filled by the caller; owned by the checkpoint
-
-   Level: developer
-
-.seealso: `CheckpointGetField()`
-@*/
+/* Adds a field to a checkpoint, with zeros at the vertices that this rank owns. name: of the field; components: values
+   per vertex; nvertices: vertices of this rank, or other records; values: array of the field's values, to be filled by
+   the caller; owned by the checkpoint. */
 PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], PetscInt components, PetscInt nvertices,
   PetscReal **values)
 {
@@ -85,22 +54,8 @@ PetscErrorCode CheckpointFindField(Checkpoint checkpoint, const char name[], con
   PetscFunctionReturn(0);
 }
 
-/*@C
-   CheckpointGetField - Gets the values of a field of a checkpoint
-
-   Not Collective
-
-   Input Parameters:
-+  checkpoint - the checkpoint
--  name       - name of the field; a missing field is an error
-
-   Output Parameter:
-.  values - borrowed
-
-   Level: developer
-
-.seealso: `CheckpointAddField()`
-@*/
+/* Gets the values of a field of a checkpoint. name: name of the field; a missing field is an error; values: borrowed.
+   */
 PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], const PetscReal **values)
 {
   const CheckpointField *found;
@@ -111,22 +66,8 @@ PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/*@C
-   CheckpointCheck - Checks that the numbers of a checkpoint are consistent and finite
-
-   Not Collective
-
-   Input Parameters:
-+  comm       - where the error is raised; every rank has the same numbers
--  checkpoint - the checkpoint
-
-   Level: developer
-
-   Note:
-   Error: PETSC_ERR_FILE_UNEXPECTED.
-
-.seealso: `CheckpointRead()`, `SimulationSetCheckpoint()`
-@*/
+/* Checks that the numbers of a checkpoint are consistent and finite. comm: where the error is raised; every rank has
+   the same numbers. Error: PETSC_ERR_FILE_UNEXPECTED. */
 PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
 {
   const struct {

@@ -332,23 +332,9 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
   PetscFunctionReturn(0);
 }
 
-/*@
-   ContactSetDual - Sets whether all mortar pairs use dual shape functions, as pairs with gap GAP_DUAL do
-
-   Logically Collective
-
-   Input Parameters:
-+  contact - the contact
--  dual    - true: all mortar pairs; false: only pairs with gap GAP_DUAL
-
-   Level: developer
-
-   Note:
-   With dual shape functions the resultant of the contact forces can act at the edges of faces. This is used for the
-   test whether any contact forces balance a load.
-
-.seealso: `ContactSetReach()`, `ContactLinearize()`
-@*/
+/* Collective. Sets whether all mortar pairs use dual shape functions, as pairs with gap GAP_DUAL do. dual: true: all
+   mortar pairs; false: only pairs with gap GAP_DUAL. With dual shape functions the resultant of the contact forces can
+   act at the edges of faces. This is used for the test whether any contact forces balance a load. */
 PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
 {
   PetscFunctionBegin;

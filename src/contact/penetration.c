@@ -56,29 +56,13 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
   PetscFunctionReturn(0);
 }
 
-/*@
-  ContactGetPenetration - Computes how deep the vertices of each pair's faces penetrate the other face
-
-  Collective
-
-  Input Parameters:
-+ contact - the contact
-- u       - global displacement vector, 3 components per vertex [length]
-
-  Output Parameters:
-+ depth    - largest penetration of a vertex of either face, one value per pair [length]; 0: no penetration
-- rounding - uncertainty of the depth, one value per pair: a tenth of the distance between smooth surfaces and facets
-             [length]; 0: plane faces
-
-  Level: developer
-
-  Notes:
-  The gap of a mortar pair is a mean, weighted by the shape function of a nonmortar vertex. Here the depth of each
-  single vertex of both sides is measured along the normal of the other face; smooth pairs use the smooth surfaces. A
-  vertex that does not project onto the other face has no depth.
-
-.seealso: `ContactLinearize()`
-@*/
+/* Collective. Computes how deep the vertices of each pair's faces penetrate the other face. u: global displacement
+   vector, 3 components per vertex [length]; depth: largest penetration of a vertex of either face, one value per pair
+   [length]; 0: no penetration; rounding: uncertainty of the depth, one value per pair: a tenth of the distance between
+   smooth surfaces and facets [length]; 0: plane faces. The gap of a mortar pair is a mean, weighted by the shape
+   function of a nonmortar vertex. Here the depth of each single vertex of both sides is measured along the normal of
+   the other face; smooth pairs use the smooth surfaces. A vertex that does not project onto the other face has no
+   depth. */
 PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], PetscReal rounding[])
 {
   PetscFunctionBegin;

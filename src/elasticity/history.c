@@ -17,22 +17,9 @@ PetscErrorCode ElasticitySetUpHistory(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityCommit - Stores the plastic strains at a displacement as the start of the next load step
-
-  Collective
-
-  Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per node; a state of equilibrium [length]
-
-  Level: developer
-
-  Notes:
-  Energy, force and stress at u do not change. If no law has a history, nothing is done.
-
-.seealso: `ElasticityEnergy()`, `ElasticityPlasticWork()`
-@*/
+/* Collective. Stores the plastic strains at a displacement as the start of the next load step. u: displacement, global,
+   3 components per node; a state of equilibrium [length]. Energy, force and stress at u do not change. If no law has a
+   history, nothing is done. */
 PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
 {
   Vec                local;
@@ -57,21 +44,7 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityHasYielded - Gets whether any quadrature point has a plastic strain
-
-  Collective
-
-  Input Parameter:
-. elasticity - the context
-
-  Output Parameter:
-. yielded - the same on every rank
-
-  Level: developer
-
-.seealso: `ElasticityCommit()`
-@*/
+/* Collective. Gets whether any quadrature point has a plastic strain. yielded: the same on every rank. */
 PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
 {
   PetscFunctionBegin;
@@ -109,7 +82,7 @@ static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[],
 
   Level: intermediate
 
-.seealso: `ElasticityCommit()`, `ElasticityEnergy()`
+.seealso: `ElasticityEnergy()`
 @*/
 PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal largest[])
 {
@@ -160,27 +133,11 @@ static void HistoryMeasureStep(CellState *cell, PetscReal *stored, PetscReal *wo
   }
 }
 
-/*@
-  ElasticityPlasticFlow - Computes the plastic work of a step in bodies whose hardening comes to an end
-
-  Collective
-
-  Input Parameters:
-+ elasticity - the context
-- u          - displacement that the step tries, global, 3 components a node [length]
-
-  Output Parameters:
-+ stored - elastic energy of all bodies at u; 0 if no body is of that kind [force length]
-. work   - plastic work since the last state of equilibrium, of bodies of that kind [force length]
-- body   - the one of them with the largest part of it
-
-  Level: developer
-
-  Note:
-  Only such bodies have a collapse load. Linear hardening carries any load.
-
-.seealso: `ElasticityCommit()`, `ElasticityPlasticWork()`
-@*/
+/* Collective. Computes the plastic work of a step in bodies whose hardening comes to an end. u: displacement that the
+   step tries, global, 3 components a node [length]; stored: elastic energy of all bodies at u; 0 if no body is of that
+   kind [force length]; work: plastic work since the last state of equilibrium, of bodies of that kind [force length];
+   body: the one of them with the largest part of it. Only such bodies have a collapse load. Linear hardening carries
+   any load. */
 PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, PetscReal *work, PetscInt *body)
 {
   Vec                local;
@@ -230,7 +187,7 @@ PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, Pet
 
   Level: intermediate
 
-.seealso: `ElasticityCommit()`, `ElasticityPlasticWork()`
+.seealso: `ElasticityPlasticWork()`
 @*/
 PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
 {
@@ -257,24 +214,9 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
   PetscFunctionReturn(0);
 }
 
-/*@C
-  ElasticityGetHistory - Gets the points of laws with a history, for checkpoints
-
-  Collective
-
-  Input Parameter:
-. elasticity - the context
-
-  Output Parameters:
-+ npoints - number of such points of this rank
-. places  - 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with `PetscFree()`.
-            `NULL` on every rank if no law has a history
-- history - MATERIAL_HISTORY values per point, borrowed: they may be written
-
-  Level: developer
-
-.seealso: `ElasticityCommit()`
-@*/
+/* Collective. Gets the points of laws with a history, for checkpoints. npoints: number of such points of this rank;
+   places: 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with PetscFree(). NULL on every
+   rank if no law has a history; history: MATERIAL_HISTORY values per point, borrowed: they may be written. */
 PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *places[], PetscReal *history[])
 {
   Vec                local;

@@ -53,22 +53,8 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
   PetscFunctionReturn(0);
 }
 
-/*@C
-  ElasticitySetMatType - Sets the type of tangents to be created
-
-  Logically Collective
-
-  Input Parameters:
-+ e    - the elasticity
-- type - MATBAIJ, MATAIJ or MATSBAIJ
-
-  Options Database Key:
-. -elasticity_mat_type <baij> - the type, whatever the program sets
-
-  Level: developer
-
-.seealso: `ElasticityCreateTangent()`
-@*/
+/* Collective. Sets the type of tangents to be created. type: MATBAIJ, MATAIJ or MATSBAIJ. Options Database Key: .
+   -elasticity_mat_type <baij> - the type, whatever the program sets */
 PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
 {
   PetscFunctionBegin;

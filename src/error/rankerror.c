@@ -18,28 +18,15 @@ static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *functio
   return n;
 }
 
-/*@
-   RankErrorBegin - Begins work that is not collective, whose failure on one rank must be reported on all ranks
+/* Begins work that is not collective, whose failure on one rank must be reported on all ranks. error: keeps PETSc's
+   errors until RankErrorEnd(); nothing is printed. The ranks that have no such work call RankErrorEnd() at once, with
+   code 0.
 
-   Not Collective
-
-   Output Parameter:
-.  error - keeps PETSc's errors until `RankErrorEnd()`; nothing is printed
-
-   Level: developer
-
-   Notes:
-   The ranks that have no such work call `RankErrorEnd()` at once, with code 0.
-
-.vb
      PetscCall(RankErrorBegin(&error));
      if (rank == 0) ierr = ReadFile(file);
      PetscCall(RankErrorEnd(comm, ierr, &error));
      PetscCheck(!error.code, comm, error.code, "%s", error.message);
-.ve
-
-.seealso: `RankErrorEnd()`
-@*/
+*/
 PetscErrorCode RankErrorBegin(RankError *error)
 {
   PetscFunctionBegin;
@@ -49,22 +36,9 @@ PetscErrorCode RankErrorBegin(RankError *error)
   PetscFunctionReturn(0);
 }
 
-/*@
-   RankErrorEnd - Ends work that is not collective, and tells every rank whether it failed on any
-
-   Collective
-
-   Input Parameters:
-+  comm  - communicator
--  code  - what the work returned on this rank; 0 for success, or where there was none
-
-   Output Parameter:
-.  error - code and message of the first rank that failed, the same on all ranks; code 0 if none did
-
-   Level: developer
-
-.seealso: `RankErrorBegin()`
-@*/
+/* Collective. Ends work that is not collective, and tells every rank whether it failed on any. comm: communicator;
+   code: what the work returned on this rank; 0 for success, or where there was none; error: code and message of the
+   first rank that failed, the same on all ranks; code 0 if none did. */
 PetscErrorCode RankErrorEnd(MPI_Comm comm, PetscErrorCode code, RankError *error)
 {
   PetscMPIInt rank, size, first;

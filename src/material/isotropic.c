@@ -21,8 +21,6 @@ const MaterialConstant MaterialConstantsSmall[]  = {MATERIAL_YOUNG, MATERIAL_POI
 
   Notes:
   It is an error unless E > 0 and -1 < nu < 1/2, both finite.
-
-.seealso: `MaterialGetLaw()`
 @*/
 PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, PetscReal *mu)
 {

@@ -252,23 +252,9 @@ static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char
   return PETSC_TRUE;
 }
 
-/*@C
-  MaterialCheckHardening - Checks that hardening constants are valid
-
-  Not Collective
-
-  Input Parameters:
-+ hardening - the constants; with a table, yield is its first stress
-- length    - of why
-
-  Output Parameters:
-+ key - of the constant that is wrong, as scenes call it
-- why - what is wrong with it, a part of a sentence that follows the key
-
-  Level: developer
-
-.seealso: `MaterialGetModuli()`
-@*/
+/* Checks that hardening constants are valid. hardening: the constants; with a table, yield is its first stress; length:
+   of why; key: of the constant that is wrong, as scenes call it; why: what is wrong with it, a part of a sentence that
+   follows the key. */
 PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, char why[], size_t length)
 {
   const struct {

@@ -7,22 +7,8 @@ const char *const MaterialTypes[] = {MATERIAL_LAWS(MATERIAL_NAME) "MaterialType"
 #define MATERIAL_ENTRY(name, law, text) &MaterialLaw##law,
 static const MaterialLaw *const laws[] = {MATERIAL_LAWS(MATERIAL_ENTRY)};
 
-/*@
-  MaterialGetModuli - Gets the moduli of a material's law
-
-  Not Collective
-
-  Input Parameter:
-. material - the material
-
-  Output Parameters:
-+ moduli    - the moduli [force/length^2]
-- isochoric - moduli of the law without its volumetric energy kappa/2 theta^2; `NULL` if not wanted [force/length^2]
-
-  Level: developer
-
-.seealso: `MaterialGetLaw()`, `MaterialGetLame()`
-@*/
+/* Gets the moduli of a material's law. moduli: the moduli [force/length^2]; isochoric: moduli of the law without its
+   volumetric energy kappa/2 theta^2; NULL if not wanted [force/length^2]. */
 PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *moduli, MaterialModuli *isochoric)
 {
   const MaterialLaw *law;
@@ -40,19 +26,8 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
   PetscFunctionReturn(0);
 }
 
-/*@
-  MaterialSetScale - Sets an equivalent Young's modulus of a material whose law has other constants, as a measure of its
-  stiffness
-
-  Not Collective
-
-  Input Parameter:
-. material - the material; unchanged if its law has a Young's modulus
-
-  Level: developer
-
-.seealso: `MaterialGetModuli()`
-@*/
+/* Sets an equivalent Young's modulus of a material whose law has other constants, as a measure of its stiffness.
+   material: the material; unchanged if its law has a Young's modulus. */
 PetscErrorCode MaterialSetScale(Material *material)
 {
   const MaterialLaw *law;
@@ -63,21 +38,8 @@ PetscErrorCode MaterialSetScale(Material *material)
   PetscFunctionReturn(0);
 }
 
-/*@
-  MaterialGetExpansion - Gets the linear thermal expansion of a material along the axes of space
-
-  Not Collective
-
-  Input Parameter:
-. material - the material
-
-  Output Parameter:
-. A - the tensor of expansion, symmetric: strain over temperature [1/temperature]
-
-  Level: developer
-
-.seealso: `ElasticitySetTemperature()`
-@*/
+/* Gets the linear thermal expansion of a material along the axes of space. A: the tensor of expansion, symmetric:
+   strain over temperature [1/temperature]. */
 PetscErrorCode MaterialGetExpansion(const Material *material, PetscReal A[9])
 {
   PetscReal R[3][3];
@@ -104,21 +66,8 @@ PetscBool MaterialYields(const Material *material)
   return (PetscBool)(laws[material->type]->advance != NULL);
 }
 
-/*@
-  MaterialGetLaw - Gets the functions that evaluate a material's energy density, stress and tangent at a point
-
-  Not Collective
-
-  Input Parameter:
-. material - the material
-
-  Output Parameter:
-. law - the law, owned by the library
-
-  Level: developer
-
-.seealso: `MaterialGetLame()`
-@*/
+/* Gets the functions that evaluate a material's energy density, stress and tangent at a point. law: the law, owned by
+   the library. */
 PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
 {
   PetscFunctionBegin;

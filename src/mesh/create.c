@@ -243,7 +243,7 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
   that hang between coarser and finer cells are nodes as others are: `MeshGetHanging()` tells whose mean they are, and
   they lie there, also where the body is curved.
 
-.seealso: `MeshCreate()`, `MeshMarksAdd()`, `MeshGetHanging()`, `MeshCheckScene()`
+.seealso: `MeshCreate()`, `MeshCheckScene()`
 @*/
 PetscErrorCode MeshCreateScene(MPI_Comm comm, Scene scene, const MeshMarks *marks, DM *dm)
 {

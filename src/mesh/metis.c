@@ -163,7 +163,7 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
 . * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci.
       Comput. 20 (1998)
 
-.seealso: `MeshRegisterPartitioner()`, `PetscPartitionerSetType()`
+.seealso: `PetscPartitionerSetType()`
 M*/
 static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
 {
@@ -173,19 +173,8 @@ static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshRegisterPartitioner - Registers the PetscPartitioner type "metis"
-
-  Not Collective
-
-  Level: developer
-
-  Notes:
-  `MeshCreate()` calls it; a program that distributes its own DMPlex calls it before `-petscpartitioner_type metis` is
-  read.
-
-.seealso: `MeshCreate()`, `PetscPartitionerRegister()`
-@*/
+/* Registers the PetscPartitioner type "metis". MeshCreate() calls it; a program that distributes its own DMPlex calls
+   it before -petscpartitioner_type metis is read. */
 PetscErrorCode MeshRegisterPartitioner(void)
 {
   PetscFunctionBegin;

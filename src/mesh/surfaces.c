@@ -108,27 +108,11 @@ static PetscErrorCode SurfacesBroadcast(MPI_Comm comm, PetscInt nbodies, SceneBo
   PetscFunctionReturn(0);
 }
 
-/*@C
-  MeshSurfacesCreate - Gets the surfaces of all bodies at refinement level 0
-
-  Collective
-
-  Input Parameters:
-+ comm    - communicator
-. nbodies - number of bodies
-- bodies  - the bodies, the same on all ranks; those from files get faces "surface_1", "surface_2", ...
-
-  Output Parameter:
-. surfaces - the surfaces, the same on all ranks; to be freed with `MeshSurfacesDestroy()`
-
-  Level: developer
-
-  Notes:
-  The surfaces of a shape are its faces. The surfaces of a body from a file are the parts of its boundary between edges
-  at which facets make more than 35 degrees; a face of the file that is such a part gives its name.
-
-.seealso: `MeshCreate()`, `MeshGetFaceNames()`, `ContactDetect()`
-@*/
+/* Collective. Gets the surfaces of all bodies at refinement level 0. comm: communicator; nbodies: number of bodies;
+   bodies: the bodies, the same on all ranks; those from files get faces "surface_1", "surface_2", ...; surfaces: the
+   surfaces, the same on all ranks; to be freed with MeshSurfacesDestroy(). The surfaces of a shape are its faces. The
+   surfaces of a body from a file are the parts of its boundary between edges at which facets make more than 35 degrees;
+   a face of the file that is such a part gives its name. */
 PetscErrorCode MeshSurfacesCreate(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[], MeshSurfaces *surfaces)
 {
   MeshBody      *meshes;
@@ -151,18 +135,7 @@ PetscErrorCode MeshSurfacesCreate(MPI_Comm comm, PetscInt nbodies, SceneBody bod
   PetscFunctionReturn(0);
 }
 
-/*@C
-  MeshSurfacesDestroy - Frees the surfaces of all bodies
-
-  Not Collective
-
-  Input Parameter:
-. surfaces - the surfaces
-
-  Level: developer
-
-.seealso: `MeshSurfacesCreate()`
-@*/
+/* Frees the surfaces of all bodies */
 PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *surfaces)
 {
   PetscFunctionBegin;

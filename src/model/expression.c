@@ -137,22 +137,8 @@ PetscReal ExpressionEvaluate(Expression *e)
   return value;
 }
 
-/*@C
-   SceneEvaluatePlace - Evaluates an expression of the position
-
-   Not Collective
-
-   Input Parameters:
-+  expression - the expression in x, y, z, as a loaded scene holds it
--  x          - the place [length]
-
-   Output Parameter:
-.  value - its value, which may be not finite
-
-   Level: developer
-
-.seealso: `SceneLoad()`
-@*/
+/* Evaluates an expression of the position. expression: the expression in x, y, z, as a loaded scene holds it; x: the
+   place [length]; value: its value, which may be not finite. */
 PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
 {
   Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};

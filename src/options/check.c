@@ -123,7 +123,7 @@ PetscErrorCode OptionsCheckValues(MPI_Comm comm)
 
    Errors: PETSC_ERR_USER_INPUT, with the nearest known name.
 
-.seealso: `OptionsCheckValues()`, `OptionsNearest()`
+.seealso: `OptionsCheckValues()`
 @*/
 PetscErrorCode OptionsCheck(MPI_Comm comm)
 {

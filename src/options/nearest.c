@@ -1,22 +1,8 @@
 /* Finds the name that was meant by a misspelt one. */
 #include "optionsimpl.h"
 
-/*@C
-   OptionsDistance - Computes Levenshtein's distance of two names: the number of letters to insert, delete or replace
-
-   Not Collective
-
-   Input Parameters:
-+  a - a name
--  b - another
-
-   Output Parameter:
-.  distance - that of Levenshtein
-
-   Level: developer
-
-.seealso: `OptionsNearest()`
-@*/
+/* Computes Levenshtein's distance of two names: the number of letters to insert, delete or replace. b: another;
+   distance: that of Levenshtein. */
 PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
 {
   size_t na, nb, *row;
@@ -42,21 +28,8 @@ PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
   PetscFunctionReturn(0);
 }
 
-/*@C
-   OptionsNearest - Finds the known name with the smallest Levenshtein distance from another name
-
-   Not Collective
-
-   Input Parameters:
-+  n     - number of known names
-.  known - the names
--  name  - the other name
-
-   Output Parameter:
-.  nearest - one of the known names, "" if there are none
-
-   Level: developer
-@*/
+/* Finds the known name with the smallest Levenshtein distance from another name. n: number of known names; nearest: one
+   of the known names, "" if there are none. */
 PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[], const char **nearest)
 {
   size_t best = PETSC_MAX_OPTION_NAME, distance = 0;

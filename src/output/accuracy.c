@@ -17,7 +17,7 @@
    the change of the results since the coarser mesh, from which the error of the mesh is extrapolated. `beyond recovery`
    means that the change is larger than recovery explains; then the change is taken as the error.
 
-.seealso: `AccuracyAssess()`, `ReportView()`
+.seealso: `ReportView()`
 @*/
 PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
 {
@@ -73,7 +73,7 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
 
    Level: intermediate
 
-.seealso: `AccuracyAssess()`, `ReportViewAccuracy()`
+.seealso: `ReportViewAccuracy()`
 @*/
 PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscViewer viewer)
 {

@@ -6,19 +6,9 @@
   0.8 /* fraction of the squared error in the refined cells; after refinement about 0.4 of it
                            remains */
 
-/*@C
-   SimulationSetMarks - Makes a simulation record the error of every cell and refine the cells marked before
-
-   Collective
-
-   Input Parameters:
-+  sim   - the simulation, before SimulationSetUp()
--  marks - the marks, which must exist until the simulation is set up; initially empty
-
-   Level: developer
-
-.seealso: `SimulationPropose()`, `SimulationMark()`, `MeshMarksAdd()`
-@*/
+/* Collective. Makes a simulation record the error of every cell and refine the cells marked before. sim: the
+   simulation, before SimulationSetUp(); marks: the marks, which must exist until the simulation is set up; initially
+   empty. */
 PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
 {
   Scene scene = sim->scene;
@@ -73,26 +63,11 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/*@C
-   SimulationPropose - Chooses the cells to be refined in the next mesh
-
-   Collective
-
-   Input Parameter:
-.  sim - the simulation, with marks and after its load steps
-
-   Output Parameter:
-.  growth - approximate ratio of the next mesh's unknowns to the present ones
-
-   Level: developer
-
-   Notes:
-   Chooses the cells with the largest errors, which together have 0.8 of the squared recovery estimate over all load
-   steps. Because recovery does not include the errors of contact, cells on both sides of the contact area of the last
-   load step are added: on curved faces all of them, on plane faces those at the edge of contact.
-
-.seealso: `SimulationMark()`, `AccuracyAssess()`
-@*/
+/* Collective. Chooses the cells to be refined in the next mesh. sim: the simulation, with marks and after its load
+   steps; growth: approximate ratio of the next mesh's unknowns to the present ones. Chooses the cells with the largest
+   errors, which together have 0.8 of the squared recovery estimate over all load steps. Because recovery does not
+   include the errors of contact, cells on both sides of the contact area of the last load step are added: on curved
+   faces all of them, on plane faces those at the edge of contact. */
 PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 {
   PetscInt cstart, cend, counts[2] = {0, 0};
@@ -108,21 +83,8 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
   PetscFunctionReturn(0);
 }
 
-/*@C
-   SimulationMark - Marks the cells chosen by SimulationPropose()
-
-   Collective
-
-   Input Parameter:
-.  sim - the simulation, after SimulationPropose()
-
-   Output Parameter:
-.  marks - the marks of the present mesh; the marks for the next mesh are added
-
-   Level: developer
-
-.seealso: `SimulationSetMarks()`, `SimulationPropose()`
-@*/
+/* Collective. Marks the cells chosen by SimulationPropose(). sim: the simulation, after SimulationPropose(); marks: the
+   marks of the present mesh; the marks for the next mesh are added. */
 PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
 {
   PetscFunctionBegin;

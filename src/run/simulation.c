@@ -51,7 +51,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
    These options take precedence: `-tao_gatol` and `-tao_ipfilter_tol` for the optimizer, `-elasticity_ksp_rtol` for the
    linear solver, `-contact_update_tol` and `-contact_gap_tol` for the gap.
 
-.seealso: `SimulationGetTolerances()`, `AccuracyPlan()`
+.seealso: `SimulationGetTolerances()`
 @*/
 PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tolerances)
 {

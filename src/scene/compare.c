@@ -9,21 +9,7 @@
 static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model",
   "contact_updates", "displacement_bounds", "solver"};
 
-/*@C
-   SceneGetText - Gets the scene as text, as `SceneView()` prints it
-
-   Not Collective
-
-   Input Parameter:
-.  scene - the scene
-
-   Output Parameter:
-.  text - the text, to be freed with `PetscFree()`
-
-   Level: developer
-
-.seealso: `SceneView()`, `SceneCompare()`
-@*/
+/* Gets the scene as text, as SceneView() prints it. text: the text, to be freed with PetscFree(). */
 PetscErrorCode SceneGetText(Scene scene, char **text)
 {
   PetscViewer viewer;
@@ -77,26 +63,9 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
   return there ? lines->line + strspn(lines->line, " ") : "nothing";
 }
 
-/*@C
-   SceneCompare - Compares a scene with the text of another one from `SceneGetText()`
-
-   Not Collective
-
-   Input Parameters:
-+  scene  - the scene
-.  text   - the text
--  length - of difference
-
-   Output Parameter:
-.  difference - the first difference in words; "" where there is none
-
-   Level: developer
-
-   Note:
-   Load programs, refinement, probes, model and options are not compared.
-
-.seealso: `SceneGetText()`
-@*/
+/* Compares a scene with the text of another one from SceneGetText(). length: of difference; difference: the first
+   difference in words; "" where there is none. Load programs, refinement, probes, model and options are not compared.
+   */
 PetscErrorCode SceneCompare(Scene scene, const char text[], char difference[], size_t length)
 {
   SceneLines here = {.line = ""}, there = {.line = ""};

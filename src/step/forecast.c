@@ -5,28 +5,12 @@
 */
 #include "stepimpl.h"
 
-/*@C
-   SimulationSetForecast - Makes load steps start from their final states on another mesh, and records their final
-   states
-
-   Collective
-
-   Input Parameter:
-.  sim - the simulation, before SimulationSetUp()
-
-   Input/Output Parameter:
-.  forecast - on entry the states on the other mesh, or zeros; filled with the states on this mesh as load steps end. It
-              must exist until the simulation is destroyed
-
-   Level: developer
-
-   Notes:
-   It only sets the starting point: results agree with those without it to the tolerances of the solvers, and a step
-   that fails with it is repeated without it. It is not used if only one linearization of the gap is allowed (which must
-   be at the last state), or if displacements are bounded by the last increments.
-
-.seealso: `SimulationSetMarks()`, `StepForecastDestroy()`, `MeshEvaluate()`
-@*/
+/* Collective. Makes load steps start from their final states on another mesh, and records their final states. sim: the
+   simulation, before SimulationSetUp(); forecast: on entry the states on the other mesh, or zeros; filled with the
+   states on this mesh as load steps end. It must exist until the simulation is destroyed. It only sets the starting
+   point: results agree with those without it to the tolerances of the solvers, and a step that fails with it is
+   repeated without it. It is not used if only one linearization of the gap is allowed (which must be at the last
+   state), or if displacements are bounded by the last increments. */
 PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
 {
   PetscFunctionBegin;
@@ -34,18 +18,7 @@ PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
   PetscFunctionReturn(0);
 }
 
-/*@C
-   StepForecastDestroy - Frees a forecast
-
-   Collective
-
-   Input Parameter:
-.  forecast - the forecast, set to zeros
-
-   Level: developer
-
-.seealso: `SimulationSetForecast()`
-@*/
+/* Collective. Frees a forecast. forecast: the forecast, set to zeros. */
 PetscErrorCode StepForecastDestroy(StepForecast *forecast)
 {
   PetscFunctionBegin;

@@ -169,7 +169,7 @@ static PetscErrorCode RulesDestroy(Scene scene)
 
   It is an error if no surfaces face each other, and the scene lists no pairs either.
 
-.seealso: `SceneLoad()`, `ContactCreate()`, `MeshSurfacesCreate()`
+.seealso: `SceneLoad()`, `ContactCreate()`
 @*/
 PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
 {

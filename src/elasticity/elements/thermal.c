@@ -123,7 +123,7 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
   Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
   small strain, which alone expand, does not depend on it.
 
-.seealso: `ElasticityFitTemperature()`, `MaterialGetExpansion()`
+.seealso: `ElasticityFitTemperature()`
 @*/
 PetscErrorCode ElasticitySetTemperature(Elasticity e, const PetscReal fits[])
 {
@@ -137,21 +137,7 @@ PetscErrorCode ElasticitySetTemperature(Elasticity e, const PetscReal fits[])
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityGetCellCount - Gets the number of cells of this rank
-
-  Not Collective
-
-  Input Parameter:
-. elasticity - the context
-
-  Output Parameter:
-. ncells - the number
-
-  Level: developer
-
-.seealso: `ElasticityFitTemperature()`
-@*/
+/* Gets the number of cells of this rank */
 PetscErrorCode ElasticityGetCellCount(Elasticity e, PetscInt *ncells)
 {
   PetscFunctionBegin;

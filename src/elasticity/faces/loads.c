@@ -209,28 +209,10 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityAddFacetAreas - Adds the nodal area vectors of a face: the integral of each node's shape function times the
-  normal
-
-  Collective
-
-  Input Parameters:
-+ elasticity - the context
-- face       - name of the face, "<body>.<face>"
-
-  Output Parameter:
-. areas - global vector; of every node the integral of its bilinear shape function times the reference normal is added
-          to it [length^2]
-
-  Level: developer
-
-  Notes:
-  Facets of order 2 are cut into four at their nodes, as contact does: areas are positive, where the integrals of
-  quadratic shape functions are loads.
-
-.seealso: `ElasticityAddPressure()`, `MeshGetFacetPieces()`
-@*/
+/* Collective. Adds the nodal area vectors of a face: the integral of each node's shape function times the normal. face:
+   name of the face, "<body>.<face>"; areas: global vector; of every node the integral of its bilinear shape function
+   times the reference normal is added to it [length^2]. Facets of order 2 are cut into four at their nodes, as contact
+   does: areas are positive, where the integrals of quadratic shape functions are loads. */
 PetscErrorCode ElasticityAddFacetAreas(Elasticity e, const char face[], Vec areas)
 {
   PetscFunctionBegin;

@@ -2,22 +2,8 @@
 #include "queryimpl.h"
 #include <petscsf.h>
 
-/*@
-  MeshMarkBoundary - Marks the facets of this rank that bound a body
-
-  Collective
-
-  Input Parameter:
-. dm - the mesh
-
-  Output Parameter:
-. boundary - of each facet, in the order of its points: one cell here, no copy on another rank, and no finer or
-             coarser cell beyond it
-
-  Level: developer
-
-.seealso: `MeshGetFacets()`, `MeshGetHanging()`
-@*/
+/* Collective. Marks the facets of this rank that bound a body. boundary: of each facet, in the order of its points: one
+   cell here, no copy on another rank, and no finer or coarser cell beyond it. */
 PetscErrorCode MeshMarkBoundary(DM dm, PetscBool boundary[])
 {
   PetscSF         sf;

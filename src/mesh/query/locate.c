@@ -219,23 +219,9 @@ struct _n_MeshLocator {
   MeshPlace      *places;
 };
 
-/*@
-  MeshLocatorCreate - Prepares to find the cells that points are in
-
-  Not Collective
-
-  Input Parameters:
-+ n      - number of points
-. points - the points; borrowed until the locator is destroyed [length]
-- body   - the body in which each is looked for, `PETSC_DECIDE`: any; borrowed too
-
-  Output Parameter:
-. locator - the locator; no cell is known to it
-
-  Level: developer
-
-.seealso: `MeshLocatorAddCell()`, `MeshLocatorGetPlaces()`, `MeshLocatorDestroy()`, `MeshLocate()`
-@*/
+/* Prepares to find the cells that points are in. n: number of points; points: the points; borrowed until the locator is
+   destroyed [length]; body: the body in which each is looked for, PETSC_DECIDE: any; borrowed too; locator: the
+   locator; no cell is known to it. */
 PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *locator)
 {
   PetscFunctionBegin;
@@ -263,26 +249,10 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   if (place.distance < nearest->distance + rounding) *nearest = place;
 }
 
-/*@
-  MeshLocatorAddCell - Looks which points are in a cell, or beside it
-
-  Not Collective
-
-  Input Parameters:
-+ locator - the locator
-. cell    - a number for the cell
-. body    - its body
-. n       - its nodes: 8 or 27 of a hexahedron, 4 or 10 of a tetrahedron
-- X       - where they are, in the order of `MeshGetCellNodes()` [length]
-
-  Level: developer
-
-  Notes:
-  A point has its place in the nearest cell; among equals in that of the first body, and there in the one that was added
-  first. Cells farther away than a quarter of their size are not looked at.
-
-.seealso: `MeshLocatorCreate()`, `MeshLocatorGetPlaces()`
-@*/
+/* Looks which points are in a cell, or beside it. cell: a number for the cell; body: its body; n: its nodes: 8 or 27 of
+   a hexahedron, 4 or 10 of a tetrahedron; X: where they are, in the order of MeshGetCellNodes() [length]. A point has
+   its place in the nearest cell; among equals in that of the first body, and there in the one that was added first.
+   Cells farther away than a quarter of their size are not looked at. */
 PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3])
 {
   const LocateBins *bins = &locator->bins;
@@ -312,21 +282,8 @@ PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt b
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshLocatorGetPlaces - Gets the places that points have in the cells so far
-
-  Not Collective
-
-  Input Parameter:
-. locator - the locator
-
-  Output Parameter:
-. places - one a point, borrowed; its cell is negative where none is near
-
-  Level: developer
-
-.seealso: `MeshLocatorAddCell()`
-@*/
+/* Gets the places that points have in the cells so far. places: one a point, borrowed; its cell is negative where none
+   is near. */
 PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **places)
 {
   PetscFunctionBegin;
@@ -334,15 +291,7 @@ PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **place
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshLocatorDestroy - Frees a locator
-
-  Not Collective
-
-  Level: developer
-
-.seealso: `MeshLocatorCreate()`
-@*/
+/* Frees a locator */
 PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
 {
   PetscFunctionBegin;
@@ -384,28 +333,12 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshLocate - Finds the cells that points of the undeformed bodies are in
-
-  Collective
-
-  Input Parameters:
-+ dm     - the mesh, from `MeshCreate()`
-. n      - number of points, the same on every rank
-. points - the points, the same on every rank [length]
-- body   - the body in which each is looked for; `PETSC_DECIDE`: any
-
-  Output Parameter:
-. places - one a point. Its cell is a local `DMPLEX` point on one rank and negative on the others; its distance, that of
-           the point from the cell, is the same on every rank, and `PETSC_MAX_REAL` where no cell is near
-
-  Level: developer
-
-  Notes:
-  A point on a curved surface may lie outside the facets: it gets the nearest position in a neighbouring cell.
-
-.seealso: `MeshCreate()`, `MeshGetCellVertices()`
-@*/
+/* Collective. Finds the cells that points of the undeformed bodies are in. dm: the mesh, from MeshCreate(); n: number
+   of points, the same on every rank; points: the points, the same on every rank [length]; body: the body in which each
+   is looked for; PETSC_DECIDE: any; places: one a point. Its cell is a local DMPLEX point on one rank and negative on
+   the others; its distance, that of the point from the cell, is the same on every rank, and PETSC_MAX_REAL where no
+   cell is near. A point on a curved surface may lie outside the facets: it gets the nearest position in a neighbouring
+   cell. */
 PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
 {
   MeshLocator        locator;

@@ -125,25 +125,11 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetCellNodes - Gets the points of a cell that carry a displacement, of hexahedra in tensor order
-
-  Not Collective
-
-  Input Parameters:
-+ dm   - the mesh
-- cell - the cell, a local DMPlex point
-
-  Output Parameters:
-+ n     - their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10
-- nodes - local DMPlex points, `MESH_MAX_NODES` at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the
-          reference cube; of order 2 vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a
-          tetrahedron the vertices, then the edges 01, 12, 02, 03, 13 and 23
-
-  Level: developer
-
-.seealso: `MeshGetCellVertices()`, `MeshGetFacetNodes()`, `MeshGetNodeCoordinates()`
-@*/
+/* Gets the points of a cell that carry a displacement, of hexahedra in tensor order. cell: the cell, a local DMPlex
+   point; n: their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10; nodes: local DMPlex points,
+   MESH_MAX_NODES at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the reference cube; of order 2
+   vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the vertices, then the
+   edges 01, 12, 02, 03, 13 and 23. */
 PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES])
 {
   PetscSection section;
@@ -154,25 +140,10 @@ PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt node
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetFacetNodes - Gets the points of a boundary facet that carry a displacement
-
-  Not Collective
-
-  Input Parameters:
-+ dm    - the mesh
-- facet - the facet, a local DMPlex point with one cell
-
-  Output Parameters:
-+ n     - their number: 4, or 9 in a body of order 2; of a triangle 3, or 6
-- nodes - local DMPlex points, `MESH_MAX_FACET_NODES` at most: the vertices counterclockwise seen from outside the
-          body; of order 2 then the
-          edges, each between the vertex of its number and the next, and the facet, unless it is a triangle
-
-  Level: developer
-
-.seealso: `MeshGetFacetVertices()`, `MeshGetCellNodes()`
-@*/
+/* Gets the points of a boundary facet that carry a displacement. facet: the facet, a local DMPlex point with one cell;
+   n: their number: 4, or 9 in a body of order 2; of a triangle 3, or 6; nodes: local DMPlex points,
+   MESH_MAX_FACET_NODES at most: the vertices counterclockwise seen from outside the body; of order 2 then the edges,
+   each between the vertex of its number and the next, and the facet, unless it is a triangle. */
 PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES])
 {
   PetscSection    section;
@@ -201,25 +172,10 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetFacetPieces - Gets the four-node facets into which the nodes of a boundary facet divide it
-
-  Not Collective
-
-  Input Parameters:
-+ dm    - the mesh
-- facet - the facet, a local DMPlex point with one cell
-
-  Output Parameters:
-+ n      - their number: 1, the facet itself, or 4 in a body of order 2
-- pieces - the nodes of each, local DMPlex points, counterclockwise seen from outside the body; of order 2 vertex,
-           edge, facet, edge. Triangles have
-           their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges
-
-  Level: developer
-
-.seealso: `MeshGetFacetNodes()`
-@*/
+/* Gets the four-node facets into which the nodes of a boundary facet divide it. facet: the facet, a local DMPlex point
+   with one cell; n: their number: 1, the facet itself, or 4 in a body of order 2; pieces: the nodes of each, local
+   DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge, facet, edge. Triangles have
+   their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges. */
 PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4])
 {
   PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
@@ -238,24 +194,9 @@ PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt p
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetNodeCoordinates - Gets the reference coordinates of all nodes of this rank
-
-  Not Collective
-
-  Input Parameter:
-. dm - mesh from `MeshCreate()`
-
-  Output Parameter:
-. places - local vector laid out as the displacements are, 3 coordinates a node [length]; the mesh's own
-
-  Level: developer
-
-  Notes:
-  If no body has order 2, it is the vector of the vertices' coordinates.
-
-.seealso: `MeshGetCellNodes()`, `DMGetCoordinatesLocal()`
-@*/
+/* Gets the reference coordinates of all nodes of this rank. dm: mesh from MeshCreate(); places: local vector laid out
+   as the displacements are, 3 coordinates a node [length]; the mesh's own. If no body has order 2, it is the vector of
+   the vertices' coordinates. */
 PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 {
   PetscFunctionBegin;
@@ -278,7 +219,7 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 
   Level: intermediate
 
-.seealso: `MeshGetCellNodes()`, `MeshCreate()`
+.seealso: `MeshCreate()`
 @*/
 PetscErrorCode MeshGetOrders(DM dm, PetscInt nbodies, PetscInt orders[])
 {

@@ -39,7 +39,7 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
   Notes:
   A point outside of its body by more than a tenth of a cell is an error.
 
-.seealso: `MeshLocate()`, `MeshCheckScene()`
+.seealso: `MeshCheckScene()`
 @*/
 PetscErrorCode MeshLocateProbes(DM dm, Scene scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[])
 {

@@ -56,7 +56,7 @@ static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start
   Notes:
   Every facet is on exactly one rank. A name that is not a face of the mesh is an error.
 
-.seealso: `MeshCreate()`, `MeshGetFaceVertices()`, `MeshGetFacetVertices()`
+.seealso: `MeshCreate()`, `MeshGetFaceVertices()`
 @*/
 PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
 {
@@ -143,22 +143,8 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetFacetVertices - Gets the vertices of a boundary facet, counterclockwise seen from outside the body
-
-  Not Collective
-
-  Input Parameters:
-+ dm    - the mesh
-- facet - the facet, a local DMPlex point with one cell
-
-  Output Parameter:
-. vertices - its 4 vertices, local DMPlex points; of a triangle 3, the last one twice
-
-  Level: developer
-
-.seealso: `MeshGetFacets()`, `MeshGetCellVertices()`
-@*/
+/* Gets the vertices of a boundary facet, counterclockwise seen from outside the body. facet: the facet, a local DMPlex
+   point with one cell; vertices: its 4 vertices, local DMPlex points; of a triangle 3, the last one twice. */
 PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
 {
   const PetscInt *cells, *cone, *orientation;
@@ -192,22 +178,8 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetCellVertices - Gets the vertices of a hexahedron in tensor order
-
-  Not Collective
-
-  Input Parameters:
-+ dm   - the mesh
-- cell - the cell, a local DMPlex point
-
-  Output Parameter:
-. vertices - its 8 vertices, local DMPlex points; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube
-
-  Level: developer
-
-.seealso: `MeshCreate()`, `MeshGetFacetVertices()`
-@*/
+/* Gets the vertices of a hexahedron in tensor order. cell: the cell, a local DMPlex point; vertices: its 8 vertices,
+   local DMPlex points; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube. */
 PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
 {
   PetscInt n;
@@ -241,23 +213,8 @@ PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, Pets
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetVertexCoordinates - Gets the reference coordinates of vertices
-
-  Not Collective
-
-  Input Parameters:
-+ dm       - mesh from `MeshCreate()`
-. n        - number of vertices
-- vertices - local `DMPLEX` points
-
-  Output Parameter:
-. places - 3 coordinates a vertex [length]
-
-  Level: developer
-
-.seealso: `MeshGetCellVertices()`, `MeshGetFacetVertices()`
-@*/
+/* Gets the reference coordinates of vertices. dm: mesh from MeshCreate(); n: number of vertices; vertices: local DMPLEX
+   points; places: 3 coordinates a vertex [length]. */
 PetscErrorCode MeshGetVertexCoordinates(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
 {
   Vec                coordinates;

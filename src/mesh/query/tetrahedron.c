@@ -11,27 +11,10 @@ void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3])
     xi[d] = 0.5 * ((MeshTetrahedronEnds[node][0] == d + 1 ? 1 : 0) + (MeshTetrahedronEnds[node][1] == d + 1 ? 1 : 0));
 }
 
-/*@
-  MeshTetrahedronShape - Evaluates the shape functions of a tetrahedron
-
-  Not Collective
-
-  Input Parameters:
-+ n  - its nodes: 4, or 10
-- xi - a place on the reference tetrahedron, whose corners are the origin and the ends of the unit vectors
-
-  Output Parameters:
-+ N  - values of the n shape functions
-- dN - their derivatives by the three parameters
-
-  Level: developer
-
-  Notes:
-  With barycentric coordinates l, they are l_a at the corners of 4 nodes; of 10, l_a (2 l_a - 1) there, and 4 l_a l_b
-  at the middle of the edge from a to b.
-
-.seealso: `MeshGetCellNodes()`
-@*/
+/* Evaluates the shape functions of a tetrahedron. n: its nodes: 4, or 10; xi: a place on the reference tetrahedron,
+   whose corners are the origin and the ends of the unit vectors; N: values of the n shape functions; dN: their
+   derivatives by the three parameters. With barycentric coordinates l, they are l_a at the corners of 4 nodes; of 10,
+   l_a (2 l_a - 1) there, and 4 l_a l_b at the middle of the edge from a to b. */
 void MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
 {
   const PetscReal l[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
@@ -65,29 +48,10 @@ static void TetrahedronOrbitPoint(const TetrahedronOrbit *orbit, PetscInt i, Pet
   for (PetscInt d = 0; d < 3; ++d) xi[d] = p == d + 1 || q == d + 1 ? other : orbit->place;
 }
 
-/*@
-  MeshTetrahedronRule - Gets the quadrature rule for a tetrahedron with the given number of nodes
-
-  Not Collective
-
-  Input Parameter:
-. nnodes - 4, or 10
-
-  Output Parameters:
-+ npoints - the number of its points: 4, or 14
-. xi      - their places on the reference tetrahedron
-- weight  - their weights, whose sum is 1/6
-
-  Level: developer
-
-  Note:
-  It is of degree 2 for 4 nodes and of degree 5 for 10.
-
-  References:
-  N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000.
-
-.seealso: `MeshTetrahedronShape()`
-@*/
+/* Gets the quadrature rule for a tetrahedron with the given number of nodes. nnodes: 4, or 10; npoints: the number of
+   its points: 4, or 14; xi: their places on the reference tetrahedron; weight: their weights, whose sum is 1/6. It is
+   of degree 2 for 4 nodes and of degree 5 for 10. References: N. J. Walkington, Quadrature on simplices of arbitrary
+   dimension, 2000. */
 void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[])
 {
   static const TetrahedronOrbit second[1] = {{4, 0.13819660112501051518, 0.25}};

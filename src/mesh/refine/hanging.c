@@ -172,23 +172,10 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetHanging - Gets the hanging vertices: those in the middle of an edge or a facet of a cell that is refined less
-  than its neighbour
-
-  Not Collective
-
-  Input Parameter:
-. dm - mesh from `MeshCreateScene()`
-
-  Output Parameter:
-. means - a square matrix of all nodes, AIJ, whose rows at hanging vertices hold the weights of those that they are the
-          mean of, none of which hangs; the others are empty. The mesh's own; NULL where no vertex hangs
-
-  Level: developer
-
-.seealso: `MeshCreateScene()`, `ContactTieCreate()`
-@*/
+/* Gets the hanging vertices: those in the middle of an edge or a facet of a cell that is refined less than its
+   neighbour. dm: mesh from MeshCreateScene(); means: a square matrix of all nodes, AIJ, whose rows at hanging vertices
+   hold the weights of those that they are the mean of, none of which hangs; the others are empty. The mesh's own; NULL
+   where no vertex hangs. */
 PetscErrorCode MeshGetHanging(DM dm, Mat *means)
 {
   PetscFunctionBegin;
@@ -196,21 +183,7 @@ PetscErrorCode MeshGetHanging(DM dm, Mat *means)
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshCountHanging - Counts the hanging vertices of all ranks
-
-  Collective
-
-  Input Parameter:
-. dm - mesh from `MeshCreateScene()`
-
-  Output Parameter:
-. n - their number
-
-  Level: developer
-
-.seealso: `MeshGetHanging()`
-@*/
+/* Collective. Counts the hanging vertices of all ranks. dm: mesh from MeshCreateScene(); n: their number. */
 PetscErrorCode MeshCountHanging(DM dm, PetscInt *n)
 {
   PetscInt start = 0, end = 0;

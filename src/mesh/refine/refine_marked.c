@@ -34,22 +34,9 @@ static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[]
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshMarksAdd - Marks cells of a mesh for the next one
-
-  Collective
-
-  Input Parameters:
-+ dm     - mesh from `MeshCreateScene()`, made with these marks
-- marked - whether to mark each local cell
-
-  Input/Output Parameter:
-. marks - zero-initialized at first; the next mesh created with them has the marked cells refined
-
-  Level: developer
-
-.seealso: `MeshCreateScene()`, `MeshMarksDestroy()`
-@*/
+/* Collective. Marks cells of a mesh for the next one. dm: mesh from MeshCreateScene(), made with these marks; marked:
+   whether to mark each local cell; marks: zero-initialized at first; the next mesh created with them has the marked
+   cells refined. */
 PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -82,18 +69,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshMarksDestroy - Frees marks
-
-  Not Collective
-
-  Input Parameter:
-. marks - the marks, set to zeros
-
-  Level: developer
-
-.seealso: `MeshMarksAdd()`
-@*/
+/* Frees marks. marks: the marks, set to zeros. */
 PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
 {
   PetscFunctionBegin;

@@ -19,19 +19,7 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
   return PETSC_DECIDE;
 }
 
-/*@C
-   SceneFaceMaterial - Gets the material of the body that a face belongs to
-
-   Not Collective
-
-   Input Parameters:
-+  scene - the scene
--  face  - "<body>.<face>" of a body of the scene
-
-   Level: developer
-
-.seealso: `SceneLoad()`
-@*/
+/* Gets the material of the body that a face belongs to. face: "<body>.<face>" of a body of the scene. */
 const Material *SceneFaceMaterial(Scene scene, const char face[])
 {
   const char *name;
