@@ -163,13 +163,12 @@ static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Collective. How deep vertices of the two faces of a pair are in one another that went through the other face on the
-   way from one displacement to another. p: the pair, from 0; moved: no vertex moves by more than this along an axis: 2
-   sqrt(3) times as much, of two, is no deeper than is looked at [length]; u0: global displacement vector, 3 components
-   a vertex [length]; u1: another one; depth: of the deepest vertex at u1 [length]; 0: none went through; reach: deeper
-   than this no contact is searched for [length]. Vertices and facets move along straight lines. A vertex that comes
-   back out of the body did not go through. Vertices that are in the other body by less than a tenth of the reach are
-   outside it. */
+/* Collective. Finds vertices of the faces of a pair that passed through the other face between two displacements, and
+   the largest depth. p: number of the pair; moved: bound of the displacement of a vertex along an axis; penetration
+   deeper than 2 sqrt(3) times this is not found [length]; u0, u1: global displacements before and after [length];
+   depth: depth of the deepest vertex at u1 [length]; 0: none passed through; reach: depth to which the contact search
+   looks [length]. Vertices and facets are assumed to move along straight lines. A vertex that leaves the body again
+   does not count. Vertices less than a tenth of the reach inside the other body count as outside. */
 PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
   PetscReal *reach)
 {

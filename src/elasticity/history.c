@@ -133,11 +133,10 @@ static void HistoryMeasureStep(CellState *cell, PetscReal *stored, PetscReal *wo
   }
 }
 
-/* Collective. Computes the plastic work of a step in bodies whose hardening comes to an end. u: displacement that the
-   step tries, global, 3 components a node [length]; stored: elastic energy of all bodies at u; 0 if no body is of that
-   kind [force length]; work: plastic work since the last state of equilibrium, of bodies of that kind [force length];
-   body: the one of them with the largest part of it. Only such bodies have a collapse load. Linear hardening carries
-   any load. */
+/* Collective. Computes the plastic work of a step in bodies without unlimited hardening, which have a collapse load. u:
+   trial displacement, global, 3 components per node [length]; stored: elastic energy of all bodies at u; 0 without such
+   bodies [force length]; work: plastic work of such bodies since the last state of equilibrium [force length]; body:
+   the one with the largest part of it. */
 PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, PetscReal *work, PetscInt *body)
 {
   Vec                local;
@@ -214,9 +213,9 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
   PetscFunctionReturn(0);
 }
 
-/* Collective. Gets the points of laws with a history, for checkpoints. npoints: number of such points of this rank;
-   places: 3 coordinates a point, undeformed, cell by cell, and its body [length]; free with PetscFree(). NULL on every
-   rank if no law has a history; history: MATERIAL_HISTORY values per point, borrowed: they may be written. */
+/* Collective. Gets the quadrature points of laws with a history, for checkpoints. npoints: their number on this rank;
+   places: 3 undeformed coordinates per point and its body, cell by cell [length]; free with PetscFree(); NULL on all
+   ranks if no law has a history; history: MATERIAL_HISTORY values per point, borrowed, writable. */
 PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *places[], PetscReal *history[])
 {
   Vec                local;

@@ -53,8 +53,8 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
   PetscFunctionReturn(0);
 }
 
-/* Collective. Sets the type of tangents to be created. type: MATBAIJ, MATAIJ or MATSBAIJ. Options Database Key: .
-   -elasticity_mat_type <baij> - the type, whatever the program sets */
+/* Collective. Sets the type of tangents to be created: MATBAIJ, MATAIJ or MATSBAIJ. The option -elasticity_mat_type
+   takes precedence. */
 PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
 {
   PetscFunctionBegin;

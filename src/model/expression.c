@@ -137,8 +137,8 @@ PetscReal ExpressionEvaluate(Expression *e)
   return value;
 }
 
-/* Evaluates an expression of the position. expression: the expression in x, y, z, as a loaded scene holds it; x: the
-   place [length]; value: its value, which may be not finite. */
+/* Evaluates an expression of the position. expression: in x, y, z, as in a loaded scene; x: the position [length];
+   value: may be not finite. */
 PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
 {
   Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};

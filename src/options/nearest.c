@@ -1,8 +1,7 @@
 /* Finds the name that was meant by a misspelt one. */
 #include "optionsimpl.h"
 
-/* Computes Levenshtein's distance of two names: the number of letters to insert, delete or replace. b: another;
-   distance: that of Levenshtein. */
+/* Computes the Levenshtein distance of two names: the number of letters to insert, delete or replace. */
 PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
 {
   size_t na, nb, *row;

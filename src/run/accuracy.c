@@ -383,23 +383,31 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 
 /* Collective. Estimates the error of a run, and chooses the next refinement if it is too large. tolerances: the
    tolerances of the run; report: the report of the run; scene: the scene; its refinement is set to that of the next
-   run; again: whether the scene is to be run again. The first mesh's error in energy is estimated by stress recovery,
-   which does not include the errors of faceted curved surfaces and of the edge of contact. Therefore a second mesh is
-   always run. From then on the error is extrapolated from the change of energy and of each pair's force between two
-   meshes, whichever is largest, with the convergence rate of the recovery estimate, at most a factor of 4, the rate of
-   trilinear elements. The result is at least a quarter of the recovery estimate, and at least all of it if the estimate
-   falls more slowly than for a regular solution, as near singular edges. If the change is larger than the recovery
-   estimates of both meshes explain, the change itself is taken as the error. A pair's force enters with two values: its
-   magnitude, relative to the largest of all pairs, and the sum of the magnitudes of its rows' forces. A mesh is fine
-   enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and costs 8 times as
-   much, so that all the coarser meshes together cost a seventh of the last. If the first mesh already meets the target,
-   the second one makes the cost 8 times that of the first. Load steps of each mesh except the first start from the
-   states at their ends on the previous mesh, see SimulationSetForecast(). Adaptive refinement uses at least two meshes
-   too; each refines the cells chosen by SimulationPropose(). The error is extrapolated with the same rates, where the
-   ratio of cell sizes is at least the cube root of the ratio of unknowns. With -accuracy_order the second mesh is the
-   first with bodies of that order, six to eight times its unknowns too, and the error is extrapolated with a factor of
-   16 at most; later ones are refined. If the solver's error exceeds its share, its tolerance is tightened, unless the
-   user has given it; on the finest mesh the run is repeated with the new tolerance. */
+   run; again: whether the scene is to be run again.
+
+   The first mesh's error in energy is estimated by stress recovery, which does not include the errors of faceted curved
+   surfaces and of the edge of contact. Therefore a second mesh is always run. From then on the error is extrapolated
+   from the change of energy and of each pair's force between two meshes, whichever is largest, with the convergence
+   rate of the recovery estimate, at most a factor of 4, the rate of trilinear elements. The result is at least a
+   quarter of the recovery estimate, and at least all of it if the estimate falls more slowly than for a regular
+   solution, as near singular edges. If the change is larger than the recovery estimates of both meshes explain, the
+   change itself is taken as the error. A pair's force enters with two values: its magnitude, relative to the largest of
+   all pairs, and the sum of the magnitudes of its rows' forces.
+
+   A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
+   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. If the first mesh already
+   meets the target, the second one makes the cost 8 times that of the first.
+
+   Load steps of each mesh except the first start from the states at their ends on the previous mesh, see
+   SimulationSetForecast().
+
+   Adaptive refinement uses at least two meshes too; each refines the cells chosen by SimulationPropose(). The error is
+   extrapolated with the same rates, where the ratio of cell sizes is at least the cube root of the ratio of unknowns.
+   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and
+   the error is extrapolated with a factor of 16 at most; later ones are refined.
+
+   If the solver's error exceeds its share, its tolerance is tightened, unless the user has given it; on the finest mesh
+   the run is repeated with the new tolerance. */
 PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene,
   PetscBool *again)
 {

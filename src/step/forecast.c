@@ -18,7 +18,7 @@ PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Frees a forecast. forecast: the forecast, set to zeros. */
+/* Collective. Frees a forecast, and sets it to zeros */
 PetscErrorCode StepForecastDestroy(StepForecast *forecast)
 {
   PetscFunctionBegin;

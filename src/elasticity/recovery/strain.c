@@ -39,11 +39,11 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes mean strain and rotation of bodies with a small-strain law. u: displacement, global, 3
-   components per node [length]; values: two values per body: the largest absolute principal strain, averaged with the
-   strain energy as weight, and the rotation angle, averaged over the volume [rad]; 0 for bodies with other laws. Strain
-   and rotation are means over a cell. With the energy as weight, unloaded parts of a body have no influence, and the
-   few cells at a singular edge have little. */
+/* Collective. Computes the mean strain and rotation of bodies with a small-strain law. u: global displacement, 3
+   components per node [length]; values: two per body: the largest absolute principal strain, averaged with the strain
+   energy as weight, and the rotation angle, averaged over the volume [rad]; 0 for other laws. Strain and rotation are
+   means over a cell. With this weight, unloaded parts have no influence, and the few cells at a singular edge have
+   little. */
 PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2])
 {
   Vec                local;

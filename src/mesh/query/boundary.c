@@ -2,8 +2,8 @@
 #include "queryimpl.h"
 #include <petscsf.h>
 
-/* Collective. Marks the facets of this rank that bound a body. boundary: of each facet, in the order of its points: one
-   cell here, no copy on another rank, and no finer or coarser cell beyond it. */
+/* Collective. Marks the facets of this rank on the boundary of a body. boundary: one value per facet, in the order of
+   its points. Such a facet has one cell here, no copy on another rank, and no finer or coarser neighbour cell. */
 PetscErrorCode MeshMarkBoundary(DM dm, PetscBool boundary[])
 {
   PetscSF         sf;

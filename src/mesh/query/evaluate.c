@@ -109,11 +109,11 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
   PetscFunctionReturn(0);
 }
 
-/* Collective. Evaluates fields of a mesh at points of the undeformed bodies; each rank has its own points. dm: the
-   mesh, from MeshCreate(); nfields: number of fields; fields: global vectors of the mesh; npoints: points of this rank;
-   points: the points [length]; body: the body in which each is looked for; PETSC_DECIDE: any; values: nfields x 3 a
-   point, zeros where no cell is near; missing: number of points, on all ranks, without a cell near. A point on a curved
-   surface may lie outside the facets: it gets the values of the nearest position in a neighbouring cell. */
+/* Collective. Evaluates fields of a mesh at points of the undeformed bodies; each rank has its own points. fields:
+   nfields global vectors of the mesh; points: npoints points of this rank [length]; body: the body in which each point
+   is looked for; PETSC_DECIDE: any; values: nfields x 3 per point, zeros if no cell is near; missing: number of points
+   on all ranks without a cell near. A point on a curved surface may lie outside the facets: it gets the values of the
+   nearest position in a neighbouring cell. */
 PetscErrorCode MeshEvaluate(DM dm, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3],
   const PetscInt body[], PetscReal values[], PetscInt *missing)
 {

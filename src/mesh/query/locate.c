@@ -219,9 +219,8 @@ struct _n_MeshLocator {
   MeshPlace      *places;
 };
 
-/* Prepares to find the cells that points are in. n: number of points; points: the points; borrowed until the locator is
-   destroyed [length]; body: the body in which each is looked for, PETSC_DECIDE: any; borrowed too; locator: the
-   locator; no cell is known to it. */
+/* Creates a locator, which finds the cells that contain given points. n: number of points; points: borrowed until the
+   locator is destroyed [length]; body: the body in which each point is looked for, borrowed, too; PETSC_DECIDE: any. */
 PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *locator)
 {
   PetscFunctionBegin;
@@ -249,10 +248,10 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
   if (place.distance < nearest->distance + rounding) *nearest = place;
 }
 
-/* Looks which points are in a cell, or beside it. cell: a number for the cell; body: its body; n: its nodes: 8 or 27 of
-   a hexahedron, 4 or 10 of a tetrahedron; X: where they are, in the order of MeshGetCellNodes() [length]. A point has
-   its place in the nearest cell; among equals in that of the first body, and there in the one that was added first.
-   Cells farther away than a quarter of their size are not looked at. */
+/* Tests which points are in a cell or near it. cell: a number for the cell; body: its body; n: its number of nodes: 8
+   or 27 of a hexahedron, 4 or 10 of a tetrahedron; X: their positions, in the order of MeshGetCellNodes() [length]. A
+   point is assigned to the nearest cell; of equally near cells to one of the first body, and there to the first one
+   added. Cells farther away than a quarter of their size are ignored. */
 PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3])
 {
   const LocateBins *bins = &locator->bins;
@@ -282,8 +281,8 @@ PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt b
   PetscFunctionReturn(0);
 }
 
-/* Gets the places that points have in the cells so far. places: one a point, borrowed; its cell is negative where none
-   is near. */
+/* Gets the places of the points in the cells added so far. places: one per point, borrowed; its cell is negative if no
+   cell is near. */
 PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **places)
 {
   PetscFunctionBegin;
@@ -333,12 +332,11 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the cells that points of the undeformed bodies are in. dm: the mesh, from MeshCreate(); n: number
-   of points, the same on every rank; points: the points, the same on every rank [length]; body: the body in which each
-   is looked for; PETSC_DECIDE: any; places: one a point. Its cell is a local DMPLEX point on one rank and negative on
-   the others; its distance, that of the point from the cell, is the same on every rank, and PETSC_MAX_REAL where no
-   cell is near. A point on a curved surface may lie outside the facets: it gets the nearest position in a neighbouring
-   cell. */
+/* Collective. Finds the cells that contain points of the undeformed bodies. n, points: the points, the same on all
+   ranks [length]; body: the body in which each point is looked for; PETSC_DECIDE: any; places: one per point. Its cell
+   is a local DMPlex point on one rank and negative on the others. Its distance from the cell is the same on all ranks,
+   and PETSC_MAX_REAL if no cell is near. A point on a curved surface may lie outside the facets: it gets the nearest
+   position in a neighbouring cell. */
 PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
 {
   MeshLocator        locator;

@@ -69,7 +69,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* Frees marks. marks: the marks, set to zeros. */
+/* Frees marks, and sets them to zeros */
 PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
 {
   PetscFunctionBegin;
