@@ -11,6 +11,7 @@
 #define BODY_SHAPES(SHAPE) \
   SHAPE(BOX, Box, "box") \
   SHAPE(TUBE_ARC, TubeArc, "tube_arc") \
+  SHAPE(CYLINDER, Cylinder, "cylinder") \
   SHAPE(HALF_ELLIPSE, HalfEllipse, "half_ellipse") \
   SHAPE(SPHERE_SHELL, SphereShell, "sphere_shell") \
   SHAPE(SPHEROID_SHELL, SpheroidShell, "spheroid_shell") \
@@ -23,7 +24,7 @@ PETSC_EXTERN const char *const BodyShapes[];
 
 #define BODY_OWN 16
 
-/* Arc of a tube. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis y:
+/* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis y:
    from z to x) */
 typedef struct {
   PetscInt  axis;      /* 0, 1, 2: along x, y, z */

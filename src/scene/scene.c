@@ -72,6 +72,7 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
       PetscCall(
         SceneReadList(keys, scene, list, (PetscInt *)((char *)scene + list->count), (char *)scene + list->entries));
     if (!strcmp(list->name, "contact")) PetscCall(SceneSplitRules(scene));
+    if (!strcmp(list->name, "displacements")) PetscCall(SceneJoinMotions(scene));
     if (!strcmp(list->name, "bodies")) {
       PetscCall(SceneScaleRigid(scene));
       PetscCall(GmshConvert(keys->comm, scene->nbodies, scene->bodies));

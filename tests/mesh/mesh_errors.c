@@ -96,7 +96,7 @@ static PetscErrorCode BadShapes(void)
     {"radii swapped", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {2, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"inner radius 0", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {0, 1}, .angles = {0, 90}, .extent = {0, 1}})},
     {"angle 0", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {90, 90}, .extent = {0, 1}})},
-    {"closed ring", TUBE(.cells = {1, 8, 1}, .tube = {.radii = {1, 2}, .angles = {0, 360}, .extent = {0, 1}})},
+    {"more than a ring", TUBE(.cells = {1, 8, 1}, .tube = {.radii = {1, 2}, .angles = {0, 361}, .extent = {0, 1}})},
     {"extent backwards", TUBE(.cells = {1, 2, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {1, 0}})},
     {"-3 cells around", TUBE(.cells = {1, -3, 1}, .tube = {.radii = {1, 2}, .angles = {0, 90}, .extent = {0, 1}})},
     {"too few cells around", TUBE(.cells = {1, 1, 1}, .tube = {.radii = {1, 2}, .angles = {0, 180}, .extent = {0, 1}})},

@@ -1,11 +1,20 @@
-/* Arc of a tube. Parameters: distance from the axis, angle about it, position along it */
+/*
+   Arc of a tube, or a whole one. Parameters: distance from the axis, angle about it, position along it. Of a whole tube
+   the first two are places in the plane, on regular polygons with a corner at each vertex: there cells are straight.
+*/
 #include "shapesimpl.h"
 
-static const char *const *ShapeFaces_TubeArc(PETSC_UNUSED const SceneBody *body)
+static PetscBool TubeIsWhole(const SceneBody *body)
 {
-  static const char *const faces[] = {"inner", "outer", "amin", "amax", "lmin", "lmax", NULL};
+  return (PetscBool)(body->tube.angles[1] - body->tube.angles[0] == 360);
+}
 
-  return faces;
+static const char *const *ShapeFaces_TubeArc(const SceneBody *body)
+{
+  static const char *const arc[]   = {"inner", "outer", "amin", "amax", "lmin", "lmax", NULL};
+  static const char *const whole[] = {"inner", "outer", "lmin", "lmax", NULL};
+
+  return TubeIsWhole(body) ? whole : arc;
 }
 
 static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
@@ -20,8 +29,8 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscCheck(tube->radii[0] > 0 && tube->radii[0] < tube->radii[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the radii of the tube must be 0 < inner < outer, but are %g and %g", body->name,
     (double)tube->radii[0], (double)tube->radii[1]);
-  PetscCheck(angle > 0 && angle < 360, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the arc must be more than 0 and less than 360 degrees, but goes from %g to %g", body->name,
+  PetscCheck(angle > 0 && angle <= 360, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the arc must be more than 0 and at most 360 degrees, but goes from %g to %g", body->name,
     (double)tube->angles[0], (double)tube->angles[1]);
   PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
@@ -30,14 +39,37 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscCall(ShapeCheckCount(comm, body, "around the axis", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
+  PetscCheck(angle < 360 || body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the cells around a whole tube are equal, so its grading around the axis is 1, but it is %g",
+    body->name, (double)body->grading[1]);
   PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of "
     "cells is %" PetscInt_FMT,
     body->name, (double)angle, n[1]);
   PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
   *ncells    = (PetscInt64)n[0] * n[1] * n[2];
-  *nvertices = (PetscInt64)(n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+  *nvertices = (PetscInt64)(n[0] + 1) * (TubeIsWhole(body) ? n[1] : n[1] + 1) * (n[2] + 1);
   PetscFunctionReturn(0);
+}
+
+/* Radius and angle [degrees] of a vertex to its place */
+static void TubeToPolygon(PetscReal p[2])
+{
+  const PetscReal radius = p[0], angle = p[1] * PETSC_PI / 180;
+
+  p[0] = radius * PetscCosReal(angle);
+  p[1] = radius * PetscSinReal(angle);
+}
+
+/* A place on a regular polygon to radius and angle: along a side the angle is linear */
+static void TubeFromPolygon(const SceneBody *body, const PetscReal place[2], PetscReal p[2])
+{
+  const PetscReal step = 2 * PETSC_PI / (PetscReal)body->cells[1], first = body->tube.angles[0] * PETSC_PI / 180;
+  const PetscReal angle  = PetscAtan2Real(place[1], place[0]) - first;
+  const PetscReal middle = (PetscFloorReal(angle / step) + 0.5) * step, off = angle - middle;
+
+  p[0] = PetscSqrtReal(PetscSqr(place[0]) + PetscSqr(place[1])) * PetscCosReal(off) / PetscCosReal(0.5 * step);
+  p[1] = (first + middle + 0.5 * step * PetscTanReal(off) / PetscTanReal(0.5 * step)) * 180 / PETSC_PI;
 }
 
 static PetscInt TubeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
@@ -47,18 +79,28 @@ static PetscInt TubeVertex(const void *context, PetscInt i, PetscInt j, PetscInt
   return i + (n[0] + 1) * (j + (n[1] + 1) * k);
 }
 
+static PetscInt TubeWholeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+{
+  const PetscInt *n = (const PetscInt *)context;
+
+  return i + (n[0] + 1) * (j % n[1] + n[1] * k);
+}
+
 static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid)
 {
   const PetscReal *range[3] = {body->tube.radii, body->tube.angles, body->tube.extent};
   const PetscInt  *n        = body->cells;
-  const ShapeBlock block    = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, TubeVertex};
+  const PetscBool  full     = TubeIsWhole(body);
+  const PetscInt   around   = full ? n[1] : n[1] + 1;
+  const ShapeBlock arc      = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, TubeVertex};
+  const ShapeBlock whole    = {{n[0], n[1], n[2]}, {0, 1, PETSC_DECIDE, PETSC_DECIDE, 2, 3}, n, TubeWholeVertex};
   PetscReal       *p;
 
   PetscFunctionBegin;
-  PetscCall(ShapeGridCreate(1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
+  PetscCall(ShapeGridCreate(1, full ? &whole : &arc, (n[0] + 1) * around * (n[2] + 1), PETSC_FALSE, grid));
   p = grid->coordinates;
   for (PetscInt k = 0; k <= n[2]; ++k) {
-    for (PetscInt j = 0; j <= n[1]; ++j) {
+    for (PetscInt j = 0; j < around; ++j) {
       for (PetscInt i = 0; i <= n[0]; ++i, p += 3) {
         const PetscInt index[3] = {i, j, k};
 
@@ -67,6 +109,7 @@ static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid
 
           p[d] = (1 - part) * range[d][0] + part * range[d][1];
         }
+        if (full) TubeToPolygon(p);
       }
     }
   }
@@ -75,10 +118,15 @@ static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid
 
 static PetscErrorCode ShapeMap_TubeArc(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
 {
-  const PetscInt  axis = body->tube.axis, s = (axis + 1) % 3, t = (axis + 2) % 3;
-  const PetscReal radius = p[0], angle = p[1] * PETSC_PI / 180, along = p[2];
+  const PetscInt axis = body->tube.axis, s = (axis + 1) % 3, t = (axis + 2) % 3;
+  PetscReal      radius = p[0], angle = p[1] * PETSC_PI / 180, along = p[2], polar[2];
 
   PetscFunctionBegin;
+  if (TubeIsWhole(body)) {
+    TubeFromPolygon(body, p, polar);
+    radius = polar[0];
+    angle  = polar[1] * PETSC_PI / 180;
+  }
   x[axis] = along;
   x[s]    = body->tube.center[s] + radius * PetscCosReal(angle);
   x[t]    = body->tube.center[t] + radius * PetscSinReal(angle);

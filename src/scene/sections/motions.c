@@ -1,6 +1,26 @@
 /* Checks of rigid motions: those of one face or body add up, and every rigid body has one */
 #include "sectionsimpl.h"
 
+/* Displacements of one face that prescribe all components are rigid motions, which add up */
+PetscErrorCode SceneJoinMotions(Scene scene)
+{
+  PetscBool same;
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    SceneDisplacement *here = &scene->displacements[d];
+
+    for (PetscInt e = 0; e < scene->ndisplacements; ++e) {
+      SceneDisplacement *other = &scene->displacements[e];
+
+      PetscCall(PetscStrcmp(here->face, other->face, &same));
+      for (PetscInt i = 0; i < 3; ++i) same = (PetscBool)(same && here->fixed[i] && other->fixed[i]);
+      if (e != d && same && here->at == DISPLACEMENT_FACE) here->moves = PETSC_TRUE;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Checks two displacements of the same face or body: both must be rigid motions about the same center */
 PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const SceneDisplacement *a,
   const SceneDisplacement *b)

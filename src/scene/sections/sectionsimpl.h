@@ -63,6 +63,7 @@ PETSC_INTERN PetscBool      SceneDisplacementHides(const void *entry, const char
 PETSC_INTERN PetscErrorCode SceneFinishDisplacement(SceneKeys, Scene, const char owner[], void *entry);
 
 /* motions.c */
+PETSC_INTERN PetscErrorCode SceneJoinMotions(Scene);
 PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *,
   const SceneDisplacement *);
 PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);
