@@ -64,7 +64,7 @@ static const Mistake mistakes[] = {
   {"unknown shape", "slab: {", "slab: {shape: sphere, "},
   {"expansion of a law that has none", "young: 1,", "young: 1, material: neohookean, expansion: 1e-5,"},
   {"shape of another program", "slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2]",
-    "slab: {shape: cylinder, radius: 1, height: 2"},
+    "slab: {shape: brick, radius: 1, height: 2"},
   {"key of another program: E", "young: 1,", "E: 1,"},
   {"key of another program: nu", "poisson: 0.3", "nu: 0.3"},
   {"key of another program: slave", "nonmortar: block.zmin", "slave: block.zmin"},

@@ -15,7 +15,8 @@ PetscErrorCode SceneJoinMotions(Scene scene)
 
       PetscCall(PetscStrcmp(here->face, other->face, &same));
       for (PetscInt i = 0; i < 3; ++i) same = (PetscBool)(same && here->fixed[i] && other->fixed[i]);
-      if (e != d && same && here->at == DISPLACEMENT_FACE) here->moves = PETSC_TRUE;
+      same = (PetscBool)(same && e != d && here->at == DISPLACEMENT_FACE);
+      if (same && !SceneRotates(here) && !SceneRotates(other)) here->moves = PETSC_TRUE;
     }
   }
   PetscFunctionReturn(0);
