@@ -128,7 +128,7 @@ help:
 	@echo '                       STRESS=nlp: 490 nonlinear programs, and 500 drawn at random, and other forms of them, beside IPOPT, 20 minutes, in tests/stress/nlp.md, nlp_random.md, nlp_forms.md'
 	@echo '                       STRESS=grid: obstacle problems to 1000 x 1000 unknowns beside TRON and IPOPT, an hour, in tests/stress/grid.md'
 	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
-	@echo 'make bench           what accuracy costs in time, three hours at most: page, tables and figures in build/bench; bench-quick: ten minutes'
+	@echo 'make bench           what accuracy costs in time, an hour at most: pages, tables and figures in build; bench-full: at full size, three hours'
 	@echo 'make debug           quick tests with a PETSc that checks itself; sanitize: with ASan and UBSan; memcheck: with valgrind; tidy: static analysis; format: sources as .clang-format has them; fuzz: FUZZ_TIME=600 [s] a target'
 	@echo 'make doc             guides and manual pages in build/doc; needs pandoc'
 	@echo 'make install         into PREFIX=$(PREFIX), staged under DESTDIR; make uninstall takes it away again'

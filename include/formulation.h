@@ -15,7 +15,8 @@
   ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* no locking in bending or near nu = 1/2; small strain */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
-typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) } ElementType;
+/* ELEMENT_AUTO: SceneChooseElements() takes one of the others */
+typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) ELEMENT_AUTO } ElementType;
 #undef ELEMENT_TYPE
 PETSC_EXTERN const char *const ElementTypes[];
 

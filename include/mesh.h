@@ -96,8 +96,8 @@ PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[
 PETSC_EXTERN void MeshTetrahedronRule(PetscInt nnodes, PetscInt *npoints, PetscReal xi[][3], PetscReal weight[]);
 /* Shape functions of a cell with n nodes, and their derivatives, at a point of the reference cube or tetrahedron */
 PETSC_EXTERN void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES]);
-/* Order of the displacements of every body, on all ranks: the requested one, or that of its cells */
-PETSC_EXTERN PetscErrorCode MeshGetOrders(DM, PetscInt nbodies, PetscInt orders[]);
+/* Number of nodes of a cell of every body, on all ranks */
+PETSC_EXTERN PetscErrorCode MeshGetBodyNodes(DM, PetscInt nbodies, PetscInt nnodes[]);
 /* Reference coordinates of all local nodes, as a local vector of the mesh [length] */
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */

@@ -14,6 +14,9 @@ PETSC_EXTERN PetscErrorCode SceneViewKeys(PetscViewer);
    program, mesh and solver may differ */
 PETSC_EXTERN PetscErrorCode SceneGetText(Scene, char **text);
 PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char difference[], size_t length);
+/* The element of every body on the mesh dm: the one that the scene names, or for `auto` the one that fits its law and
+   cells; reasons[b]: why that was chosen, or NULL; reasons may be NULL */
+PETSC_EXTERN PetscErrorCode SceneChooseElements(Scene, DM dm, ElementType elements[], const char *reasons[]);
 /* Describes what will be simulated on the mesh dm */
 PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);

@@ -1,5 +1,6 @@
 """The page: every figure with what it says in numbers, and the tables. The sentences come from the rows, so they hold for the run at hand."""
 import math
+import os
 
 from problems import PROBLEMS
 from results import converged, of_panel, select
@@ -219,9 +220,9 @@ def head(results):
     m = results["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
     memory = f"{m['memory_bytes'] / 2**30:.0f} GiB" if m["memory_bytes"] else "unknown memory"
-    command = {"full": "make bench", "quick": "make bench-quick"}.get(results["size"], f"share/bench/run.py --size {results['size']}")
-    small = "" if results["size"] == "full" else "\nThese are the figures of a small run; `make bench` makes those of the problems at full size.\n"
-    return f"""# What accuracy costs in time
+    command = {"full": "make bench-full", "quick": "make bench"}.get(results["size"], f"share/bench/run.py --size {results['size']}")
+    small = "" if results["size"] == "full" else "\nThese are the figures of a small run; `make bench-full` makes those of the problems at full size.\n"
+    return f"""# One page a knob
 {small}
 `{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
 Runs are on one rank unless stated otherwise. Times are of the whole run, including mesh and assembly; runs below {results["short"]:g} s are
@@ -229,17 +230,15 @@ repeated three times, and the shortest time is given. Errors are relative to Her
 fine meshes (last section). Force and energy of Hertz's solution, for a half-space, differ from those of this ball by about 0.2 %.
 Data of all runs: `bench.csv`, `bench.json`.
 
-    make bench             # three hours at most: page, tables and figures in build/bench; an interrupted bench continues where it stopped
-    make bench-quick       # ten minutes on two cores
-    make bench-page        # copies the page and its figures to share/bench
-    make bench BENCH="--only tolerance forcing"     # some studies; BENCH=--plan lists the runs, BENCH=--no-run only makes the page of completed runs
-    share/bench/effects.py                          # the cost of effects that a scene does not use: effects.md
-    make bench-calculix                             # the two-block problem compared with CalculiX: calculix.md
+    make bench             # at most an hour on two cores: the accuracy page, and these pages of small problems
+    make bench-full        # these pages at full size, three hours; an interrupted bench continues where it stopped
+    make bench-page        # copies the pages and their figures to share/bench
+    make bench-full BENCH="--only tolerance forcing"     # some studies; BENCH=--plan lists the runs, BENCH=--no-run only makes the pages of completed runs
 """
 
 
 def section(study, results, drawn):
-    rows, text = results["rows"], [f"## {study.title}\n"]
+    rows, text = results["rows"], [f"# {study.title}\n", f"Made on {results['date']}, sources {results['version']}. Back to [the accuracy page](../README.md) and [all pages](README.md).\n"]
     if not select(rows, study=study.name):
         return ""
     if study.name in drawn:
@@ -256,12 +255,19 @@ def section(study, results, drawn):
 
 
 def write(path, studies, results, drawn, skipped):
-    parts = [head(results)]
+    """A page for every study beside the index at `path`"""
+    folder, parts = os.path.dirname(path), [head(results), "| page | |\n| --- | --- |"]
+    for study in studies:
+        text = section(study, results, drawn)
+        if text:
+            with open(os.path.join(folder, study.name + ".md"), "w") as file:
+                file.write(text)
+            parts[-1] += f"\n| [{study.name}]({study.name}.md) | {study.title} |"
+    parts[-1] += "\n"
     if "pareto" in drawn:
         parts.append("## All together\n\n![front](pareto.png)\n")
-    parts += [text for study in studies if (text := section(study, results, drawn))]
     parts += [text] if (text := default_section(studies, results["rows"])) else []
-    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench BENCH="--only references"` computes them again.\n\n' + reference_table(results["references"]))
+    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench-full BENCH="--only references"` computes them again.\n\n' + reference_table(results["references"]))
     parts += ["## Not run\n\n" + "".join(f"- {line}\n" for line in skipped)] if skipped else []
     with open(path, "w") as file:
         file.write("\n".join(parts))

@@ -46,6 +46,18 @@ def last_words(said):
     return (ours[-1:] or petsc[:1] or lines[-1:] or [""])[0][:300]
 
 
+def keep(path, produce):
+    """What produce() returns, kept in a file from which later calls read it; None is not kept"""
+    if os.path.exists(path):
+        with open(path) as file:
+            return json.load(file)
+    value = produce()
+    if value is not None:
+        with open(path, "w") as file:
+            json.dump(value, file)
+    return value
+
+
 def read_summary(base):
     """What a run has written of itself; None where it has not come to that"""
     if not os.path.exists(base + ".json"):

@@ -13,7 +13,7 @@ from runner import execute, last_words, read_summary
 
 CONTACT = os.path.join(TOP, "bin", "contact")
 OPTIONS = os.path.join(TOP, "share", "options")
-TABLE = os.path.join(TOP, "share", "bench", "bench.csv")
+TABLE = os.path.join(TOP, "share", "bench", "knobs", "bench.csv")
 SOURCES = ("include", "pc_amgf", "tao_ipfilter", "src", "apps", "share/toolchain.mk")
 REPEATS = 3
 SECONDS, UNKNOWNS, GROWTH = 1.1, 1e4, 1.25  # of a load step with so many unknowns, and its exponent; a first guess where nothing like it has been run

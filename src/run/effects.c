@@ -73,21 +73,23 @@ static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on
 
 PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
 {
-  Scene    scene  = sim->scene;
-  PetscInt finite = 0, planes = 0, rubbing = 0, plastic = 0, rigid = 0, mean = 0, modes = 0, second = 0, *orders;
+  Scene        scene  = sim->scene;
+  PetscInt     finite = 0, planes = 0, rubbing = 0, plastic = 0, rigid = 0, mean = 0, modes = 0, second = 0, *nnodes;
+  ElementType *elements;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &orders));
-  PetscCall(MeshGetOrders(sim->dm, scene->nbodies, orders));
+  PetscCall(PetscMalloc2(scene->nbodies, &nnodes, scene->nbodies, &elements));
+  PetscCall(MeshGetBodyNodes(sim->dm, scene->nbodies, nnodes));
+  PetscCall(SceneChooseElements(scene, sim->dm, elements, NULL));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
     if (MaterialYields(&scene->bodies[b].material)) ++plastic;
     if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
-    if (scene->bodies[b].element == ELEMENT_BBAR) ++mean;
-    if (scene->bodies[b].element == ELEMENT_INCOMPATIBLE) ++modes;
-    if (orders[b] > 1) ++second;
+    if (elements[b] == ELEMENT_BBAR) ++mean;
+    if (elements[b] == ELEMENT_INCOMPATIBLE) ++modes;
+    if (MeshOrder(nnodes[b]) > 1) ++second;
   }
-  PetscCall(PetscFree(orders));
+  PetscCall(PetscFree2(nnodes, elements));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) planes += scene->displacements[d].inclined;
   report->neffects = EFFECT_COUNT;
   PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));

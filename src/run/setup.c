@@ -13,10 +13,8 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    materials[b] = scene->bodies[b].material;
-    elements[b]  = scene->bodies[b].element;
-  }
+  for (PetscInt b = 0; b < scene->nbodies; ++b) materials[b] = scene->bodies[b].material;
+  PetscCall(SceneChooseElements(scene, sim->dm, elements, NULL));
   PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, elements, &sim->elasticity));
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));

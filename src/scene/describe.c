@@ -85,7 +85,30 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribeBodies(Scene scene, DM dm, const PetscInt orders[], PetscViewer viewer)
+/* Order and element of a body; reason: of a chosen element */
+typedef struct {
+  PetscInt    order;
+  ElementType element;
+  const char *reason;
+} BodyChoice;
+
+static PetscErrorCode DescribeFindChoices(Scene scene, DM dm, BodyChoice choices[])
+{
+  PetscInt    *nnodes;
+  ElementType *elements;
+  const char **reasons;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(scene->nbodies, &nnodes, scene->nbodies, &elements, scene->nbodies, &reasons));
+  PetscCall(MeshGetBodyNodes(dm, scene->nbodies, nnodes));
+  PetscCall(SceneChooseElements(scene, dm, elements, reasons));
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    choices[b] = (BodyChoice){MeshOrder(nnodes[b]), elements[b], reasons[b]};
+  PetscCall(PetscFree3(nnodes, elements, reasons));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choices[], PetscViewer viewer)
 {
   BodyMesh *meshes;
   PetscInt  ncells = 0, nnodes = 0, order = 1;
@@ -105,13 +128,15 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const PetscInt orders[]
     else {
       PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s", MaterialTypes[body->material.type]));
       PetscCall(SceneDescribeConstants(&body->material, viewer));
-      PetscCall(PetscViewerASCIIPrintf(viewer, "; element %s\n", ElementTypes[body->element]));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "; element %s", ElementTypes[choices[b].element]));
+      if (choices[b].reason) PetscCall(PetscViewerASCIIPrintf(viewer, " (chosen: %s)", choices[b].reason));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     }
     PetscCall(
       PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n",
-        mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", orders[b] > 1 ? " of order 2" : "", mesh->nnodes,
-        orders[b] > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
-    order = PetscMax(order, orders[b]);
+        mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", choices[b].order > 1 ? " of order 2" : "",
+        mesh->nnodes, choices[b].order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
+    order = PetscMax(order, choices[b].order);
     ncells += mesh->ncells;
     nnodes += mesh->nnodes;
   }
@@ -364,43 +389,44 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 
 /* Prints the bodies that use an effect, as in: on, slab block */
 static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[],
-  PetscBool (*has)(const SceneBody *, PetscInt order), const PetscInt orders[], const char off[])
+  PetscBool (*has)(const SceneBody *, const BodyChoice *), const BodyChoice choices[], const char off[])
 {
   PetscBool on = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) on = on || has(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    on = on || has(&scene->bodies[b], &choices[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s", effect, on ? "on, in" : "off: "));
   if (!on) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", off));
   for (PetscInt b = 0; on && b < scene->nbodies; ++b) {
-    if (has(&scene->bodies[b], orders[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
+    if (has(&scene->bodies[b], &choices[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);
 }
 
-static PetscBool DescribeIsFinite(const SceneBody *body, PetscInt order)
+static PetscBool DescribeIsFinite(const SceneBody *body, const BodyChoice *choice)
 {
-  (void)order;
+  (void)choice;
   return MaterialIsFinite(&body->material);
 }
 
-static PetscBool DescribeIsBbar(const SceneBody *body, PetscInt order)
-{
-  (void)order;
-  return body->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscBool DescribeIsIncompatible(const SceneBody *body, PetscInt order)
-{
-  (void)order;
-  return body->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscBool DescribeIsOrder2(const SceneBody *body, PetscInt order)
+static PetscBool DescribeIsBbar(const SceneBody *body, const BodyChoice *choice)
 {
   (void)body;
-  return order > 1 ? PETSC_TRUE : PETSC_FALSE;
+  return choice->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static PetscBool DescribeIsIncompatible(const SceneBody *body, const BodyChoice *choice)
+{
+  (void)body;
+  return choice->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
+}
+
+static PetscBool DescribeIsOrder2(const SceneBody *body, const BodyChoice *choice)
+{
+  (void)body;
+  return choice->order > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
@@ -411,14 +437,14 @@ static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[]
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], PetscViewer viewer)
+static PetscErrorCode DescribeEffects(Scene scene, const BodyChoice choices[], PetscViewer viewer)
 {
   PetscInt  rubbing = 0;
   PetscBool finite  = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b)
-    finite = finite || DescribeIsFinite(&scene->bodies[b], orders[b]) ? PETSC_TRUE : PETSC_FALSE;
+    finite = finite || DescribeIsFinite(&scene->bodies[b], &choices[b]) ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs,
     "no contact; one linear solve a step where every body is linear"));
@@ -429,13 +455,13 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
     scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, orders, "every material is linear"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, choices, "every material is linear"));
   if (finite)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, orders, "no element is bbar"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, orders,
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, choices, "no element is bbar"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, choices,
     "no element is incompatible"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, orders, "every body has order 1"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, choices, "every body has order 1"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds)
@@ -465,14 +491,14 @@ static PetscErrorCode DescribeEffects(Scene scene, const PetscInt orders[], Pets
 @*/
 PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
 {
-  PetscInt *orders;
+  BodyChoice *choices;
 
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Scene %s\n", scene->name));
   if (scene->units) PetscCall(PetscViewerASCIIPrintf(viewer, "Units %s\n", scene->units));
-  PetscCall(PetscMalloc1(scene->nbodies, &orders));
-  PetscCall(MeshGetOrders(dm, scene->nbodies, orders));
-  PetscCall(DescribeBodies(scene, dm, orders, viewer));
+  PetscCall(PetscMalloc1(scene->nbodies, &choices));
+  PetscCall(DescribeFindChoices(scene, dm, choices));
+  PetscCall(DescribeBodies(scene, dm, choices, viewer));
   PetscCall(DescribeFaces(dm, viewer));
   PetscCall(DescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
@@ -480,7 +506,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeRefinements(scene, dm, viewer));
   PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
-  PetscCall(DescribeEffects(scene, orders, viewer));
-  PetscCall(PetscFree(orders));
+  PetscCall(DescribeEffects(scene, choices, viewer));
+  PetscCall(PetscFree(choices));
   PetscFunctionReturn(0);
 }

@@ -6,7 +6,7 @@ import numpy as np
 
 from summaries import load, say
 
-ARC = "{shape: tube_arc, axis: %s, radii: [1, 2], angles: [%g, %g], extent: [%g, %g], cells: [%d, 4, 2], %syoung: 10, poisson: 0.3}"
+ARC = "{shape: tube_arc, axis: %s, radii: [1, 2], angles: [%g, %g], extent: [%g, %g], cells: [%d, 4, 2], %syoung: 10, poisson: 0.3, element: full}"
 PRESSURES = "pressures:\n" + "".join("  - %s_%s: {face: %s.%s, value: 0.5}\n" % (b, f, b, f) for b in ("BODY",) for f in ("inner", "outer"))
 
 

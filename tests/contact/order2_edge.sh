@@ -1,6 +1,6 @@
 # Order 2 where contact ends at a sharp edge: two_block with a consistent gap has the force of order 1 on as many unknowns, for both elements
 two_block() { # name, order, element, refinements
-  sed "/^contact_updates\|^refine/d; s/^\( *\)poisson: .*/&\n\1order: $2\n\1element: $3/" "$AMGF_DIR/share/scenes/two_block.yaml" > "$1.yaml"
+  sed "/element:/d; /^contact_updates\|^refine/d; s/^\( *\)poisson: .*/&\n\1order: $2\n\1element: $3/" "$AMGF_DIR/share/scenes/two_block.yaml" > "$1.yaml"
   "$AMGF_DIR/bin/contact" "$1.yaml" -refine "$4" -quiet -error_estimate 0 -summary "$1.json" > /dev/null 2> "$1.err" || echo "$1: exit code $?"
 }
 two_block order1 1 bbar 1

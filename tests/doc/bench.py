@@ -96,7 +96,7 @@ def check_built_in():
 def check_calculix():
     """The input file has the nodes and cells of the scene, and no cell without its nodes"""
     for factor, nodes, cells in (1, 713, 424), (2, 4460, 3392):
-        blocks = re.split(r"^\*", calculix.deck(factor, "CalculiX, mortar"), flags=re.M)
+        blocks = re.split(r"^\*", calculix.deck(factor, "CalculiX, mortar, hard"), flags=re.M)
         lines = {kind: [list(map(float, line.split(","))) for block in blocks if block.startswith(kind + ",") for line in block.splitlines()[1:]] for kind in ("NODE", "ELEMENT")}
         known = {int(line[0]) for line in lines["NODE"]}
         say(f"CalculiX, mesh {factor}: nodes and cells", (len(known), len(lines["ELEMENT"])) == (nodes, cells) and all(set(map(int, line[1:])) <= known for line in lines["ELEMENT"]), (len(known), len(lines["ELEMENT"])))

@@ -35,7 +35,7 @@ cat > turned_rigid.yaml <<'SCENE'
 problem: turned_rigid
 bodies:
   - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: rigid}
-  - held: {lower: [3, 0, 0], upper: [4, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0.3}
+  - held: {lower: [3, 0, 0], upper: [4, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0.3, element: full}
 displacements:
   - turn: {body: block, value: [0, 0, 0], rotation: [0, 30, 0], center: [0, 0, 0]}
   - hold: {face: held.zmin, value: [0, 0, 0]}
@@ -47,8 +47,8 @@ for cells in 16 48; do
   cat > slide_$cells.yaml <<SCENE
 problem: slide
 bodies:
-  - flat: {lower: [-1, 0, -2], upper: [5, 1, 0], cells: [$cells, 1, 4], young: 100, poisson: 0.3}
-  - die: {shape: tube_arc, axis: y, center: [0.5, 0, 1], radii: [0.5, 1], angles: [90, 270], extent: [0, 1], cells: [2, 24, 1], young: 10e3, poisson: 0.3}
+  - flat: {lower: [-1, 0, -2], upper: [5, 1, 0], cells: [$cells, 1, 4], young: 100, poisson: 0.3, element: full}
+  - die: {shape: tube_arc, axis: y, center: [0.5, 0, 1], radii: [0.5, 1], angles: [90, 270], extent: [0, 1], cells: [2, 24, 1], young: 10e3, poisson: 0.3, element: full}
 symmetry: [flat.ymin, flat.ymax, die.lmin, die.lmax]
 displacements:
   - ground: {face: flat.zmin, value: [0, free, 0]}
@@ -69,8 +69,8 @@ sides() { # name, mortar, nonmortar
   cat > "$1.yaml" <<SCENE
 problem: $1
 bodies:
-  - block: {lower: [0, 0, 0], upper: [4, 4, 2], cells: [12, 12, 3], young: 1000, poisson: 0.3}
-  - foot: {lower: [1, 1, 2], upper: [3, 3, 3], cells: [2, 2, 1], young: 2000, poisson: 0.3}
+  - block: {lower: [0, 0, 0], upper: [4, 4, 2], cells: [12, 12, 3], young: 1000, poisson: 0.3, element: full}
+  - foot: {lower: [1, 1, 2], upper: [3, 3, 3], cells: [2, 2, 1], young: 2000, poisson: 0.3, element: full}
 displacements:
   - ground: {face: block.zmin, value: [0, 0, 0]}
   - press: {face: foot.zmax, value: [0, 0, -0.01]}

@@ -160,7 +160,7 @@ ramps:
 FEW = """problem: few
 bodies:
   - low: {lower: [0, 0, 0], upper: [3, 2, 0.6], cells: [6, 2, 3], young: 1e4, poisson: 0.3, material: neohookean}
-  - top: {lower: [0.639, 0.56, 0.6], upper: [2.414, 1.842, 1.6], cells: [2, 4, 2], young: 1e5, poisson: 0.49, material: neohookean}
+  - top: {lower: [0.639, 0.56, 0.6], upper: [2.414, 1.842, 1.6], cells: [2, 4, 2], young: 1e5, poisson: 0.49, material: neohookean, element: full}
 displacements:
   - fix: {face: low.zmin, value: [0, 0, 0]}
   - press: {face: top.zmax, value: [free, free, -0.032]}

@@ -19,7 +19,7 @@ def scene(case):
     text = f"""problem: {case["name"]}
 bodies:
   - ground: {{lower: [-5, -5, -1], upper: [9, 9, 0], cells: [1, 1, 1], material: rigid}}
-  - block: {{lower: [0, 0, 0], upper: {list(case["size"])}, cells: {list(case["cells"])}, young: {YOUNG}, poisson: {POISSON}}}
+  - block: {{lower: [0, 0, 0], upper: {list(case["size"])}, cells: {list(case["cells"])}, young: {YOUNG}, poisson: {POISSON}, element: full}}
 displacements:
   - fix: {{body: ground, value: [0, 0, 0]}}
 """

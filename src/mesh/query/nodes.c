@@ -206,7 +206,7 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 }
 
 /*@
-  MeshGetOrders - Gets the order of every body
+  MeshGetBodyNodes - Gets the number of nodes of a cell of every body
 
   Collective
 
@@ -215,30 +215,31 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 - nbodies - number of bodies
 
   Output Parameter:
-. orders - 1 or 2 for each body, on all ranks: the given order, or the order of its cells, which is the same for all
+. nnodes - for each body, on all ranks: 8 or 27 of hexahedra of order 1 or 2, 4 or 10 of tetrahedra; all cells of a
+           body have as many
 
   Level: intermediate
 
 .seealso: `MeshCreate()`
 @*/
-PetscErrorCode MeshGetOrders(DM dm, PetscInt nbodies, PetscInt orders[])
+PetscErrorCode MeshGetBodyNodes(DM dm, PetscInt nbodies, PetscInt nnodes[])
 {
   PetscInt cstart, cend, unknown = nbodies;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(orders, nbodies));
+  PetscCall(PetscArrayzero(nnodes, nbodies));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend && unknown; ++c) {
     PetscInt b, n, nodes[MESH_MAX_NODES];
 
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &b));
-    if (b < 0 || b >= nbodies || orders[b]) continue;
+    if (b < 0 || b >= nbodies || nnodes[b]) continue;
     PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
-    orders[b] = MeshOrder(n);
+    nnodes[b] = n;
     --unknown;
   }
   PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, orders, (PetscMPIInt)nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
+    MPI_Allreduce(MPI_IN_PLACE, nnodes, (PetscMPIInt)nbodies, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 

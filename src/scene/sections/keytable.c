@@ -80,9 +80,9 @@ static const SceneKey body_rows[] = {
     "a law: `linear` (small strain), `neohookean` (finite strain), `saint_venant` (large rotations at moderate "
     "strain), `mooney_rivlin`, `orthotropic` (small strain), `j2` (small strain, plasticity), `j2_finite` (finite "
     "strain, plasticity), `rigid`; or the name of a material. For its constants see below"),
-  NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`full`",
-    "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2) or `incompatible` "
-    "(modes for bending)"),
+  NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`auto`",
+    "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2), `incompatible` "
+    "(modes for bending) or `auto`: the best of them for material and cells, see [which element](#which-element)"),
   INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 of hexahedra, 2 of tetrahedra",
     "of the displacements in a cell, 1 or 2; 2: hexahedra of 27 and tetrahedra of 10 nodes, curved as the surface is"),
   REALS("initial_velocity", NULL, 3, SceneBody, velocity, OPTIONAL, ANY, "L/T", "0", "in `dynamics`: at time 0"),
@@ -261,6 +261,7 @@ static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynami
     "Rayleigh damping: forces of this times stiffness times velocity, of bodies of linear laws"),
   {NULL}};
 
+static const SceneBody         body_initial         = {.element = ELEMENT_AUTO};
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
@@ -281,7 +282,7 @@ static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY
 /* In the order of printing. Lists whose entries are shared come after the owners */
 const SceneList SceneLists[] = {
   {.name = "", .rows = top_rows},
-  {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE,
+  {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE, .initial = &body_initial,
     .finish = SceneFinishBody},
   {"faces", face_rows, sizeof(SceneSubface), .initial = &face_initial},
   {"displacements", displacement_rows, sizeof(SceneDisplacement), OF_SCENE(ndisplacements, displacements),

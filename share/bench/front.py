@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+"""make bench-front: the accuracy page, README.md and front.png: six problems, error against time, and what 10 %, 1 % and 0.1 % cost.
+
+    share/bench/front.py [--only NAME] [--limit SECONDS] [--folder build/front]
+    share/bench/front.py --scene "PROBLEM, MESH, SETTING"        prints a scene of the page
+"""
+import argparse
+import datetime
+import math
+import os
+import resource
+import subprocess
+import sys
+
+import machine
+import references
+from elements.choice import SCENES
+from plots import front
+from problems import PROBLEMS, TOP, force, last
+from runner import environment, keep, last_words, read_summary
+from store import CONTACT, source_version
+
+ORDER1 = {"default": (("element", "auto"),), "full": (("element", "full"),), "bbar": (("element", "bbar"),), "incompatible": (("element", "incompatible"),)}
+ORDER2 = {"order 2": (("element", "full"), ("order", "2")), "order 2, bbar": (("element", "bbar"), ("order", "2"))}
+RECOMMENDED = "order 2, bbar"
+TRUE = ("-contact_updates", "20")
+# setting: options of runs of the default element; the first loosen and tighten the solver
+OPTIONS = {"tolerance 1e-2": ("-tao_ipfilter_tol", "1e-2"), "tolerance 1e-10": ("-tao_ipfilter_tol", "1e-10"), "one contact update": ("-contact_updates", "1"), "published.opts": ("-options_file", os.path.join(TOP, "share", "options", "published.opts"))}
+TARGETS = (0.1, 0.01, 0.001)
+
+
+class Shipped:
+    """A problem of problems.py, measured by the contact force, or the energy where nothing touches"""
+
+    def __init__(self, name, order1, order2, quantity):
+        self.problem, self.order1, self.order2, self.quantity = PROBLEMS[name], order1, order2, quantity
+        self.title, self.contact = self.problem.title, quantity == "contact force"
+        exact = self.problem.exact(references.values(references.load()))
+        self.reference = exact[quantity]
+
+    def scene(self, level, keys):
+        text = self.problem.scene(level, keys)
+        return "\n".join(line for line in text.split("\n") if not line.startswith("refine:")) + f"\nrefine: {self.problem.levels[level].refine}\n"
+
+    def measure(self, summary):
+        return force(summary) if self.contact else last(summary)["energy"]
+
+
+class Text:
+    """A scene of elements/choice.py with a reference of its own"""
+
+    contact, quantity = True, "contact force"
+
+    def __init__(self, title, reference):
+        self.title, self.reference = title, reference
+        self.order1, self.order2 = ("0", "1", "2"), ("0", "1")
+
+    def scene(self, level, keys):
+        return SCENES[self.title][1].replace(", E}", ", " + ", ".join(map(": ".join, keys)) + "}") + f"refine: {level}\n"
+
+    @staticmethod
+    def measure(summary):
+        return force(summary)
+
+
+# The references of the last two are of order 2 on a mesh refined twice, where `full` and `bbar` differ by less than 0.01 %
+CASES = {
+    "hertz_cylinder": Shipped("hertz_cylinder", ("coarse", "medium", "0"), ("coarse", "medium"), "contact force"),
+    "hertz_sphere": Shipped("hertz_sphere", ("coarse", "medium"), ("coarse",), "contact force"),
+    "two_block": Shipped("two_block", ("1", "2", "3"), ("1",), "contact force"),
+    "cantilever": Shipped("cantilever", ("0", "1"), ("0",), "energy"),
+    "punch": Text("elastic punch, sharp, nu 0.3", None),
+    "ring": Text("ring between plates, nu 0.3", None),
+}
+
+
+def settings(case):
+    """(setting, mesh, keys of the bodies, options) of all runs"""
+    always = TRUE if case.contact else ()
+    for level in case.order1:
+        yield from ((name, level, keys, always) for name, keys in ORDER1.items())
+    for level in case.order2:
+        yield from ((name, level, keys, always) for name, keys in ORDER2.items())
+    for name, options in OPTIONS.items():
+        if case.contact:
+            keys = ORDER1["full" if name == "published.opts" else "default"]
+            yield name, case.order1[0 if name == "published.opts" else 1], keys, (*always, *options)
+
+
+def run_once(case, base, keys, options, limit, level):
+    with open(base + ".yaml", "w") as file:
+        file.write(case.scene(level, keys))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    try:
+        done = subprocess.run([CONTACT, base + ".yaml", "-quiet", "-error_estimate", "0", *options, "-summary", base + ".json"], env=environment(), capture_output=True, text=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return None
+    summary = read_summary(base)
+    if done.returncode not in (0, 3) or not summary or not summary["steps"]:
+        print(base, done.returncode, last_words(done.stderr), flush=True)
+        return None
+    return {"unknowns": summary["dofs"], "value": case.measure(summary), "seconds": resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before}
+
+
+def run(name, folder, limit):
+    """All runs of a problem: setting, mesh, error and what they cost"""
+    case, rows = CASES[name], []
+    for setting, level, keys, options in settings(case):
+        base = os.path.join(folder, f"{name}_{level}_{setting}".replace(" ", "_").replace(",", ""))
+        entry = keep(base + ".kept", lambda: run_once(case, base, keys, options, limit, level))  # noqa: B023
+        if entry:
+            rows.append(entry | {"problem": name, "setting": setting, "mesh": level})
+    reference = case.reference
+    if reference is None:
+        finest = [row["value"] for setting in ORDER2 if (row := keep(os.path.join(folder, f"{name}_reference_{setting}.kept".replace(" ", "_")), lambda: run_once(case, os.path.join(folder, name + "_reference"), ORDER2[setting], TRUE, 10 * limit, "2")))]  # noqa: B023
+        reference = sum(finest) / len(finest)
+    for row in rows:
+        row["error"] = abs(row["value"] / reference - 1)
+    return rows
+
+
+def find(rows, setting, mesh=None):
+    return next((row for row in rows if row["setting"] == setting and mesh in (None, row["mesh"])), None)
+
+
+def figure(found, folder):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt
+
+    fig, axes = plt.subplots(2, 3, figsize=(12, 7))
+    names = list(dict.fromkeys(row["setting"] for rows in found.values() for row in rows))
+    for (name, rows), axis in zip(found.items(), axes.flat):
+        for index, setting in enumerate(names):
+            points = [(row["seconds"], max(row["error"], 1e-6)) for row in rows if row["setting"] == setting]
+            if points:
+                axis.loglog(*zip(*points), "ox^vsdP*<>"[index], color=f"C{index}", label=setting, markersize=5, linestyle="none", alpha=0.8)
+        axis.plot(*zip(*front([(row["seconds"], max(row["error"], 1e-6)) for row in rows])), "k-", linewidth=0.8, drawstyle="steps-post", label="Pareto front")
+        for setting, marker in (("default", "s"), (RECOMMENDED, "D")):
+            row = find(rows, setting)
+            if row:
+                axis.plot(row["seconds"], max(row["error"], 1e-6), marker, markersize=13, fillstyle="none", color="k", label=f"{'the default' if setting == 'default' else 'recommended'}, first mesh")
+        axis.set(title=CASES[name].title, xlabel="user time [s]", ylabel=f"error of the {CASES[name].quantity}")
+        axis.grid(alpha=0.3)
+    handles, labels = axes.flat[0].get_legend_handles_labels()
+    fig.legend(handles, labels, loc="lower center", ncol=6, fontsize=8)
+    fig.tight_layout(rect=(0, 0.07, 1, 1))
+    fig.savefig(os.path.join(folder, "front.png"), dpi=80)
+
+
+def percent(value):
+    return f"{100 * value:.2g} %"
+
+
+def price_table(found):
+    """The cheapest run at each target, its mesh and setting"""
+    yield "| problem | unknowns, default, first mesh | error | time [s] | " + " | ".join(f"to {percent(t)} you pay [s]" for t in TARGETS) + " |"
+    yield "| --- | --- | --- | --- |" + " --- |" * len(TARGETS)
+    for name, rows in found.items():
+        default = find(rows, "default")
+        cheapest = [min((row for row in rows if row["error"] <= target), key=lambda row: row["seconds"], default=None) for target in TARGETS]
+        cells = [f"{row['seconds']:.2f}: `{name}, {row['mesh']}, {row['setting']}`" if row else "not reached" for row in cheapest]
+        yield f"| {CASES[name].title} | {default['unknowns']:,} | {percent(default['error'])} | {default['seconds']:.2f} | " + " | ".join(cells) + " |"
+
+
+def mean_ratio(found, above, below, key):
+    """Geometric mean over problems of a figure of one setting over that of another, on the same mesh"""
+    product, n = 1.0, 0
+    for rows in found.values():
+        for row in rows:
+            other = find(rows, below, row["mesh"])
+            if row["setting"] == above and other and row[key] > 0 and other[key] > 0:
+                product, n = product * row[key] / other[key], n + 1
+    return product ** (1 / n) if n else math.nan
+
+
+def same_unknowns(found):
+    """Error and time of the recommended setting over those of the default on the next finer mesh, which has about as many unknowns"""
+    ratios = []
+    for name, rows in found.items():
+        case = CASES[name]
+        for level in case.order2:
+            at = case.order1.index(level) + 1
+            fine, coarse = find(rows, RECOMMENDED, level), find(rows, "default", case.order1[at]) if at < len(case.order1) else None
+            if fine and coarse:
+                ratios.append((fine["error"] / coarse["error"], fine["seconds"] / coarse["seconds"]))
+    return tuple(math.prod(max(r[i], 1e-9) for r in ratios) ** (1 / len(ratios)) if ratios else math.nan for i in (0, 1))
+
+
+def rules(found):
+    r = lambda a, b, key: mean_ratio(found, a, b, key)  # noqa: E731
+    error, seconds = same_unknowns(found)
+    yield f"1. Name no element. On the same mesh `auto` has {r('default', 'full', 'error'):.2g} times the error of `full`, in {r('default', 'full', 'seconds'):.2g} times its time."
+    yield f"2. For 1 % or less take `order: 2` with `bbar` on a coarser mesh: {error:.2g} times the error of order 1 on the next finer mesh, in {seconds:.2g} times its time."
+    yield f"3. Let the gap be exact. One contact update a load step takes {r('one contact update', 'default', 'seconds'):.2g} times the time, and has {r('one contact update', 'default', 'error'):.2g} times the error."
+    yield f"4. Leave the solver's tolerance alone. 1e-10 takes {r('tolerance 1e-10', 'default', 'seconds'):.2g} times the time, with {r('tolerance 1e-10', 'default', 'error'):.2g} times the error: the mesh decides."
+    yield "5. Where contact ends at a sharp edge, the error falls with the size of the cells only, by either order. Run two meshes and extrapolate: [sharp edges](elements/sharp.md)."
+
+
+def page(found, pages):
+    where = machine.describe()
+    yield "# What accuracy costs in time\n"
+    yield f"`make bench-front` made this page on {datetime.date.today()}, sources {source_version()}: {where['processor']}, one core; " + ", ".join(f"{n} {v}" for n, v in where["versions"].items()) + "."
+    yield "Times are user seconds of the whole run, on a machine that other work shared. Gaps are exact, unless a setting says otherwise. References: Hertz's"
+    yield "formulas; for two blocks and cantilever values extrapolated from fine meshes, uncertain by 0.4 and 0.3 %; for punch and ring order 2 on fine meshes."
+    yield "Hertz's force, of a half-space, differs from that of this ball by about 0.2 %.\n"
+    yield "![error against time, six problems](front.png)\n"
+    yield "## What you pay\n"
+    yield from price_table(found)
+    yield "\nThe command of any of them: problem, mesh and setting of the table give the scene, and the setting its options.\n"
+    yield '    share/bench/front.py --scene "hertz_cylinder, coarse, order 2, bbar" > scene.yaml'
+    yield "    bin/contact scene.yaml -contact_updates 20\n"
+    yield "| setting | further options |"
+    yield "| --- | --- |"
+    yield from (f"| {name} | `{' '.join(os.path.relpath(word, TOP) if word.endswith('.opts') else word for word in options)}` |" for name, options in OPTIONS.items())
+    yield ""
+    yield "## Five rules\n"
+    yield from rules(found)
+    yield "\n## Ratios to the published configuration\n"
+    yield "Time of `published.opts`, element `full`, over that of the defaults, on the first mesh:\n"
+    yield "| problem | published.opts [s] | its error | default [s] | its error | ratio of times |"
+    yield "| --- | --- | --- | --- | --- | --- |"
+    for name, rows in found.items():
+        theirs, ours = find(rows, "published.opts"), find(rows, "default")
+        if theirs:
+            yield f"| {CASES[name].title} | {theirs['seconds']:.2f} | {percent(theirs['error'])} | {ours['seconds']:.2f} | {percent(ours['error'])} | {theirs['seconds'] / ours['seconds']:.1f} |"
+    yield "\n## All runs\n"
+    yield f"[All {sum(map(len, found.values()))} runs of this page](front.csv): setting, mesh, unknowns, error, user seconds.\n"
+    yield "## Pages behind this one\n"
+    yield "| page | |"
+    yield "| --- | --- |"
+    yield from pages
+
+
+def index(folder):
+    """A line for every page of a knob, and for the others"""
+    yield "| [elements/choice.md](elements/choice.md) | the element of scenes that name none, on eleven scenes |"
+    yield "| [elements/sharp.md](elements/sharp.md) | order 1 and 2 where contact ends at an edge |"
+    yield "| [calculix.md](calculix.md) | CalculiX: times, forces, and why they differ |"
+    yield "| [effects.md](effects.md) | what effects cost that a scene does not use |"
+    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else ():
+        if name.endswith(".md"):
+            with open(os.path.join(folder, name)) as file:
+                yield f"| [knobs/{name}](knobs/{name}) | {file.readline().lstrip('# ').strip()} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--only", default="", help="problems whose name has this")
+    parser.add_argument("--limit", type=float, default=120.0, help="seconds a run")
+    parser.add_argument("--folder", default=os.path.join(TOP, "build", "front"))
+    parser.add_argument("--scene", help="problem, mesh and setting whose scene is printed")
+    arguments = parser.parse_args()
+    if arguments.scene:
+        name, level, setting = arguments.scene.split(", ", 2)
+        print(CASES[name].scene(level, (ORDER1 | ORDER2).get(setting, ORDER1["default"])), end="")
+        return
+    os.makedirs(arguments.folder, exist_ok=True)
+    found = {name: run(name, arguments.folder, arguments.limit) for name in CASES if arguments.only in name}
+    with open(os.path.join(arguments.folder, "front.csv"), "w") as file:
+        keys = ("problem", "mesh", "setting", "unknowns", "error", "seconds")
+        file.write(",".join(keys) + "\n" + "".join(",".join(f'"{row[k]}"' if "," in str(row[k]) else f"{row[k]:.4g}" if isinstance(row[k], float) else str(row[k]) for k in keys) + "\n" for rows in found.values() for row in rows))
+    figure(found, arguments.folder)
+    with open(os.path.join(arguments.folder, "README.md"), "w") as file:
+        file.write("\n".join(page(found, index(os.path.join(TOP, "share", "bench", "knobs")))) + "\n")
+    print(os.path.join(arguments.folder, "README.md"))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,82 @@
+/* Chooses the elements of bodies that name none. share/bench/elements/choice.py compares the choice with the others. */
+#include "sceneimpl.h"
+#include <mesh.h>
+
+#define INCOMPRESSIBLE 0.4 /* Poisson's ratio above which bbar replaces full */
+
+/* Poisson's ratio of the isotropic part of a law */
+static PetscErrorCode MaterialPoisson(const Material *material, PetscReal *poisson)
+{
+  MaterialModuli m;
+
+  PetscFunctionBegin;
+  PetscCall(MaterialGetModuli(material, &m, NULL));
+  *poisson = (3 * m.bulk - 2 * m.mu) / (6 * m.bulk + 2 * m.mu);
+  PetscFunctionReturn(0);
+}
+
+/* nnodes: of the body's cells */
+static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, ElementType *element,
+  const char **reason)
+{
+  PetscReal poisson;
+
+  PetscFunctionBegin;
+  *reason = NULL;
+  if (body->element != ELEMENT_AUTO || body->material.type == MATERIAL_RIGID) {
+    *element = body->element == ELEMENT_AUTO ? ELEMENT_FULL : body->element;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(MaterialPoisson(&body->material, &poisson));
+  if (MaterialYields(&body->material)) {
+    *element = ELEMENT_BBAR;
+    *reason  = "plastic strain keeps the volume";
+  } else if (body->material.type == MATERIAL_SAINT_VENANT) {
+    *element = ELEMENT_FULL;
+    *reason  = "the only element for its law";
+  } else if (!MaterialIsFinite(&body->material) && nnodes == 8) {
+    *element = ELEMENT_INCOMPATIBLE;
+    *reason  = "small strain, hexahedra of order 1";
+  } else if (poisson > INCOMPRESSIBLE) {
+    *element = ELEMENT_BBAR;
+    *reason  = "Poisson's ratio above 0.4";
+  } else {
+    *element = ELEMENT_FULL;
+    *reason  = "Poisson's ratio of 0.4 or less";
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneChooseElements - Gets the element of every body
+
+   Collective
+
+   Input Parameters:
++  scene - the scene
+-  dm    - its mesh
+
+   Output Parameters:
++  elements - the element that the scene names for each body, or the one that fits its law and cells
+-  reasons  - why it was chosen, NULL where the scene names it; NULL if not wanted
+
+   Level: developer
+
+.seealso: `SceneDescribe()`, `ElasticityCreate()`
+@*/
+PetscErrorCode SceneChooseElements(Scene scene, DM dm, ElementType elements[], const char *reasons[])
+{
+  PetscInt *nnodes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &nnodes));
+  PetscCall(MeshGetBodyNodes(dm, scene->nbodies, nnodes));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const char *reason;
+
+    PetscCall(BodyChooseElement(&scene->bodies[b], nnodes[b], &elements[b], &reason));
+    if (reasons) reasons[b] = reason;
+  }
+  PetscCall(PetscFree(nnodes));
+  PetscFunctionReturn(0);
+}
