@@ -1,6 +1,6 @@
 """Reproduces the tables and figures of arXiv:2505.18576 and writes them beside the published values: python3 published.py [--quick] [--only NAME]
 
-A run that has ended is kept in build/published and is not repeated. README.md there is the page, with its figures beside it."""
+A run that has ended is kept in build/published, or in runs beside this file, and is not repeated. README.md there is the page, with its figures beside it."""
 import argparse
 import csv
 import datetime
@@ -18,6 +18,8 @@ import machine
 import runner
 
 FOLDER = os.path.join(TOP, "build", "published")
+KEPT = os.path.join(HERE, "runs")
+STEP_KEYS = ("converged", "ip_iterations", "ksp_iterations", "filter_dofs", "constraints", "amg_applications", "solve_time", "energy")
 PUBLISHED_FILE = os.path.join(HERE, "published.csv")
 # problem: scene, refinement of mesh 1, further options of the published configuration
 PROBLEMS = {
@@ -51,13 +53,24 @@ def command(problem, mesh, way):
 
 
 def kept(problem, mesh, way):
-    return os.path.exists(os.path.join(FOLDER, f"{problem}_{mesh}_{way}.run.json"))
+    """The file of a run that has ended, here or in an earlier session; None if there is none"""
+    name = f"{problem}_{mesh}_{way}.run.json"
+    return next((path for folder in (FOLDER, KEPT) if os.path.exists(path := os.path.join(folder, name))), None)
+
+
+def reduced(record):
+    """What the page is made from"""
+    short = {key: record[key] for key in ("dofs", "time", "code", "cut", "limit", "words") if key in record}
+    short["contact_free"] = {"bound": record.get("contact_free", {}).get("bound")}
+    short["ratios"] = [float(f"{ratio:.3g}") for ratio in record["ratios"]]
+    short["steps"] = [{key: step[key] for key in STEP_KEYS if key in step} for step in record["steps"]]
+    return short
 
 
 def run(problem, mesh, way, quick):
     """The summary of a run, with the weights' ratios, how it was cut short and its command; kept on disk"""
     base = os.path.join(FOLDER, f"{problem}_{mesh}_{way}")
-    if not os.path.exists(base + ".run.json"):
+    if not kept(problem, mesh, way):
         limit = WAYS[way][1] * LIMITS[mesh] * (1 if quick else 5)
         print(f"{problem} mesh {mesh} {way}: at most {limit} s", flush=True)
         os.chdir(TOP)
@@ -65,8 +78,8 @@ def run(problem, mesh, way, quick):
         record = runner.read_summary(base) or {"steps": []}
         record.update(code=code, cut=cut, limit=limit, ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)], words=runner.last_words(said))
         with open(base + ".run.json", "w") as file:
-            json.dump(record, file)
-    with open(base + ".run.json") as file:
+            json.dump(reduced(record), file)
+    with open(kept(problem, mesh, way)) as file:
         return json.load(file)
 
 
@@ -90,7 +103,7 @@ def row(problem, mesh, record):
     bound = record.get("contact_free", {}).get("bound")
     return {
         "n": record.get("dofs"),
-        "n_c_max": max((step["filter_dofs"] for step in record["steps"]), default=None),
+        "n_c_max": max((step["filter_dofs"] for step in done), default=None),
         "m_max": max((step["constraints"] for step in done), default=None),
         "ip_iterations_avg": mean(step["ip_iterations"] for step in done),
         "amgf_pcg_iterations_avg": mean(systems),

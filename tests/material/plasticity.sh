@@ -5,7 +5,7 @@ linear="material: j2, young: 200, poisson: 0.3, yield: 0.2, hardening: 10, kinem
 cat > bars.yaml <<YAML
 problem: bars
 bodies:
-  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], $linear}
+  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], element: full, $linear}
   - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: j2, young: 200, poisson: 0.3, yield: 0.2, kinematic: 20}
   - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: j2, young: 200, poisson: 0.3, yield: 0.2, saturation: 0.3, saturation_rate: 100, kinematic: 5}
   - second: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, material: j2, young: 200, poisson: 0.3, plastic_strains: [0, 0.002, 0.01], yield_stresses: [0.2, 0.25, 0.3]}
@@ -54,7 +54,7 @@ mpiexec --oversubscribe -n 3 "$contact" bars.yaml $options -load_steps 5 -restar
 "$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"; echo "collapse: exit code ${PIPESTATUS[0]}"
 sed 's/element: bbar/element: incompatible/; s/0.4999/0.3/' collapse.yaml > modes.yaml
 "$contact" modes.yaml $options -summary modes.json 2> /dev/null; echo "incompatible modes: exit code $?"
-sed 's/, element: bbar//; s/0.4999/0.3/' collapse.yaml > locks.yaml
+sed 's/element: bbar/element: full/; s/0.4999/0.3/' collapse.yaml > locks.yaml
 "$contact" locks.yaml $options -summary locks.json; echo "full integration, which locks: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/material/plasticity.py"
 try() {
