@@ -11,8 +11,8 @@ INNER, OUTER = (1, 2 + OVERLAP / 2), (2 - OVERLAP / 2, 3)
 PATCHES = ((4, 5), (6, 5), (6, 7))  # half the facets on a quarter circle, of the inner and the outer sphere
 
 SCENE = """bodies:
-  - inner: {{shape: sphere_shell, inner: {{radius: {a}}}, outer: {{radius: {b}}}, patches: [{n}, {n}, {n}], layers: 4, young: {young}, poisson: {poisson}}}
-  - outer: {{shape: sphere_shell, inner: {{radius: {c}}}, outer: {{radius: {d}}}, patches: [{m}, {m}, {m}], layers: 4, young: {young}, poisson: {poisson}}}
+  - inner: {{shape: sphere_shell, inner: {{radius: {a}}}, outer: {{radius: {b}}}, patches: [{n}, {n}, {n}], layers: 4, young: {young}, poisson: {poisson}, element: full}}
+  - outer: {{shape: sphere_shell, inner: {{radius: {c}}}, outer: {{radius: {d}}}, patches: [{m}, {m}, {m}], layers: 4, young: {young}, poisson: {poisson}, element: full}}
 symmetry: [inner.x0, inner.y0, inner.z0, outer.x0, outer.y0, outer.z0]
 contact:
   - fit: {{mortar: {mortar}, nonmortar: {nonmortar}, interference: true}}

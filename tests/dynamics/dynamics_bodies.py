@@ -12,8 +12,8 @@ from histories import history
 from summaries import say, within
 
 BARS = """bodies:
-  - a: {lower: [0, 0, 0], upper: [0.1, 0.02, 0.02], cells: [10, 1, 1], young: 2e11, poisson: 0, density: 8000, initial_velocity: [10, 0, 0]}
-  - b: {lower: [0.1001, 0, 0], upper: [0.2001, 0.02, 0.02], cells: [10, 1, 1], young: 2e11, poisson: 0, density: 8000}
+  - a: {lower: [0, 0, 0], upper: [0.1, 0.02, 0.02], cells: [10, 1, 1], young: 2e11, poisson: 0, element: full, density: 8000, initial_velocity: [10, 0, 0]}
+  - b: {lower: [0.1001, 0, 0], upper: [0.2001, 0.02, 0.02], cells: [10, 1, 1], young: 2e11, poisson: 0, element: full, density: 8000}
 symmetry: [a.ymin, a.zmin, b.ymin, b.zmin]
 contact:
   - hit: {mortar: a.xmax, nonmortar: b.xmin}
@@ -24,7 +24,7 @@ dynamics: {time_step: 2e-6, end_time: 80e-6}
 """
 SLIDE = """bodies:
   - floor: {lower: [-1, -1, -0.2], upper: [4, 2, 0], cells: [10, 3, 1], material: rigid}
-  - block: {lower: [0, 0, 0], upper: [1, 1, 0.5], cells: [2, 2, 1], young: 1e4, poisson: 0.2, density: 1, initial_velocity: [2, 0, 0]}
+  - block: {lower: [0, 0, 0], upper: [1, 1, 0.5], cells: [2, 2, 1], young: 1e4, poisson: 0.2, element: full, density: 1, initial_velocity: [2, 0, 0]}
 displacements:
   - fix: {body: floor, value: [0, 0, 0]}
 body_forces:

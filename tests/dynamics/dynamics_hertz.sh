@@ -1,7 +1,7 @@
 # A ball hits a rigid plane slowly: duration and largest force against Hertz's quasi-static theory, with the mass of the mesh; its rebound; energy
 cat > ball.yaml <<'YAML'
 bodies:
-  - ball: {shape: ball, center: [0, 0, 1.00001], octant: [1, 1, -1], radius: 1, patches: [12, 12, 1], grading: [150, 150, 1], layers: 10, layer_grading: 0.007, young: 1000, poisson: 0.3, density: 1, initial_velocity: [0, 0, -0.003]}
+  - ball: {shape: ball, center: [0, 0, 1.00001], octant: [1, 1, -1], radius: 1, patches: [12, 12, 1], grading: [150, 150, 1], layers: 10, layer_grading: 0.007, young: 1000, poisson: 0.3, element: full, density: 1, initial_velocity: [0, 0, -0.003]}
   - plane: {lower: [0, 0, -0.1], upper: [1, 1, 0], cells: [1, 1, 1], material: rigid}
 faces:
   - pole: {of: ball.surface, upper: [0.1, 0.1, 10]}

@@ -11,7 +11,7 @@ from histories import history
 from summaries import say, within
 
 VIBRATION = """bodies:
-  - bar: {{lower: [0, 0, 0], upper: [1, 0.1, 0.1], cells: [10, 1, 1], young: 1, poisson: 0, density: 1}}
+  - bar: {{lower: [0, 0, 0], upper: [1, 0.1, 0.1], cells: [10, 1, 1], young: 1, poisson: 0, element: full, density: 1}}
 displacements:
   - fix: {{face: bar.xmin, value: [0, free, free]}}
   - y: {{face: bar.ymin, value: [free, 0, free]}}
@@ -25,7 +25,7 @@ dynamics: {{time_step: {step}, end_time: 3.6, scheme: {scheme}, spectral_radius:
 """
 WALL = """bodies:
   - wall: {{lower: [-0.01, -0.02, -0.02], upper: [0, 0.04, 0.04], cells: [1, 1, 1], material: rigid, density: 1}}
-  - bar: {{lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [20, 1, 1], young: 2e11, poisson: 0, density: 8000, initial_velocity: [-100, 0, 0]}}
+  - bar: {{lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [20, 1, 1], young: 2e11, poisson: 0, element: full, density: 8000, initial_velocity: [-100, 0, 0]}}
 displacements:
   - fix: {{body: wall, value: [0, 0, 0]}}
   - y: {{face: bar.ymin, value: [free, 0, free]}}

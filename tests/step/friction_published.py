@@ -34,7 +34,7 @@ def greco(cells):
     return f"""problem: greco
 bodies:
   - ground: {{lower: [-10, 0, -10], upper: [45, 1, 0], cells: [1, 1, 1], material: rigid}}
-  - plate: {{lower: [0, 0, 0], upper: [40, 1, 40], cells: [{cells}, 1, {cells}], young: 130000, poisson: 0.2}}
+  - plate: {{lower: [0, 0, 0], upper: [40, 1, 40], cells: [{cells}, 1, {cells}], young: 130000, poisson: 0.2, element: full}}
 displacements:
   - fix: {{body: ground, value: [0, 0, 0]}}
 pressures:
@@ -140,6 +140,7 @@ def cylinder(name, depth, center, across, deep, half="", material=""):
       layers: 1
       {material or "young: 1000"}
       poisson: 0.3
+      element: full
 """
 
 
@@ -180,6 +181,7 @@ bodies:
       even: [{even}, 1, 4]
       {material.format(70000)}
       poisson: 0.3
+      element: full
 faces:
   - crown: {{of: cylinder.arc, upper: [12, inf, 12]}}
 displacements:
@@ -197,8 +199,8 @@ probes:
 def lift(law):
     return f"""problem: lift
 bodies:
-  - ground: {{lower: [-0.5, -0.5, -0.5], upper: [2.5, 1.5, 0], cells: [6, 4, 2], young: 1e5, poisson: 0.3}}
-  - block: {{lower: [0, 0, 0], upper: [2, 1, 2], cells: [5, 3, 5], young: 1e5, poisson: 0.3}}
+  - ground: {{lower: [-0.5, -0.5, -0.5], upper: [2.5, 1.5, 0], cells: [6, 4, 2], young: 1e5, poisson: 0.3, element: full}}
+  - block: {{lower: [0, 0, 0], upper: [2, 1, 2], cells: [5, 3, 5], young: 1e5, poisson: 0.3, element: full}}
 displacements:
   - fix: {{face: ground.zmin, value: [0, 0, 0]}}
 pressures:
