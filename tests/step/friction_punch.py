@@ -78,8 +78,8 @@ def scene(mesh, friction):
     law = f", friction: {friction}" if friction else ""
     return f"""problem: punch
 bodies:
-  - punch: {{mesh: {mesh}, volume: punch, young: 210000, poisson: 0.3}}
-  - base: {{mesh: {mesh}, volume: base, young: 70000, poisson: 0.3}}
+  - punch: {{mesh: {mesh}, volume: punch, young: 210000, poisson: 0.3, element: full}}
+  - base: {{mesh: {mesh}, volume: base, young: 70000, poisson: 0.3, element: full}}
 displacements:
   - floor: {{face: base.base_low, value: [0, 0, 0]}}
 symmetry:
