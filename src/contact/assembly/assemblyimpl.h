@@ -129,6 +129,7 @@ PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const Pets
 
 /* assemble.c: data of a contact update under construction */
 typedef struct {
+  PetscBool      gaps_only;   /* without derivatives of smooth pairs */
   Vec            gap;         /* int phi_A gap [length^3] */
   Vec            cover;       /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
   PetscInt       dim;         /* 1: one value per vertex, multiplied by the row's normal; 3: a vector per vertex */
