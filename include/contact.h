@@ -11,14 +11,15 @@ typedef struct _n_Contact *Contact;
 
 /* Data of one contact update. Rows are distributed like their nonmortar vertices. */
 typedef struct {
-  Vec g;          /* gap at u_ref, divided by the lumped mass [length] */
-  Mat J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
-  Mat derivative; /* derivative of the gap that includes the rotation of the normals; in J patches of smooth pairs
+  Vec       g;          /* gap at u_ref, divided by the lumped mass [length] */
+  Mat       J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
+  Mat       derivative; /* derivative of the gap that includes the rotation of the normals; in J patches of smooth pairs
                      keep their shape. NULL if no pair is smooth */
-  Mat cover;      /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
+  PetscBool gaps_only;  /* without derivatives of smooth pairs: J is that of their facets */
+  Mat       cover; /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
                      or of order 2 */
-  Vec mass;       /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  Mat slip;       /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
+  Vec       mass;  /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  Mat       slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
                two tangents of a row. Rows without friction are empty; NULL: no pair has friction */
   PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
   PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
@@ -39,6 +40,7 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
+PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
 /* Number of nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact
    update; and number of all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);

@@ -40,6 +40,42 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
+/* Gaps of all pairs, and their derivatives unless gaps_only */
+static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only, ContactLinearization *lin)
+{
+  ContactAssembly assembly;
+  PetscReal       norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
+  PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
+    "The displacement at which contact is linearized is not finite");
+  PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
+  PetscCall(ContactDeform(contact, u));
+  PetscCall(ContactAssemblyCreate(contact, &assembly));
+  assembly.gaps_only = gaps_only;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData     *pair = &contact->pairs[p];
+    const ContactGapOps *ops  = gap_ops[pair->gap];
+    PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+    ContactCandidates candidates;
+
+    PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
+    PetscCall((*ops->box)(contact, p, box));
+    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
+    PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
+    pair->nfacing = 0;
+    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
+    PetscCall(ContactCandidatesDestroy(&candidates));
+  }
+  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
+  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactAssemblyDestroy(&assembly));
+  PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
@@ -94,35 +130,32 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
 @*/
 PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *lin)
 {
-  ContactAssembly assembly;
-  PetscReal       norm;
-
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
-  PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
-    "The displacement at which contact is linearized is not finite");
-  PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-  PetscCall(ContactDeform(contact, u));
-  PetscCall(ContactAssemblyCreate(contact, &assembly));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    ContactPairData     *pair = &contact->pairs[p];
-    const ContactGapOps *ops  = gap_ops[pair->gap];
-    PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
-    ContactCandidates candidates;
+  PetscCall(ContactMeasure(contact, u, PETSC_FALSE, lin));
+  PetscFunctionReturn(0);
+}
 
-    PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-    PetscCall((*ops->box)(contact, p, box));
-    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
-    PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
-    pair->nfacing = 0;
-    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
-    PetscCall(ContactCandidatesDestroy(&candidates));
-  }
-  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
-  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
+/*@
+  ContactGetGaps - Measures the gap at a displacement
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components per vertex [length]
+
+  Output Parameter:
+. lin - the gap and its rows as of `ContactLinearize()`, without what only a solve needs: J of smooth pairs is that of
+        their facets, and lin->derivative is NULL
+
+  Level: developer
+
+.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
+@*/
+PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactMeasure(contact, u, PETSC_TRUE, lin));
   PetscFunctionReturn(0);
 }
 

@@ -3,6 +3,21 @@
 #include "stepimpl.h"
 #include <math.h>
 
+/* The gap at u for a load step that ends at `time`. Ramps of initial overlaps need J */
+static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
+{
+  PetscBool ramps = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
+    ramps = (PetscBool)(ramps || sim->scene->pairs[p].interference_ramp >= 0);
+  if (ramps) {
+    PetscCall(ContactLinearize(sim->contact, u, lin));
+    PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
+  } else PetscCall(ContactGetGaps(sim->contact, u, lin));
+  PetscFunctionReturn(0);
+}
+
 /* Linearizes the gap at u for a load step that ends at `time`: ramps of initial overlaps are applied. */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
@@ -319,7 +334,7 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
   PetscCall(ContactLinearizationDestroy(&sim->linearization));
-  if (!at_solution) {
+  if (!at_solution || (*at_u)->gaps_only) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(AttemptMakeRigid(p, u_linearized));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
@@ -347,7 +362,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (report->contact_updates) PetscCall(WeakSpringsTestMotion(p, u_linearized, u, report));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
-  PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
+  if (report->contact_updates > 1) PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
+  else PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* where the gap is linearized next */
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
@@ -568,8 +584,9 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(PathAdvance(&sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     PetscCall(ContactLinearizationDestroy(&sim->upcoming));
+    if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u)); /* the next load step linearizes */
     sim->upcoming = at_u;
-    if (sim->contact) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
+    if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
   } else if (sim->contact) {
     if (report->contact_updates || foreseen) PetscCall(ContactLinearizationDestroy(&sim->linearization));
     else {

@@ -10,7 +10,9 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(as, sizeof(*as)));
-  as->dim = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
+  as->dim         = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
+  as->rigid.width = as->by_cover.width = as->by_node.width = as->by_normal.width = 3;
+  for (PetscInt c = 0; c < as->dim; ++c) as->coupling[c].width = 1;
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
   PetscCall(VecDuplicate(as->gap, &as->cover));
@@ -21,18 +23,14 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
 PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[],
   const PetscReal value[], const PetscReal normal[3])
 {
+  PetscReal along[4];
+
   PetscFunctionBegin;
-  if (as->n + n > as->size) {
-    as->size = 2 * as->size + 1024;
-    PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->row));
-    PetscCall(PetscRealloc(as->size * sizeof(PetscInt), &as->node));
-    for (PetscInt c = 0; c < as->dim; ++c) PetscCall(PetscRealloc(as->size * sizeof(PetscScalar), &as->value[c]));
-  }
-  for (PetscInt b = 0; b < n; ++b) {
-    as->row[as->n]  = row;
-    as->node[as->n] = node[b];
-    for (PetscInt c = 0; c < as->dim; ++c) as->value[c][as->n] = as->dim == 1 ? value[b] : value[b] * normal[c];
-    ++as->n;
+  PetscCheck(n <= 4, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A facet has at most 4 vertices, not %" PetscInt_FMT, n);
+  if (as->dim == 1) PetscCall(ContactEntriesAdd(&as->coupling[0], row, n, node, value));
+  for (PetscInt c = 0; c < as->dim && as->dim > 1; ++c) {
+    for (PetscInt b = 0; b < n; ++b) along[b] = value[b] * normal[c];
+    PetscCall(ContactEntriesAdd(&as->coupling[c], row, n, node, along));
   }
   PetscFunctionReturn(0);
 }
@@ -58,9 +56,7 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscCall(ContactEntriesDestroy(&as->by_cover));
   PetscCall(ContactEntriesDestroy(&as->by_node));
   PetscCall(ContactEntriesDestroy(&as->by_normal));
-  PetscCall(PetscFree(as->row));
-  PetscCall(PetscFree(as->node));
-  for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(as->value[c]));
+  for (PetscInt c = 0; c < as->dim; ++c) PetscCall(ContactEntriesDestroy(&as->coupling[c]));
   PetscCall(VecDestroy(&as->cover));
   PetscCall(VecDestroy(&as->gap));
   PetscFunctionReturn(0);
@@ -85,27 +81,18 @@ typedef struct {
 static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
   Vec      u;
-  PetscInt n, *row = as->row, *node = as->node;
+  PetscInt n;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(contact->dm, &u));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(DMRestoreGlobalVector(contact->dm, &u));
   coupling->dim = as->dim;
-  if (as->dim > 1) PetscCall(PetscMalloc2(as->n, &row, as->n, &node));
   for (PetscInt c = 0; c < as->dim; ++c) {
-    if (as->dim > 1) { /* the preallocation of the first matrix sorts them */
-      PetscCall(PetscArraycpy(row, as->row, as->n));
-      PetscCall(PetscArraycpy(node, as->node, as->n));
-    }
-    PetscCall(MatCreate(contact->comm, &coupling->mat[c]));
-    PetscCall(MatSetSizes(coupling->mat[c], contact->rows.nlocal, n / 3, PETSC_DETERMINE, PETSC_DETERMINE));
-    PetscCall(MatSetType(coupling->mat[c], MATAIJ));
-    PetscCall(MatSetPreallocationCOO(coupling->mat[c], as->n, row, node));
-    PetscCall(MatSetValuesCOO(coupling->mat[c], as->value[c], INSERT_VALUES));
+    PetscCall(
+      ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n / 3, &as->coupling[c], &coupling->mat[c]));
     PetscCall(ContactHangingRowsMatrix(contact, &coupling->mat[c]));
   }
-  if (as->dim > 1) PetscCall(PetscFree2(row, node));
   PetscFunctionReturn(0);
 }
 
@@ -448,11 +435,12 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
   PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  if (contact->smooth.slopes) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
+  if (contact->smooth.slopes && !as->gaps_only) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
+  (*lin)->gaps_only = (PetscBool)(as->gaps_only && contact->smooth.slopes);
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));

@@ -109,11 +109,12 @@ PETSC_INTERN PetscErrorCode ContactSmoothFind(Contact, Vec);
 PETSC_INTERN PetscErrorCode ContactSmoothDeform(Contact, Vec u);
 PETSC_INTERN PetscErrorCode ContactSmoothReset(Contact);
 
-/* entries.c: matrix entries in any order; repeated ones are added */
+/* entries.c: blocks of matrix entries in any order; repeated ones are added. Block b of a row is columns width b to
+   width (b + 1) - 1. Starts as zeros but for the width */
 typedef struct {
-  PetscInt     n, size; /* entries used; entries allocated */
-  PetscInt    *row, *column;
-  PetscScalar *value;
+  PetscInt     n, size, width; /* blocks used; blocks allocated; entries of a block */
+  PetscInt    *row, *block;
+  PetscScalar *value; /* [width n] */
 } ContactEntries;
 PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, PetscInt n, const PetscInt block[],
   const PetscReal value[]);
@@ -126,16 +127,14 @@ PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 /* slip.c: the slip rows that belong to the rows of the gap */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
-/* assemble.c: data of a contact update under construction. entries: (row, node, value); repeated ones are added */
+/* assemble.c: data of a contact update under construction */
 typedef struct {
-  Vec          gap;        /* int phi_A gap [length^3] */
-  Vec          cover;      /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
-  PetscInt     n, size;    /* entries used; entries allocated */
-  PetscInt    *row, *node; /* global row, global number of the vertex */
-  PetscInt     dim;        /* 1: one value per entry, multiplied by the row's normal; 3: a vector per entry */
-  PetscScalar *value[3];   /* int phi_A (N2 - N1) [length^2]; times the normal: derivative of the gap by the vertex's
-                  displacement */
-
+  PetscBool      gaps_only;   /* without derivatives of smooth pairs */
+  Vec            gap;         /* int phi_A gap [length^3] */
+  Vec            cover;       /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
+  PetscInt       dim;         /* 1: one value per vertex, multiplied by the row's normal; 3: a vector per vertex */
+  ContactEntries coupling[3]; /* dim times, by vertices: int phi_A (N2 - N1) [length^2]; times the normal: derivative of
+                                 the gap by the vertex's displacement */
   ContactEntries rigid, by_cover, by_node,
     by_normal; /* derivatives of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
 } ContactAssembly;

@@ -1,35 +1,126 @@
-/* Assembles a matrix from entries in any order, for rows on any rank */
+/*
+   Assembles a matrix from entries in any order, for rows on any rank. Entries come in blocks of one row and `width`
+   successive columns. A block is repeated for each overlap of two facets. Repeated blocks are added before PETSc sorts
+   the entries, which would take most of the time otherwise.
+*/
 #include "assemblyimpl.h"
 
-/* Adds a row's entries for n blocks of three columns each */
+/* Adds n blocks of a row */
 PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],
   const PetscReal value[])
 {
+  const PetscInt width = entries->width;
+
   PetscFunctionBegin;
-  if (entries->n + 3 * n > entries->size) {
-    entries->size = 2 * entries->size + 3 * n + 1024;
+  if (entries->n + n > entries->size) {
+    entries->size = 2 * entries->size + n + 512;
     PetscCall(PetscRealloc(entries->size * sizeof(PetscInt), &entries->row));
-    PetscCall(PetscRealloc(entries->size * sizeof(PetscInt), &entries->column));
-    PetscCall(PetscRealloc(entries->size * sizeof(PetscScalar), &entries->value));
+    PetscCall(PetscRealloc(entries->size * sizeof(PetscInt), &entries->block));
+    PetscCall(PetscRealloc(width * entries->size * sizeof(PetscScalar), &entries->value));
   }
-  for (PetscInt i = 0; i < 3 * n; ++i) {
-    entries->row[entries->n]    = row;
-    entries->column[entries->n] = 3 * block[i / 3] + i % 3;
-    entries->value[entries->n]  = value[i];
-    ++entries->n;
+  for (PetscInt i = 0; i < n; ++i) {
+    entries->row[entries->n + i]   = row;
+    entries->block[entries->n + i] = block[i];
+  }
+  for (PetscInt i = 0; i < width * n; ++i) entries->value[width * entries->n + i] = value[i];
+  entries->n += n;
+  PetscFunctionReturn(0);
+}
+
+/* order: the blocks by rows; first[k] to first[k + 1] - 1 are those of the k-th of *nrows successive rows */
+static PetscErrorCode EntriesOrder(const ContactEntries *entries, PetscInt *nrows, PetscInt **first, PetscInt **order)
+{
+  PetscInt least = entries->n ? entries->row[0] : 0, most = entries->n ? least : -1;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < entries->n; ++i) {
+    least = PetscMin(least, entries->row[i]);
+    most  = PetscMax(most, entries->row[i]);
+  }
+  *nrows = most - least + 1;
+  PetscCall(PetscCalloc1(*nrows + 2, first));
+  PetscCall(PetscMalloc1(entries->n, order));
+  for (PetscInt i = 0; i < entries->n; ++i) ++(*first)[entries->row[i] - least + 2];
+  for (PetscInt k = 2; k < *nrows + 2; ++k) (*first)[k] += (*first)[k - 1];
+  for (PetscInt i = 0; i < entries->n; ++i) (*order)[(*first)[entries->row[i] - least + 1]++] = i;
+  PetscFunctionReturn(0);
+}
+
+/* Appends a row's blocks to `merged`, repeated ones added. slot: table of `size` numbers, a power of two and at least
+   twice n, all negative before and after */
+static PetscErrorCode EntriesMergeRow(const ContactEntries *entries, PetscInt n, const PetscInt order[], PetscInt size,
+  PetscInt slot[], ContactEntries *merged)
+{
+  const PetscInt width = entries->width, start = merged->n;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt     block = entries->block[order[i]];
+    const PetscScalar *value = &entries->value[width * order[i]];
+    PetscInt           place = block & (size - 1);
+
+    while (slot[place] >= 0 && merged->block[slot[place]] != block) place = (place + 1) & (size - 1);
+    if (slot[place] < 0) {
+      slot[place]              = merged->n;
+      merged->row[merged->n]   = entries->row[order[i]];
+      merged->block[merged->n] = block;
+      for (PetscInt c = 0; c < width; ++c) merged->value[width * merged->n + c] = 0.0;
+      ++merged->n;
+    }
+    for (PetscInt c = 0; c < width; ++c) merged->value[width * slot[place] + c] += value[c];
+  }
+  for (PetscInt i = start; i < merged->n; ++i) {
+    PetscInt place = merged->block[i] & (size - 1);
+
+    for (; slot[place] >= 0; place = (place + 1) & (size - 1)) slot[place] = -1;
   }
   PetscFunctionReturn(0);
 }
 
-/* Collective. Assembles a matrix from the entries of all ranks; m, n: local sizes. Destroys the entries' indices */
+/* Adds repeated blocks of this rank */
+static PetscErrorCode EntriesMerge(ContactEntries *entries)
+{
+  PetscInt       nrows, *first, *order, *slot, longest = 0, size = 2;
+  ContactEntries merged = {.size = entries->n, .width = entries->width};
+
+  PetscFunctionBegin;
+  PetscCall(EntriesOrder(entries, &nrows, &first, &order));
+  for (PetscInt k = 0; k < nrows; ++k) longest = PetscMax(longest, first[k + 1] - first[k]);
+  while (size < 2 * longest) size *= 2;
+  PetscCall(PetscMalloc1(size, &slot));
+  for (PetscInt k = 0; k < size; ++k) slot[k] = -1;
+  PetscCall(PetscMalloc1(merged.size, &merged.row));
+  PetscCall(PetscMalloc1(merged.size, &merged.block));
+  PetscCall(PetscMalloc1(merged.width * merged.size, &merged.value));
+  for (PetscInt k = 0; k < nrows; ++k)
+    PetscCall(EntriesMergeRow(entries, first[k + 1] - first[k], order + first[k], size, slot, &merged));
+  PetscCall(PetscFree(slot));
+  PetscCall(PetscFree(order));
+  PetscCall(PetscFree(first));
+  PetscCall(ContactEntriesDestroy(entries));
+  *entries = merged;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Assembles a matrix from the entries of all ranks; m, n: local sizes */
 PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm comm, PetscInt m, PetscInt n, ContactEntries *entries, Mat *mat)
 {
+  const PetscInt width = entries->width;
+  PetscInt      *row, *column;
+
   PetscFunctionBegin;
+  PetscCall(EntriesMerge(entries));
+  PetscCall(PetscMalloc2(width * entries->n, &row, width * entries->n, &column));
+  for (PetscInt i = 0; i < width * entries->n; ++i) {
+    row[i]    = entries->row[i / width];
+    column[i] = width * entries->block[i / width] + i % width;
+  }
   PetscCall(MatCreate(comm, mat));
   PetscCall(MatSetSizes(*mat, m, n, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(*mat, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(*mat, entries->n, entries->row, entries->column));
+  PetscCall(MatSetPreallocationCOO(*mat, width * entries->n, row, column));
   PetscCall(MatSetValuesCOO(*mat, entries->value, INSERT_VALUES));
+  PetscCall(PetscFree2(row, column));
   PetscFunctionReturn(0);
 }
 
@@ -37,7 +128,7 @@ PetscErrorCode ContactEntriesDestroy(ContactEntries *entries)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(entries->row));
-  PetscCall(PetscFree(entries->column));
+  PetscCall(PetscFree(entries->block));
   PetscCall(PetscFree(entries->value));
   entries->n = entries->size = 0;
   PetscFunctionReturn(0);

@@ -44,21 +44,24 @@ typedef struct {
 static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
-  const PetscReal *x = &mortar->x[12 * k];
+  const PetscBool  sloped = (PetscBool)!assembly->gaps_only;
+  const PetscReal *x      = &mortar->x[12 * k];
   PetscReal        cover[4];
   ContactPatch     patch;
   ContactSlopes    slopes;
 
   PetscFunctionBegin;
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
-  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, &facet->slopes, &slopes);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, sloped ? &facet->slopes : NULL,
+    sloped ? &slopes : NULL);
   if (facet->dual) {
     ContactDualTransform(facet->dual, 1, gap);
     ContactDualTransform(facet->dual, 1, cover);
-    ContactDualTransformSlopes(facet->dual, &slopes);
+    if (sloped) ContactDualTransformSlopes(facet->dual, &slopes);
   }
   for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
-  PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
+  if (sloped)
+    PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
   PetscFunctionReturn(0);
 }
 
@@ -138,13 +141,13 @@ static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const C
   if (facet.noverlaps) {
     PetscScalar gap[4], cover[4];
 
-    if (smooth && facet.dual) ContactDualTransformSlopes(facet.dual, &facet.slopes);
+    if (smooth && facet.dual && !assembly->gaps_only) ContactDualTransformSlopes(facet.dual, &facet.slopes);
     for (PetscInt a = 0; a < 4; ++a) {
       gap[a]   = facet.gap[a];
       cover[a] = facet.cover[a];
       PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
     }
-    if (smooth)
+    if (smooth && !assembly->gaps_only)
       PetscCall(
         ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
     PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));

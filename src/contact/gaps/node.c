@@ -181,7 +181,8 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   offset /= 3;
   value[0] = -mass;
   PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
-  if (mortar->normal_id) PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
+  if (mortar->normal_id && !assembly->gaps_only)
+    PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscFunctionReturn(0);
 }

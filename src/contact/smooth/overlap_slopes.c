@@ -291,7 +291,7 @@ static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *cons
 
 /*
    gap[A] = int phi_A (H2 - H1) and cover[A] = int phi_A over the overlap of x1 and x2 found by ContactOverlapFind().
-   Derivatives are stored in mortar and added to nonmortar.
+   Derivatives are stored in mortar and added to nonmortar; both NULL: without derivatives.
 */
 void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
@@ -303,12 +303,12 @@ void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, cons
   PlaneSlopes            by[4] = {{.height = {{0}}}};
 
   for (PetscInt a = 0; a < 4; ++a) gap[a] = cover[a] = 0.0;
-  *mortar = none;
+  if (mortar) *mortar = none;
   if (!ContactFrameCreate(x1, &pair.frame)) return;
   ContactFrameProject(&pair.frame, x1, pair.p[0], pair.height[0]);
   ContactFrameProject(&pair.frame, x2, pair.p[1], pair.height[1]);
   for (PetscInt t = 0; t < o->ntriangles; ++t) AddTriangle(o, rule, t, &pair, gap, cover, by);
-  for (PetscInt a = 0; a < 4; ++a) {
+  for (PetscInt a = 0; a < 4 && mortar; ++a) {
     for (PetscInt k = 0; k < o->ncorners; ++k) {
       MoveCorner(&pair, &o->corner[k], by[a].gap.corner[k], &by[a].gap);
       MoveCorner(&pair, &o->corner[k], by[a].cover.corner[k], &by[a].cover);
