@@ -1,8 +1,8 @@
 /*
    Solves the laws of laws.c by Newton's method (set.c), or if that fails by continuation in the coefficients of
    friction, or by the convex problem with fixed bounds (convex.c). With a small coefficient the path of smoothed laws
-   (path.c) is reliable. From its end the coefficient grows in steps that Newton's method can follow, up to the values of
-   terms that stick.
+   (path.c) is reliable. From its end the coefficient grows in steps that Newton's method can follow, up to the values
+   of terms that stick.
 */
 #include "frictionimpl.h"
 

@@ -182,8 +182,8 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
 }
 
 /* Overwrites r_f and r_y with the solution to the relative residual rtol. Small systems are solved by dense factors,
-   and large ones once GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned. *solved:
-   false if there is no solution */
+   and large ones once GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned.
+   *solved: false if there is no solution */
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {

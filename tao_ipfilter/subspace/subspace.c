@@ -368,7 +368,8 @@ PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
 }
 
 /* Extends W to all unknowns. With few directions the reduced problem may be far from the whole one, and its laws of
-   norm terms much harder: bodies that are thin or nearly incompressible. *possible: false if K is not positive definite */
+   norm terms much harder: bodies that are thin or nearly incompressible. *possible: false if K is not positive
+   definite */
 PetscErrorCode IPFilteredWiden(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   IPFiltered *f = IPFilteredOf(tao);
