@@ -1,6 +1,6 @@
-/* Solves the systems of system.c by a dense LU factorization where GMRES fails. That happens for soft bodies with
-   very different stiffnesses along their motions. C is computed once. Rows that are open or have no friction are left
-   out. */
+/* Solves the systems of system.c by a dense LU factorization, if they are small or GMRES fails. That happens for soft
+   bodies with very different stiffnesses along their motions. Columns of C are computed when they are needed first.
+   Rows that are open or have no friction are left out. */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
@@ -12,16 +12,21 @@ PetscBool IPTermDenseFits(const IPTermSystem *t)
   return (PetscBool)(t->m <= limit);
 }
 
-static PetscErrorCode TermDenseMakeCompliance(IPTermSystem *t)
+/* Computes the columns of C that are still missing for the given rows */
+static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const PetscInt rows[])
 {
   PetscFunctionBegin;
-  if (t->C) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1((size_t)t->m * (size_t)t->m, &t->C));
+  if (!t->C) {
+    PetscCall(PetscMalloc1((size_t)t->m * (size_t)t->m, &t->C));
+    PetscCall(PetscCalloc1(t->m, &t->computed));
+  }
   PetscCall(PetscArrayzero(t->f, t->m));
-  for (PetscInt j = 0; j < t->m; j++) {
-    t->f[j] = 1.0;
-    PetscCall(IPTermSystemApplyCompliance(t, t->f, t->C + (size_t)j * (size_t)t->m));
-    t->f[j] = 0.0;
+  for (PetscInt j = 0; j < n; j++) {
+    if (t->computed[rows[j]]) continue;
+    t->f[rows[j]] = 1.0;
+    PetscCall(IPTermSystemApplyCompliance(t, t->f, t->C + (size_t)rows[j] * (size_t)t->m));
+    t->f[rows[j]]        = 0.0;
+    t->computed[rows[j]] = PETSC_TRUE;
   }
   PetscFunctionReturn(0);
 }
@@ -55,7 +60,7 @@ static PetscErrorCode TermDenseFindCoupled(const IPTermSystem *t, const PetscRea
   PetscFunctionReturn(0);
 }
 
-/* a = B_v a with the rows' scale; a has length m */
+/* a = scale B_v a for an array a of length m */
 static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
 {
   PetscScalar *z;
@@ -70,40 +75,54 @@ static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
   PetscFunctionReturn(0);
 }
 
-/* Assembles the scaled matrix of n rows and of the directions; its columns have length n + k */
+/* Row i of the scaled matrix of n rows and of the directions, whose columns have length n + k. place: of the system's
+   rows among the n, or negative */
+static PetscErrorCode TermDenseAssembleRow(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
+  const PetscInt place[], PetscInt i, PetscReal N[])
+{
+  const PetscInt     ld = n + s->k, row = rows[i];
+  const PetscInt    *columns;
+  const PetscScalar *values;
+  PetscInt           nc;
+
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < ld; j++) N[i + (size_t)j * (size_t)ld] = 0.0;
+  PetscCall(MatGetRow(t->Bv, row, &nc, &columns, &values));
+  for (PetscInt c = 0; c < nc; c++) {
+    const PetscReal by_v = t->scale[row] * PetscRealPart(values[c]);
+
+    if (by_v == 0.0) continue;
+    for (PetscInt j = 0; j < n; j++)
+      N[i + (size_t)j * (size_t)ld] += by_v * t->scale[rows[j]] * t->C[columns[c] + (size_t)rows[j] * (size_t)t->m];
+    for (PetscInt j = 0; j < s->k; j++)
+      N[i + (size_t)(n + j) * (size_t)ld] -= by_v * s->JZ[columns[c] + (size_t)j * (size_t)t->m];
+  }
+  PetscCall(MatRestoreRow(t->Bv, row, &nc, &columns, &values));
+  PetscCall(MatGetRow(t->Bf, row, &nc, &columns, &values));
+  for (PetscInt c = 0; c < nc; c++) {
+    if (place[columns[c]] >= 0)
+      N[i + (size_t)place[columns[c]] * (size_t)ld] += t->scale[row] * t->scale[columns[c]] * PetscRealPart(values[c]);
+  }
+  PetscCall(MatRestoreRow(t->Bf, row, &nc, &columns, &values));
+  PetscFunctionReturn(0);
+}
+
+/* Assembles the scaled matrix of n rows and of the directions */
 static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
   PetscReal N[])
 {
-  const PetscInt k = s->k, ld = n + k;
+  const PetscInt ld = n + s->k;
   PetscInt      *place;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < ld; j++) {
-    const PetscReal *from   = j < n ? t->C + (size_t)rows[j] * (size_t)t->m : s->JZ + (size_t)(j - n) * (size_t)t->m;
-    const PetscReal  factor = j < n ? t->scale[rows[j]] : -1.0;
-
-    for (PetscInt i = 0; i < t->m; i++) t->v[i] = factor * from[i];
-    PetscCall(TermDenseMultiply(t, t->v));
-    for (PetscInt i = 0; i < n; i++) N[i + (size_t)j * (size_t)ld] = t->v[rows[i]];
-    for (PetscInt i = 0; i < k; i++)
-      N[n + i + (size_t)j * (size_t)ld] =
-        j < n ? factor * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
-  }
   PetscCall(PetscMalloc1(t->m, &place));
   for (PetscInt i = 0; i < t->m; i++) place[i] = -1;
   for (PetscInt i = 0; i < n; i++) place[rows[i]] = i;
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscInt    *columns;
-    const PetscScalar *values;
-    PetscInt           nc;
-
-    PetscCall(MatGetRow(t->Bf, rows[i], &nc, &columns, &values));
-    for (PetscInt c = 0; c < nc; c++) {
-      if (place[columns[c]] >= 0)
-        N[i + (size_t)place[columns[c]] * (size_t)ld] +=
-          t->scale[rows[i]] * t->scale[columns[c]] * PetscRealPart(values[c]);
-    }
-    PetscCall(MatRestoreRow(t->Bf, rows[i], &nc, &columns, &values));
+  for (PetscInt i = 0; i < n; i++) PetscCall(TermDenseAssembleRow(t, s, n, rows, place, i, N));
+  for (PetscInt i = 0; i < s->k; i++) {
+    for (PetscInt j = 0; j < ld; j++)
+      N[n + i + (size_t)j * (size_t)ld] =
+        j < n ? t->scale[rows[j]] * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
   }
   PetscCall(PetscFree(place));
   PetscFunctionReturn(0);
@@ -134,18 +153,23 @@ static PetscErrorCode TermDenseSubtract(IPTermSystem *t, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution; *solved is false where the matrix is singular */
-PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
-  PetscBool *solved)
+/* Overwrites r_f and r_y with the solution. *solved: false if the matrix is singular or has more than `most` rows */
+PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscInt most, PetscReal rf[],
+  PetscReal ry[], PetscBool *solved)
 {
   PetscInt     n, *rows;
   PetscReal   *N, *x, *known;
   PetscBLASInt nb, one = 1, info, *pivots;
 
   PetscFunctionBegin;
-  PetscCall(TermDenseMakeCompliance(t));
+  *solved = PETSC_FALSE;
   PetscCall(PetscMalloc2(t->m, &rows, t->m, &known));
   PetscCall(TermDenseFindCoupled(t, rf, &n, rows, known));
+  if (n + s->k > most) {
+    PetscCall(PetscFree2(rows, known));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(TermDenseMakeColumns(t, n, rows));
   PetscCall(TermDenseSubtract(t, s, known, rf, ry));
   PetscCall(PetscBLASIntCast(n + s->k, &nb));
   PetscCall(PetscMalloc3((size_t)nb * (size_t)nb, &N, nb, &x, nb, &pivots));
@@ -163,5 +187,24 @@ PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, Petsc
   }
   PetscCall(PetscFree3(N, x, pivots));
   PetscCall(PetscFree2(rows, known));
+  PetscFunctionReturn(0);
+}
+
+/* Computes all columns of C, and from them the compliances of the rows. The estimates from the diagonal of K_WW are far
+   too small for bodies that bend. *measured: false if C is too large, or was measured before */
+PetscErrorCode IPTermDenseMeasure(IPTermSystem *t, PetscBool *measured)
+{
+  const PetscInt most = 1500;
+  PetscInt      *rows;
+
+  PetscFunctionBegin;
+  *measured = (PetscBool)(!t->measured && t->m <= most);
+  if (!*measured) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(t->m, &rows));
+  for (PetscInt i = 0; i < t->m; i++) rows[i] = i;
+  PetscCall(TermDenseMakeColumns(t, t->m, rows));
+  for (PetscInt i = 0; i < t->m; i++) t->compliance[i] = PetscMax(0.0, t->C[i + (size_t)i * (size_t)t->m]);
+  PetscCall(PetscFree(rows));
+  t->measured = t->dense = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

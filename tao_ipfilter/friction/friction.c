@@ -45,11 +45,11 @@ static PetscErrorCode LawsForget(IPLaws laws)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode LawsSolve(IPLaws laws, const IPReducedSystem *s, PetscInt *steps, PetscInt *nactive,
-  PetscBool *met, PetscBool *solved)
+static PetscErrorCode LawsSolve(IPLaws laws, const IPReducedSystem *s, PetscBool simply, PetscInt *steps,
+  PetscInt *nactive, PetscBool *met, PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(IPTermSetSolve(&laws->set, s, steps, solved));
+  PetscCall(IPTermSetSolve(&laws->set, s, simply, steps, solved));
   *nactive = laws->set.na;
   *met     = laws->set.met;
   PetscFunctionReturn(0);

@@ -24,7 +24,10 @@ typedef struct {
   Vec           r, z, w, Kw; /* of rows and of W */
   PetscInt      fresh;       /* iterations that GMRES needed when the factors were new */
   PetscBool     stale;       /* the factors must be renewed */
-  PetscReal    *C;           /* the dense matrix C, once GMRES has failed (dense.c); NULL: not computed */
+  PetscBool     dense;       /* GMRES has failed: systems of all sizes are solved by dense.c */
+  PetscBool     measured;    /* compliance is the diagonal of C, not an estimate */
+  PetscReal    *C;           /* columns of C, of length m; NULL: none is computed */
+  PetscBool    *computed;    /* which columns are computed */
 } IPTermSystem;
 
 /* State of constraints and norm terms: open or closed, stick or slip: laws.c */
@@ -61,8 +64,9 @@ PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[
 
 /* dense.c */
 PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);
-PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rf[], PetscReal ry[],
-  PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPTermDenseMeasure(IPTermSystem *, PetscBool *measured);
+PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscInt most, PetscReal rf[],
+  PetscReal ry[], PetscBool *solved);
 
 /* solve.c */
 PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[],
@@ -74,6 +78,7 @@ PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt km
 PETSC_INTERN PetscErrorCode IPTermLawsDestroy(IPTermSet *);
 PETSC_INTERN PetscInt       IPTermLawsRow(const IPTermSet *, PetscInt term);
 PETSC_INTERN PetscReal      IPTermLawsBound(const IPTermSet *, const IPReducedSystem *, PetscInt term);
+PETSC_INTERN void           IPTermLawsList(IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN PetscErrorCode IPTermLawsMove(IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN void           IPTermLawsRelieve(const IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN PetscReal      IPTermLawsCompliance(const IPTermSet *, PetscInt row);
@@ -94,7 +99,13 @@ PETSC_INTERN PetscErrorCode IPTermConvexSolve(IPTermSet *, const IPReducedSystem
   PetscBool *solved);
 
 /* set.c */
-PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPTermSetOff(IPTermSet *, const IPReducedSystem *, PetscReal *off);
+PETSC_INTERN PetscErrorCode IPTermSetIterate(IPTermSet *, const IPReducedSystem *, PetscInt limit, PetscReal first,
+  PetscInt *steps, PetscBool *solved);
+
+/* continuation.c */
+PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscBool simply, PetscInt *steps,
+  PetscBool *solved);
 
 /* friction.c */
 PETSC_INTERN const IPLawsOps IPLawsFriction;

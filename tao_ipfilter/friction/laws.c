@@ -2,7 +2,7 @@
    Laws of constraints and norm terms (friction among them) on the subspace. With w eliminated, forces f = (lambda, tau)
    and motions v of all rows satisfy
 
-     v = C f - RZ y - h,   T y + RZ^T f = t,
+     v = C (f - base) - RZ y - h,   T y + RZ^T (f - base) = t,
      lambda >= 0,   v_n >= 0,   lambda v_n = 0,   tau = P(tau - rho v_t).
 
    P is the projection to |tau| <= b(lambda), R = [J; T], C = R K_WW^-1 R^T, RZ = R K_WW^-1 Q_W. This file finds the
@@ -65,7 +65,7 @@ static PetscReal TermLawsLargest(PetscInt n, const PetscReal a[])
   return largest;
 }
 
-/* Computes v = C f - RZ y - h into s->gap, and the magnitude of its terms */
+/* Computes v = C (f - base) - RZ y - h into s->gap, and the magnitude of its terms */
 PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -74,7 +74,8 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(s->m, &m));
   PetscCall(PetscBLASIntCast(s->k, &k));
-  PetscCall(IPTermSystemApplyCompliance(&set->system, s->lambda, s->gap));
+  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = s->lambda[i] - s->base[i];
+  PetscCall(IPTermSystemApplyCompliance(&set->system, set->system.f, s->gap));
   for (PetscInt i = 0; i < s->m; i++) set->system.v[i] = -s->h[i];
   if (k && m)
     PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, set->system.v, &inc));
@@ -98,9 +99,8 @@ PetscReal IPTermLawsCompliance(const IPTermSet *set, PetscInt row)
   return PetscMax(compliance[first], row < set->m ? 0.0 : compliance[first + 1]);
 }
 
-/* Lists the active rows: closed constraints and terms that can carry a force, if their compliance is not zero. The
-   force of all other rows is set to zero. */
-static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
+/* Lists the active rows: closed constraints and terms that can carry a force, if their compliance is not zero */
+void IPTermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal rounding = 1e-14; /* relative to the largest compliance: tangents of held directions have a
                                        compliance of rounding size */
@@ -112,8 +112,8 @@ static void TermLawsList(IPTermSet *set, const IPReducedSystem *s)
 
     set->active[r] = (PetscBool)(wanted && IPTermLawsCompliance(set, r) > (r < set->m ? 0.0 : rounding * largest));
     set->na += set->active[r];
-    if (!set->active[r]) s->lambda[r] = 0.0;
   }
+  set->listed = PETSC_TRUE;
 }
 
 /* rho of each term: the inverse of its compliance [force/length] */
@@ -151,7 +151,7 @@ PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component
   return (row - set->m) / 2;
 }
 
-/* Residual of the directions' equations: Fy = T y + RZ^T f - t */
+/* Residual of the directions' equations: Fy = T y + RZ^T (f - base) - t */
 PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -164,7 +164,8 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscCall(PetscBLASIntCast(s->kmax, &kmax));
   PetscCall(PetscArraycpy(set->Fy, s->t, s->k));
   PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, s->T, &kmax, s->y, &inc, &minus, set->Fy, &inc));
-  PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &one, s->JZ, &m, s->lambda, &inc, &one, set->Fy, &inc));
+  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = s->lambda[i] - s->base[i];
+  PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &one, s->JZ, &m, set->system.f, &inc, &one, set->Fy, &inc));
   PetscFunctionReturn(0);
 }
 
@@ -175,15 +176,13 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   PetscReal merit = 0.0;
 
   for (PetscInt i = 0; i < set->m; i++) {
-    const PetscReal compliance = set->system.compliance[i],
-                    off = set->active[i] ? PetscMin(s->lambda[i] * compliance, s->gap[i]) : PetscMin(0.0, s->gap[i]);
+    const PetscReal compliance = set->system.compliance[i];
 
-    if (compliance > 0.0) merit += PetscSqr(off) / compliance;
+    if (compliance > 0.0) merit += PetscSqr(PetscMin(s->lambda[i] * compliance, s->gap[i])) / compliance;
   }
   for (PetscInt i = 0; i < set->n; i++) {
     PetscReal v[2];
 
-    if (!set->active[IPTermLawsRow(set, i)]) continue;
     IPTermLawsMotion(set, s, i, v);
     merit += set->rho[i] *
              PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
@@ -191,13 +190,13 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   return merit;
 }
 
-/* Updates the list of active rows for f and y, and computes v */
+/* Updates the list of active rows, sets the force of all other rows to zero, and computes v */
 PetscErrorCode IPTermLawsRenew(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscFunctionBegin;
-  TermLawsList(set, s);
+  IPTermLawsList(set, s);
+  for (PetscInt r = 0; r < s->m; r++) s->lambda[r] = set->active[r] ? s->lambda[r] : 0.0;
   IPTermLawsRelieve(set, s);
   PetscCall(IPTermLawsMove(set, s));
-  set->listed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -7,20 +7,26 @@
 */
 #include "frictionimpl.h"
 
+/* Exchanges of constraints: the smallest number of wrong ones so far, and exchanges since */
+typedef struct {
+  PetscInt fewest, idle;
+} TermSetCount;
+
 /* Updates which constraints are closed: a closed one opens under tension, an open one closes if penetrated. all: all
-   of them, else only the last one that is wrong. Returns whether any changed. */
-static PetscBool TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)
+   of them, else only the last one that is wrong. Returns the number of wrong ones. */
+static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)
 {
   const PetscReal rounding = 1e-13;
-  PetscBool       changed  = PETSC_FALSE;
+  PetscInt        wrong    = 0;
 
-  for (PetscInt i = set->m - 1; i >= 0 && (all || !changed); i--) {
+  for (PetscInt i = set->m - 1; i >= 0; i--) {
     const PetscBool closed = (PetscBool)(set->closed[i] ? s->lambda[i] >= 0.0 : s->gap[i] < -rounding * set->length);
 
-    changed        = (PetscBool)(changed || closed != set->closed[i]);
-    set->closed[i] = closed;
+    if (closed == set->closed[i]) continue;
+    if (all || !wrong) set->closed[i] = closed;
+    wrong++;
   }
-  return changed;
+  return wrong;
 }
 
 /* Friction bound of a term. If its constraint has just closed, the bound is estimated from the force that would
@@ -66,8 +72,17 @@ static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
   }
 }
 
-/* Residuals of the active rows [length]: v of closed and sticking rows, (tau - bound d) / rho of slipping ones.
-   Returns the largest. */
+/* Factor of the force of an inactive row in its equation f = 0 [length/force] */
+static PetscReal TermSetUnit(const IPTermSet *set, PetscInt row)
+{
+  const PetscReal compliance = IPTermLawsCompliance(set, row);
+
+  if (row >= set->m) return 1.0 / set->rho[(row - set->m) / 2];
+  return compliance > 0.0 ? compliance : 1.0;
+}
+
+/* Residuals of all rows [length]: the force, as a length, of inactive ones; v of closed and sticking rows, (tau - bound
+   d) / rho of slipping ones. Returns the largest. */
 static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal largest = 0.0;
@@ -76,8 +91,10 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
     PetscInt       a = 0;
     const PetscInt i = IPTermLawsOfRow(set, r, &a);
 
-    set->F[r] = 0.0;
-    if (!set->active[r]) continue;
+    if (!set->active[r]) {
+      set->F[r] = s->lambda[r] * TermSetUnit(set, r);
+      continue;
+    }
     if (i >= 0 && set->slips[i]) {
       PetscReal       b[2];
       const PetscReal size = IPTermLawsTrial(set, s, i, b);
@@ -142,7 +159,7 @@ static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
   if (set->active[row]) {
     TermSetRow(set, row, by_v, by_f, &by_f[2]);
     by_f[a] += (i < 0 ? shift : terms) * compliance;
-  } else by_f[a] = 1.0 / (scale * scale);
+  } else by_f[a] = TermSetUnit(set, row);
   PetscCall(IPTermSystemSetRow(&set->system, row, n, columns, by_v, by_f, scale));
   PetscFunctionReturn(0);
 }
@@ -156,8 +173,7 @@ static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, Pets
   PetscCall(IPTermSystemAssemble(&set->system));
   PetscCall(IPTermSolve(&set->system, s, rtol, set->F, set->Fy, solved));
   if (!*solved) PetscFunctionReturn(0);
-  for (PetscInt r = 0; r < s->m; r++)
-    if (set->active[r]) s->lambda[r] -= set->F[r];
+  for (PetscInt r = 0; r < s->m; r++) s->lambda[r] = set->active[r] ? s->lambda[r] - set->F[r] : 0.0;
   for (PetscInt j = 0; j < s->k; j++) s->y[j] -= set->Fy[j];
   IPTermLawsRelieve(set, s);
   PetscCall(IPTermLawsMove(set, s));
@@ -171,13 +187,15 @@ static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], Pets
 }
 
 /* Line search: from the end of a Newton step back towards its start (f, v, y), by halving, to the point of smallest
-   violation. directions: norm of the directions' residual at the start. v is linear along the step, so no system is
-   solved. */
+   violation. If no point has less than the start, the whole step is taken, since many short ones would lead nowhere.
+   directions: norm of the directions' residual at the start. v is linear along the step, so no system is solved. */
 static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[],
   const PetscReal y[], PetscReal directions)
 {
-  const PetscInt halvings = 8;
-  PetscReal      least = IPTermLawsMerit(set, s), best = 1.0, alpha = 1.0, *trial;
+  const IPReducedSystem begin    = {.m = s->m, .lambda = (PetscReal *)f, .gap = (PetscReal *)v};
+  const PetscInt        halvings = 8;
+  PetscReal             best = 1.0, alpha = 1.0, *trial;
+  PetscReal             least = PetscMin(IPTermLawsMerit(set, s), IPTermLawsMerit(set, &begin) + PetscSqr(directions));
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(2 * s->m, &trial));
@@ -226,106 +244,131 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
   PetscReal sum = 0.0;
 
   for (PetscInt r = 0; r < s->m; r++) {
-    if (set->active[r]) sum += PetscSqr(set->F[r]) / IPTermLawsCompliance(set, r);
+    const PetscReal compliance = IPTermLawsCompliance(set, r);
+
+    if (compliance > 0.0) sum += PetscSqr(set->F[r]) / compliance;
   }
   for (PetscInt j = 0; j < s->k; j++) sum += PetscSqr(set->Fy[j]);
   return PetscSqrtReal(sum);
 }
 
-/* Updates which constraints are closed and which terms slip. *changed: whether anything changed */
-static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, PetscBool all, PetscBool *changed)
+/* Updates which constraints are closed and which terms slip. All constraints that are wrong are exchanged; only the
+   last of them if their number has not fallen for several steps, since exchanges of all may cycle (Portugal, Judice and
+   Vicente, A comparison of block pivoting and interior-point algorithms for linear least squares problems with
+   nonnegative variables, 1994). *changed: whether anything changed */
+static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, TermSetCount *count, PetscBool *changed)
 {
+  const PetscInt patience = 10;
+  PetscInt       wrong;
+
   PetscFunctionBegin;
-  *changed = TermSetClose(set, s, all);
-  if (*changed) PetscCall(IPTermLawsRenew(set, s));
+  wrong = TermSetClose(set, s, (PetscBool)(count->idle < patience));
+  count->idle++;
+  if (wrong < count->fewest) {
+    count->fewest = wrong;
+    count->idle   = 0;
+  }
+  *changed = (PetscBool)(wrong > 0);
+  IPTermLawsList(set, s);
   if (TermSetSlip(set, s)) *changed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
-/* At most `limit` Newton steps. *first: norm of the residual at the start; set if negative. *steps is increased by
-   the number of systems solved. */
-static PetscErrorCode TermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal *first,
-  PetscInt *steps, PetscBool *solved)
+/* off: square root of the squared residuals of the laws and of the directions, weighted as an energy */
+PetscErrorCode IPTermSetOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *off)
 {
-  const PetscInt  cycles = 25;
-  const PetscReal exact = 1e-12, rounding = 1e-9, enough = 1e-3, coarse = 1e-1, fine = 1e-10;
-  PetscReal       before = PETSC_INFINITY;
+  PetscFunctionBegin;
+  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  *off = IPTermLawsMerit(set, s);
+  for (PetscInt j = 0; j < s->k; j++) *off += PetscSqr(set->Fy[j]);
+  *off = PetscSqrtReal(*off);
+  PetscFunctionReturn(0);
+}
+
+/* A state of the iteration: f, v, y and which constraints are closed */
+typedef struct {
+  PetscReal  off, *values;
+  PetscBool *closed;
+} TermSetState;
+
+static PetscErrorCode TermSetCopy(IPTermSet *set, const IPReducedSystem *s, TermSetState *state, PetscBool back)
+{
+  PetscReal     *a[3] = {s->lambda, s->gap, s->y}, *b = state->values;
+  const PetscInt n[3] = {s->m, s->m, s->k};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < limit; k++) {
-    PetscReal largest, norm, rtol;
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscCall(PetscArraycpy(back ? a[k] : b, back ? b : a[k], n[k]));
+    b += n[k];
+  }
+  PetscCall(PetscArraycpy(back ? set->closed : state->closed, back ? state->closed : set->closed, set->m));
+  if (back) IPTermLawsList(set, s);
+  PetscFunctionReturn(0);
+}
+
+/* Whether the residuals are at the level of rounding, or no longer fall there */
+static PetscBool TermSetIsExact(const IPTermSet *set, PetscReal largest, PetscReal before)
+{
+  const PetscReal exact = 1e-12, rounding = 1e-9;
+
+  return (PetscBool)(largest <= exact * set->length || (largest <= rounding * set->length && largest > 0.5 * before));
+}
+
+/* Newton's method from the present state, which becomes `state` where the residual is smallest. first: residual that is
+   to be reduced to a small fraction. Ends early if the residual is not halved, nor the number of wrong constraints
+   reduced, in several steps. */
+static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal first,
+  TermSetState *state, PetscInt *steps, PetscBool *solved)
+{
+  const PetscInt  patience = 15;
+  const PetscReal enough = 1e-3, coarse = 1e-1, fine = 1e-10;
+  PetscReal       before = PETSC_INFINITY, halved = PETSC_INFINITY;
+  PetscInt        futile = 0;
+  TermSetCount    count  = {.fewest = set->m + 1};
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k <= limit && futile <= patience; k++) {
+    PetscReal largest, off = 0.0;
     PetscBool changed;
 
-    PetscCall(TermSetExchange(set, s, (PetscBool)(k < cycles), &changed));
+    PetscCall(IPTermSetOff(set, s, &off));
+    *solved = (PetscBool)(k > 0 && off <= enough * first);
+    if (off < state->off) {
+      state->off = off;
+      PetscCall(TermSetCopy(set, s, state, PETSC_FALSE));
+    }
+    if (*solved || k == limit) PetscFunctionReturn(0);
+    PetscCall(TermSetExchange(set, s, &count, &changed));
     largest = TermSetResidual(set, s);
-    PetscCall(IPTermLawsResidualOfDirections(set, s));
-    norm    = TermSetNorm(set, s);
-    *solved = (PetscBool)(k > 0 && !changed && norm <= enough * *first);
-    if (k > 0 && (largest <= exact * set->length || (largest <= rounding * set->length && largest > 0.5 * before)) &&
-        norm <= 0.1 * *first)
-      *solved = PETSC_TRUE;
+    *solved = (PetscBool)(k > 0 && off <= 0.1 * first && TermSetIsExact(set, largest, before));
     if (*solved) PetscFunctionReturn(0);
-    if (*first < 0.0) *first = norm;
     before = largest;
-    rtol   = changed ? coarse : PetscClipInterval(0.5 * enough * *first / norm, fine, coarse);
-    PetscCall(TermSetCarefulStep(set, s, rtol, solved));
+    PetscCall(TermSetCarefulStep(set, s,
+      changed ? coarse : PetscClipInterval(0.5 * enough * first / TermSetNorm(set, s), fine, coarse), solved));
     (*steps)++;
     if (!*solved) PetscFunctionReturn(0);
+    *solved = PETSC_FALSE;
+    futile  = off <= 0.5 * halved || !count.idle ? 0 : futile + 1;
+    if (off <= 0.5 * halved) halved = off;
   }
+  PetscFunctionReturn(0);
+}
+
+/* At most `limit` Newton steps. If they do not reduce the residual to a small fraction of `first` (of the start if
+   negative), the state of smallest residual is kept. *steps is increased by the number of systems solved. */
+PetscErrorCode IPTermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal first,
+  PetscInt *steps, PetscBool *solved)
+{
+  TermSetState state = {.off = PETSC_INFINITY};
+
+  PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
-/* Whether any term has so large a coefficient that it sticks under almost any normal force. Its bound then jumps
-   between 0 and almost infinite, which a smoothed law cannot follow. */
-static PetscBool TermSetSticks(const IPTermSet *set)
-{
-  const PetscReal large  = 100.0;
-  PetscBool       sticks = PETSC_FALSE;
-
-  for (PetscInt i = 0; i < set->n; i++) sticks = (PetscBool)(sticks || set->coefficient[i] >= large);
-  return sticks;
-}
-
-/* Newton's method from the present state; if that fails, again from the end of a path of smoothed laws (path.c). The
-   path is not tried if TermSetSticks(). */
-static PetscErrorCode TermSetTry(IPTermSet *set, const IPReducedSystem *s, PetscReal *first, PetscInt *steps,
-  PetscBool *solved)
-{
-  const PetscBool sticks = TermSetSticks(set);
-  const PetscInt  soon = sticks ? 12 : 40, limit = 100;
-
-  PetscFunctionBegin;
-  PetscCall(TermSetIterate(set, s, soon, first, steps, solved));
-  if (*solved || sticks) PetscFunctionReturn(0);
-  PetscCall(IPTermPathFollow(set, s, steps, solved));
-  if (*solved) PetscCall(TermSetIterate(set, s, limit, first, steps, solved));
-  PetscFunctionReturn(0);
-}
-
-/* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
-   fraction of its start, since later directions will change the problem by more. If Newton's method and the path
-   fail, convex.c compliance the solution, and set->met tells whether it satisfies the laws. *steps: number of systems
-   solved. *solved: false if nothing holds a moving body. */
-PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *solved)
-{
-  PetscReal first = -1.0, *begin;
-
-  PetscFunctionBegin;
-  *steps = 0;
-  IPTermLawsResist(set);
-  if (set->listed) PetscCall(IPTermLawsMove(set, s));
-  else PetscCall(IPTermLawsRenew(set, s));
-  PetscCall(PetscMalloc1(s->m + s->k, &begin));
-  PetscCall(PetscArraycpy(begin, s->lambda, s->m));
-  PetscCall(PetscArraycpy(begin + s->m, s->y, s->k));
-  PetscCall(TermSetTry(set, s, &first, steps, solved));
-  set->met = *solved;
-  if (!*solved) {
-    PetscCall(PetscArraycpy(s->lambda, begin, s->m));
-    PetscCall(PetscArraycpy(s->y, begin + s->m, s->k));
-    PetscCall(IPTermConvexSolve(set, s, first, steps, solved));
-  }
-  PetscCall(PetscFree(begin));
+  if (first < 0.0) PetscCall(IPTermSetOff(set, s, &first));
+  PetscCall(PetscMalloc1(2 * s->m + s->k, &state.values));
+  PetscCall(PetscMalloc1(set->m, &state.closed));
+  PetscCall(TermSetNewton(set, s, limit, first, &state, steps, solved));
+  if (!*solved && state.off < PETSC_INFINITY) PetscCall(TermSetCopy(set, s, &state, PETSC_TRUE));
+  PetscCall(PetscFree(state.closed));
+  PetscCall(PetscFree(state.values));
   PetscFunctionReturn(0);
 }

@@ -181,17 +181,23 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution to the relative residual rtol. If dense factors do not fit into memory,
-   the result of GMRES is returned. *solved: false if there is no solution */
+/* Overwrites r_f and r_y with the solution to the relative residual rtol. Small systems are solved by dense factors,
+   and large ones once GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned.
+   *solved: false if there is no solution */
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {
-  const PetscBool dense = IPTermDenseFits(t);
+  const PetscInt  small = 200;
+  const PetscBool fits  = IPTermDenseFits(t);
   TermSolveShell  solve = {.system = t, .s = s};
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  if (!t->C) PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!dense, solved));
-  if (!*solved && dense) PetscCall(IPTermDenseSolve(t, s, rf, ry, solved));
+  if (fits) PetscCall(IPTermDenseSolve(t, s, t->dense ? PETSC_MAX_INT : small, rf, ry, solved));
+  if (*solved || t->dense) PetscFunctionReturn(0);
+  PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!fits, solved));
+  if (*solved || !fits) PetscFunctionReturn(0);
+  PetscCall(IPTermDenseSolve(t, s, PETSC_MAX_INT, rf, ry, solved));
+  t->dense = *solved;
   PetscFunctionReturn(0);
 }

@@ -30,6 +30,7 @@ PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
   PetscCall(PetscFree4(t->compliance, t->scale, t->f, t->v));
   PetscCall(PetscFree4(t->V, t->ZV, t->H, t->pivots));
   PetscCall(PetscFree(t->C));
+  PetscCall(PetscFree(t->computed));
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscFunctionReturn(0);
 }

@@ -88,8 +88,8 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Takes W. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all */
-static PetscErrorCode FilteredTakeW(Tao tao, const IPReduced *before, PetscBool *thin)
+/* Takes W. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all. */
+static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *thin)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
@@ -102,7 +102,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, const IPReduced *before, PetscBool 
   PetscCall(ISGetSize(ip->cond.filter, &touched));
   *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  if (*thin) PetscCall(FilteredChooseW(tao, before, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  if (*thin && ip->terms.n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
+  else if (*thin) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
@@ -205,21 +206,6 @@ static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
   PetscFunctionReturn(0);
 }
 
-/* Solves the reduced problem and moves to its solution */
-static PetscErrorCode FilteredSolveReduced(Tao tao, const IPBasis *basis, PetscBool *solved)
-{
-  Vec v, force;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(IPFilteredSolve(tao, basis, v, force, solved));
-  if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
-  PetscFunctionReturn(0);
-}
-
 /* Centres the reduced problem at the present point */
 static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 {
@@ -228,6 +214,27 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
   PetscFunctionBegin;
   IPFilteredOf(tao)->f = ip->at.f;
   PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->solution, tao->gradient, ip->at.c));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the reduced problem, with all unknowns in W if Newton's method fails with fewer, and moves to its solution */
+static PetscErrorCode FilteredSolveReduced(Tao tao, IPSubspaceState *kept, PetscBool *solved)
+{
+  IPReduced *reduced = &kept->reduced;
+  Vec        v, force;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPFilteredSolve(tao, &kept->basis, v, force, solved));
+  if (!*solved && reduced->simply) {
+    PetscCall(IPFilteredWiden(tao, kept, solved));
+    if (*solved) PetscCall(FilteredCentreHere(tao, &kept->basis));
+    if (*solved) PetscCall(IPFilteredSolve(tao, &kept->basis, v, force, solved));
+  }
+  if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
   PetscFunctionReturn(0);
 }
 
@@ -311,11 +318,11 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscCall(FilteredResidual(tao, r, &exact));
   if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
   if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms.n ? &exact : done));
-  f->ncentred = exact ? 0 : f->ncentred + 1;
+  f->ncentred = exact || (kept->whole && !f->nfutile) ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
   if (*done && !exact) PetscCall(FilteredCentreHere(tao, &kept->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
-  if (*done) PetscCall(FilteredSolveReduced(tao, &kept->basis, done));
+  if (*done) PetscCall(FilteredSolveReduced(tao, kept, done));
   if (*done) {
     tao->niter++;
     ip->rec.ndirections++;
@@ -325,7 +332,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 
 /* The first point: for a quadratic program the solution of the first reduced problem; otherwise the start and its
    multipliers */
-static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *found)
+static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
@@ -336,8 +343,8 @@ static PetscErrorCode FilteredFirst(Tao tao, const IPBasis *basis, PetscBool *fo
   ip->mu                   = 0.0;
   if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   else {
-    PetscCall(FilteredCentreHere(tao, basis));
-    PetscCall(FilteredSolveReduced(tao, basis, found));
+    PetscCall(FilteredCentreHere(tao, &kept->basis));
+    PetscCall(FilteredSolveReduced(tao, kept, found));
   }
   PetscFunctionReturn(0);
 }
@@ -363,14 +370,14 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 
   PetscFunctionBegin;
   PetscCall(IPSubspaceStateGet(tao, &kept));
-  PetscCall(FilteredTakeW(tao, &kept->reduced, begun));
+  PetscCall(FilteredTakeW(tao, kept, begun));
   if (!*begun) {
     PetscCall(FilteredForget(tao));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
   if (*begun) PetscCall(IPFilteredSetUp(tao, kept, begun));
-  if (*begun) PetscCall(FilteredFirst(tao, &kept->basis, begun));
+  if (*begun) PetscCall(FilteredFirst(tao, kept, begun));
   ip->method.multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));
   else {

@@ -191,6 +191,7 @@ PetscErrorCode IPReducedRelease(IPReduced *r)
   PetscCall(IPComplianceSetRows(&r->compliance, NULL));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(PetscFree5(s->JZ, s->h, s->lambda, s->gap, s->y));
+  PetscCall(PetscFree(s->base));
   PetscFunctionReturn(0);
 }
 
@@ -394,6 +395,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   s->m = r->m + 2 * r->nterms;
   PetscCall(
     PetscMalloc5((size_t)s->m * (size_t)s->kmax, &s->JZ, s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
+  PetscCall(PetscCalloc1(s->m, &s->base));
   PetscCall(PetscArrayzero(s->lambda, s->m));
   PetscCall(PetscArrayzero(s->y, s->kmax));
   if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
@@ -501,7 +503,8 @@ static void ReducedLoad(IPReduced *r, PetscInt j, const PetscReal pg[])
   if (j >= r->companions.n) r->system.t[j] -= pg[j - r->companions.n];
 }
 
-/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value */
+/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value. With norm
+   terms the present forces are subtracted from g. */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -511,6 +514,11 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
   if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
   if (!r->first) PetscFunctionReturn(0);
+  if (r->laws) {
+    PetscCall(PetscArraycpy(s->base, s->lambda, s->m));
+    PetscCall(IPComplianceSpread(&r->compliance, s->base, r->z));
+    for (PetscInt i = 0; i < r->n; i++) r->g[i] -= r->z[i];
+  }
   PetscCall(IPComplianceSolve(&r->compliance, 1, r->g, r->x));
   PetscCall(IPComplianceMultiply(&r->compliance, 1, r->x, s->h));
   s->length = 0.0;
@@ -582,15 +590,19 @@ PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* w = K_WW^-1 (J_W^T lambda - g - Q_W y) */
+/* w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y). */
 static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 {
   const IPReducedSystem *s     = &r->system;
   const PetscReal        minus = -1.0, one = 1.0;
   PetscBLASInt           n, k, inc = 1;
+  PetscReal             *change;
 
   PetscFunctionBegin;
-  PetscCall(IPComplianceSpread(&r->compliance, s->lambda, r->z));
+  PetscCall(PetscMalloc1(s->m, &change));
+  for (PetscInt i = 0; i < s->m; i++) change[i] = s->lambda[i] - s->base[i];
+  PetscCall(IPComplianceSpread(&r->compliance, change, r->z));
+  PetscCall(PetscFree(change));
   for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];
   PetscCall(IPComplianceSolve(&r->compliance, 1, r->z, w));
   PetscCall(PetscBLASIntCast(r->n, &n));
@@ -602,7 +614,7 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, &r->nsteps, &r->nactive, &r->met, solved));
+  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, r->simply, &r->nsteps, &r->nactive, &r->met, solved));
   else {
     PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
     r->nactive = r->set.n;

@@ -80,6 +80,20 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
+/* Whether W may be extended to all unknowns, so that no directions are needed. Their factorization must be cheap. */
+static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
+{
+  const PetscInt   most = 10000;
+  IPSubspaceState *kept;
+  PetscInt         n;
+
+  PetscFunctionBegin;
+  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(VecGetSize(tao->solution, &n));
+  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms.n && !IPFilteredOf(tao)->newton && !kept->whole && n <= most);
+  PetscFunctionReturn(0);
+}
+
 /* Solves the reduced problem: v relative to the centre, force: of the constraints */
 PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
@@ -88,6 +102,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
+  PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
@@ -113,7 +128,10 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscCall(VecGetLocalSize(slack->t, &n));
   PetscCall(VecGetArray(slack->t, &s));
   PetscCall(VecGetArray(slack->z, &z));
-  for (PetscInt i = 0; i < n; i++) s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
+  for (PetscInt i = 0; i < n; i++) {
+    s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
+    z[i] = PetscMax(PetscRealPart(z[i]), 0.0); /* a negative force is a residual: lambda - z */
+  }
   PetscCall(VecRestoreArray(slack->z, &z));
   PetscCall(VecRestoreArray(slack->t, &s));
   PetscFunctionReturn(0);
@@ -333,5 +351,35 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
   PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess.H, possible));
   if (!*possible && f->newton && ip->terms.n) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
   if (*possible) PetscCall(FilteredGuess(tao));
+  PetscFunctionReturn(0);
+}
+
+/* W: all unknowns but those that are fixed */
+PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
+{
+  const IS fixed = ((TAO_IPFILTER *)tao->data)->fixed;
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
+  if (fixed) PetscCall(ISComplement(fixed, start, end, W));
+  else PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, W));
+  PetscFunctionReturn(0);
+}
+
+/* Extends W to all unknowns. With few directions the reduced problem may be far from the whole one, and its laws of
+   norm terms much harder: bodies that are thin or nearly incompressible. *possible: false if K is not positive
+   definite */
+PetscErrorCode IPFilteredWiden(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+{
+  IPFiltered *f = IPFilteredOf(tao);
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "The reduced problem is not solved with few directions: it is extended to all unknowns\n"));
+  kept->whole = PETSC_TRUE;
+  PetscCall(ISDestroy(&f->W));
+  PetscCall(IPFilteredTakeAll(tao, &f->W));
+  PetscCall(IPSubspaceStateUpdate(tao, kept, possible));
+  if (*possible) PetscCall(IPFilteredSetUp(tao, kept, possible));
   PetscFunctionReturn(0);
 }

@@ -42,6 +42,8 @@ typedef struct {
   PetscReal *JZ, *T, *h, *t;   /* JZ: columns of length m; T: of length kmax */
   PetscReal *G;                /* the diagonal of P^T K P */
   PetscReal *lambda, *gap, *y; /* forces and motions of the rows */
+  PetscReal *base;             /* forces that h and t contain already, so that bodies that constraints alone hold do not
+                                  move far without them; zero without norm terms */
   PetscReal  length;           /* magnitude of the terms of a gap, for tolerances */
 } IPReducedSystem;
 
@@ -68,8 +70,8 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
   PetscErrorCode (*restart)(IPLaws); /* called when the set of closed rows was chosen again */
   PetscErrorCode (*forget)(IPLaws);  /* called when directions were replaced */
-  PetscErrorCode (
-    *solve)(IPLaws, const IPReducedSystem *, PetscInt *steps, PetscInt *nactive, PetscBool *met, PetscBool *solved);
+  PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscBool simply, PetscInt *steps, PetscInt *nactive,
+    PetscBool *met, PetscBool *solved);
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
@@ -93,7 +95,8 @@ typedef struct {
   IPActiveSet      set;
   PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient and K_WW^-1 g at the centre; work */
   PetscInt         nsteps, nactive;
-  PetscBool        met; /* the last solution satisfies the laws to the requested tolerance */
+  PetscBool        simply; /* with norm terms: give up where Newton's method fails, for W can be extended */
+  PetscBool        met;    /* the last solution satisfies the laws to the requested tolerance */
 } IPReduced;
 
 /* Data that the filtered subspace method keeps between solves */
@@ -103,6 +106,7 @@ typedef struct {
                                      hold */
   PetscBool        negative;      /* held only while K stays: K was negative along a direction */
   PetscBool        changing;      /* K has changed since it was first seen */
+  PetscBool        whole;         /* W is all unknowns, as norm terms need it */
   PetscInt         napplications; /* applications of the preconditioner in the last solve */
   PetscObjectId    K_id;
   PetscObjectState K_state;
@@ -179,6 +183,8 @@ PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, Pe
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
 
 /* subspace.c */
+PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);
+PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);

@@ -1,4 +1,4 @@
-"""Soft and floating bodies that friction holds: rubber pads between rigid plates, and stacks of blocks of unlike stiffness under their own weight.
+"""Soft and floating bodies that friction holds: rubber pads between rigid plates, stacks of blocks of unlike stiffness under their own weight, and leaves that bend.
 
 python3 friction_soft.py scenes writes the scenes; python3 friction_soft.py judges the runs that friction_soft.sh has made.
 """
@@ -49,6 +49,16 @@ def stack(blocks, law="friction: 0.3"):
     return text + "displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n  - g: {value: [0, 0, -1]}\ncontact:\n" + pairs
 
 
+def leaves(n, friction, thickness=0.3):
+    """Leaves clamped at one end, and bent at the tip of the last; they touch all along, and bend by far more than their surfaces give"""
+    bodies = displacements = pairs = ""
+    for i in range(n):
+        bodies += f"  - leaf{i}: {{lower: [0, 0, {i * thickness:.6g}], upper: [10, 1, {(i + 1) * thickness:.6g}], cells: [20, 2, 1], young: 1000, poisson: 0.3, element: incompatible}}\n"
+        displacements += f"  - clamp{i}: {{face: leaf{i}.xmin, value: [0, 0, 0]}}\n"
+        pairs += f"  - j{i}: {{mortar: leaf{i - 1}.zmax, nonmortar: leaf{i}.zmin, friction: {friction}}}\n" if i else ""
+    return f"problem: leaves\nbodies:\n{bodies}displacements:\n{displacements}  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\ncontact:\n{pairs}"
+
+
 SCENES = {
     "tied": pad(""),
     "sticks": pad(", stick: true"),
@@ -58,6 +68,7 @@ SCENES = {
     "finite": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean"),
     "finite_tied": pad("", "4, 4, 4", ", material: neohookean"),
     "finite_quarter": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean", QUARTER),
+    "leaves": leaves(5, 0.1),
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
 } | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true")}
 
@@ -87,10 +98,12 @@ else:
     step = load("grips")
     say("grips: less energy than what is tied", step["energy"] < load("tied")["energy"], step["energy"])
     say("grips: work is stored or taken up by the contacts", abs(step["work"] - step["energy"] - step["contact_work"]) < 1e-6 * step["work"], step["work"])
-    for name in ("grips", "finite", "finite_quarter"):
+    step = load("leaves")
+    say("leaves: work is stored or taken up by the contacts to 1 %", abs(step["work"] - step["energy"] - step["contact_work"]) < 0.01 * step["work"], step["work"])
+    for name, coefficient in (("grips", 1), ("finite", 0.3), ("finite_quarter", 0.3), ("leaves", 0.1)):
         step = load(name)
         for pair in step["pairs"]:
-            most = {"grips": 1, "finite": 0.3, "finite_quarter": 0.3}[name] * pair["normal_force"]
+            most = coefficient * pair["normal_force"]
             say(f"{name}, {pair['name']}: pressed, and friction within its law", 0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
     for name, blocks in (STACKS | {"unlike_sticks": UNLIKE}).items():
         for i, pair in enumerate(load(name)["pairs"]):

@@ -1,0 +1,150 @@
+/*
+   Solves the laws of laws.c by Newton's method (set.c), or if that fails by continuation in the coefficients of
+   friction, or by the convex problem with fixed bounds (convex.c). With a small coefficient the path of smoothed laws
+   (path.c) is reliable. From its end the coefficient grows in steps that Newton's method can follow, up to the values
+   of terms that stick.
+*/
+#include "frictionimpl.h"
+
+static void ContinuationLimit(IPTermSet *set, const PetscReal given[], PetscReal most)
+{
+  for (PetscInt i = 0; i < set->n; i++) set->coefficient[i] = PetscMin(given[i], most);
+}
+
+/* The start: the end of the path, where coefficients are at most `most` */
+static PetscErrorCode ContinuationBegin(IPTermSet *set, const IPReducedSystem *s, const PetscReal given[],
+  PetscReal most, PetscReal first, PetscInt *steps, PetscBool *solved)
+{
+  const PetscInt limit = 100;
+
+  PetscFunctionBegin;
+  ContinuationLimit(set, given, most);
+  PetscCall(IPTermPathFollow(set, s, steps, solved));
+  if (*solved) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  PetscFunctionReturn(0);
+}
+
+/* Raises the limit of the coefficients from *most to `largest`, by a factor that is smaller after a failure */
+static PetscErrorCode ContinuationRaise(IPTermSet *set, const IPReducedSystem *s, const PetscReal given[],
+  PetscReal most, PetscReal largest, PetscReal first, PetscInt *steps, PetscBool *solved)
+{
+  const PetscInt  limit = 60;
+  const PetscReal least = 1.2, fastest = 4.0;
+  PetscReal       factor = 2.0, *before;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(s->m + s->k, &before));
+  while (most < largest && factor >= least) {
+    PetscCall(PetscArraycpy(before, s->lambda, s->m));
+    PetscCall(PetscArraycpy(before + s->m, s->y, s->k));
+    ContinuationLimit(set, given, PetscMin(factor * most, largest));
+    PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+    if (*solved) {
+      most   = PetscMin(factor * most, largest);
+      factor = PetscMin(1.5 * factor, fastest);
+    } else {
+      factor = PetscSqrtReal(factor);
+      PetscCall(PetscArraycpy(s->lambda, before, s->m));
+      PetscCall(PetscArraycpy(s->y, before + s->m, s->k));
+      for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(s->lambda[i] > 0.0);
+      PetscCall(IPTermLawsRenew(set, s));
+    }
+  }
+  PetscCall(PetscFree(before));
+  PetscFunctionReturn(0);
+}
+
+/* Continuation from a small coefficient, or, where that is too little to hold a body, from a larger one */
+static PetscErrorCode ContinuationSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscReal begin[] = {0.3, 2.0};
+  PetscReal       largest = 0.0, *given;
+  PetscInt        k       = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(set->n, &given));
+  PetscCall(PetscArraycpy(given, set->coefficient, set->n));
+  for (PetscInt i = 0; i < set->n; i++) largest = PetscMax(largest, given[i]);
+  PetscCall(ContinuationBegin(set, s, given, begin[k], first, steps, solved));
+  if (!*solved && begin[k] < largest) PetscCall(ContinuationBegin(set, s, given, begin[++k], first, steps, solved));
+  if (*solved) PetscCall(ContinuationRaise(set, s, given, begin[k], largest, first, steps, solved));
+  PetscCall(PetscArraycpy(set->coefficient, given, set->n));
+  PetscCall(PetscFree(given));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the motions of the last forces. Forces that would move a row by far more than its usual motion are set to
+   zero: guessed forces are far too large for bodies that bend easily. */
+static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s)
+{
+  const PetscReal much    = 10.0;
+  PetscReal       largest = 0.0;
+
+  PetscFunctionBegin;
+  IPTermLawsResist(set);
+  if (set->listed) PetscCall(IPTermLawsMove(set, s));
+  else PetscCall(IPTermLawsRenew(set, s));
+  for (PetscInt r = 0; r < s->m; r++) largest = PetscMax(largest, PetscAbsReal(s->gap[r]));
+  if (largest <= much * set->length) PetscFunctionReturn(0);
+  PetscCall(PetscArrayzero(s->lambda, s->m));
+  PetscCall(IPTermLawsMove(set, s));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the forces and y to those in `begin`, or copies them there */
+static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscBool back)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(back ? s->lambda : begin, back ? begin : s->lambda, s->m));
+  PetscCall(PetscArraycpy(back ? s->y : begin + s->m, back ? begin + s->m : s->y, s->k));
+  if (back) PetscCall(IPTermLawsMove(set, s));
+  PetscFunctionReturn(0);
+}
+
+/* What is tried after Newton's method has failed: Newton's method with the true compliances of the rows, continuation,
+   the convex problem. begin: forces and y at the start */
+static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
+  PetscInt *steps, PetscBool *solved)
+{
+  const PetscInt limit = 60;
+  PetscBool      measured;
+
+  PetscFunctionBegin;
+  PetscCall(IPTermDenseMeasure(&set->system, &measured));
+  if (measured) {
+    IPTermLawsResist(set);
+    PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+    PetscCall(IPTermSetOff(set, s, &first));
+    PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  }
+  if (!*solved) PetscCall(ContinuationSolve(set, s, first, steps, solved));
+  set->met = *solved;
+  if (*solved) PetscFunctionReturn(0);
+  PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+  PetscCall(IPTermConvexSolve(set, s, first, steps, solved));
+  PetscFunctionReturn(0);
+}
+
+/* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
+   fraction of its start, since later directions will change the problem by more. set->met tells whether that was
+   reached. simply: by Newton's method alone. *steps: number of systems solved. *solved: false if nothing holds a moving
+   body */
+PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBool simply, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscInt limit = 60;
+  PetscReal      first, *begin;
+
+  PetscFunctionBegin;
+  *steps = 0;
+  PetscCall(ContinuationStart(set, s));
+  PetscCall(IPTermSetOff(set, s, &first));
+  PetscCall(PetscMalloc1(s->m + s->k, &begin));
+  PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
+  PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  set->met = *solved;
+  if (!*solved && !simply) PetscCall(ContinuationFallBack(set, s, begin, first, steps, solved));
+  PetscCall(PetscFree(begin));
+  PetscFunctionReturn(0);
+}
