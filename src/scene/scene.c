@@ -82,6 +82,27 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* What is found wrong with the lists and with the scene as a whole is raised with its line */
+static PetscErrorCode SceneReadAndValidate(SceneKeys keys, Scene scene)
+{
+  RankError      error;
+  PetscErrorCode ierr;
+
+  PetscFunctionBegin;
+  PetscCall(RankErrorBegin(&error));
+  ierr = SceneReadLists(keys, scene);
+  PetscCall(RankErrorEnd(keys->comm, ierr, &error));
+  PetscCall(SceneKeysRaise(keys, &error));
+  PetscCall(SceneReadSolver(keys, scene));
+  PetscCall(SceneKeysCheck(keys));
+  PetscCall(SceneSetFromOptions(keys->comm, keys->file, scene));
+  PetscCall(RankErrorBegin(&error));
+  ierr = SceneValidate(keys->comm, keys->file, scene);
+  PetscCall(RankErrorEnd(keys->comm, ierr, &error));
+  PetscCall(SceneKeysRaise(keys, &error));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SceneLoad - Reads a scene from a YAML file and validates it
 
@@ -131,12 +152,8 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
-  PetscCall(SceneReadLists(keys, s));
-  PetscCall(SceneReadSolver(keys, s));
-  PetscCall(SceneKeysCheck(keys));
+  PetscCall(SceneReadAndValidate(keys, s));
   PetscCall(SceneKeysDestroy(&keys));
-  PetscCall(SceneSetFromOptions(comm, file, s));
-  PetscCall(SceneValidate(comm, file, s));
   PetscCall(SceneSetOptions(s));
   *scene = s;
   PetscFunctionReturn(0);

@@ -201,6 +201,18 @@ static const Mistake mistakes[] = {
   {"two keys in an item", "- bottom: {face: slab.zmin, value: [0, 0, 0]}",
     "- bottom: {face: slab.zmin}\n    value: [0, 0, 0]"},
   {"free along y", "value: [0, 0, -1/10]", "value: [0, free, -1/10]"},
+  {"a line indented too little", "  - top:", " - top:"},
+  {"entries without dashes", "  - pair:", "  pair:"},
+  {"body without dashes, indented", sound,
+    "bodies:\n  slab:\n    lower: [0, 0, 0]\n    upper: [1, 1, 1]\n    cells: [1, 1, 1]\n"},
+  {"load of a number", "load: {steps: 2}", "load: 2"},
+  {"key without a value", "young: 1,", "young: ,"},
+  {"quotation that is not closed", "refine: 0", "problem: \"press"},
+  {"no blank behind a colon", "refine: 0", "refine:0"},
+  {"two colons", "refine: 0", "refine: refine: 0"},
+  {"mesh file that is not there", "slab: {",
+    "slab: {shape: gmsh, mesh: nowhere.msh, volume: slab, young: 1, poisson: 0}\n  - more: {"},
+  {"list in a list", sound, "bodies:\n  - [a, b]\n"},
 };
 
 static PetscErrorCode WriteScene(const char file[], const Mistake *mistake)

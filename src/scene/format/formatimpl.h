@@ -62,13 +62,18 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
+/* Records an error, unless there is one. The message begins with the key, or names it or an entry, as body "slab", as
+   its first quotation: so its line is found */
 PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-/* Reports an error in the key owner_key: file, line (where the file has the key), name, and the text `wrong` */
+/* Records an error in the key owner_key: its name and the text `wrong` */
 PETSC_INTERN PetscErrorCode SceneKeysErrorOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
-/* Begins the error, if there is one, with the line of this key */
-PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
+/* lines.c: line of a key, 0 if unknown; puts the line of what a message is about before it, if it is known; raises an
+   error of work on the scene, if there is one, with file and line */
+PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
+PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
+PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
 /* Makes a file's name relative to the folder of the scene */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 

@@ -3,6 +3,7 @@
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>
+#include <strings.h>
 
 /* On the first rank: reads the whole file and terminates it with a zero */
 static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
@@ -64,8 +65,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   if (!ierr) ierr = SceneValuesRead(text, &k->values);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
-  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ,
-    "%s is not a YAML scene (see its brackets, colons and indentation): %s", file, error.message);
+  PetscCheck(!error.code, comm, PETSC_ERR_FILE_READ, "%s: %s", file, error.message);
   PetscCall(PetscFree(text));
   *keys = k;
   PetscFunctionReturn(0);
@@ -80,6 +80,7 @@ PetscErrorCode SceneKeysError(SceneKeys keys, const char format[], ...)
   va_start(args, format);
   PetscCall(PetscVSNPrintf(keys->error, sizeof(keys->error), format, NULL, args));
   va_end(args);
+  PetscCall(SceneKeysAddLine(keys, sizeof(keys->error), keys->error));
   PetscFunctionReturn(0);
 }
 
@@ -118,39 +119,10 @@ static PetscBool SceneKeyIsNumber(const char key[])
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
 }
 
-/* Line of a key; 0: unknown */
-static size_t SceneKeysGetLine(SceneKeys keys, const char key[])
-{
-  PetscBool same;
-
-  for (PetscInt i = 0; i < keys->lines.n; ++i) {
-    if (!PetscStrcasecmp(keys->lines.keys[i], key, &same) && same) return keys->lines.lines[i];
-  }
-  return 0;
-}
-
-PetscErrorCode SceneKeysAddLine(SceneKeys keys, const char key[])
-{
-  const size_t line = SceneKeysGetLine(keys, key);
-  char         message[sizeof(keys->error)];
-
-  PetscFunctionBegin;
-  if (!line || !keys->error[0]) PetscFunctionReturn(0);
-  PetscCall(PetscStrncpy(message, keys->error, sizeof(message)));
-  (void)snprintf(keys->error, sizeof(keys->error), "line %zu: %.900s", line, message);
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode SceneKeysErrorOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
 {
-  char   full[SCENE_KEY_LENGTH];
-  size_t line;
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(full, sizeof(full), "%s_%s", owner, key));
-  line = SceneKeysGetLine(keys, full);
-  if (line) PetscCall(SceneKeysError(keys, "line %zu: %s %s", line, full, wrong));
-  else PetscCall(SceneKeysError(keys, "%s %s", full, wrong));
+  PetscCall(SceneKeysError(keys, "%s_%s %s", owner, key, wrong));
   PetscFunctionReturn(0);
 }
 
@@ -269,6 +241,40 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   PetscFunctionReturn(0);
 }
 
+/* Raises an error if the entries of a list lack their dash: the file has the key of the list, and it is no list */
+static PetscErrorCode SceneKeysRaiseDashes(SceneKeys keys, const char unknown[], const char where[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < keys->nasked; ++i) {
+    const char  *asked  = keys->asked[i];
+    const size_t length = strlen(asked);
+
+    PetscCheck(strncasecmp(asked, unknown, length) || unknown[length] != '_' || !SceneKeysGetLine(keys, asked) ||
+                 SceneValuesUse(&keys->values, asked),
+      keys->comm, PETSC_ERR_USER_INPUT,
+      "%s: %s%s is a list: each entry begins with a dash and its name, as in - name: {key: value, ...}", keys->file,
+      where, asked);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Raises an error if a key that has keys below it has a value */
+static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[], const char where[])
+{
+  const size_t length     = strlen(unknown);
+  char         below[512] = "";
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < keys->nasked; ++i) {
+    if (strncasecmp(keys->asked[i], unknown, length) || keys->asked[i][length] != '_') continue;
+    PetscCall(PetscStrlcat(below, below[0] ? ", " : "", sizeof(below)));
+    PetscCall(PetscStrlcat(below, keys->asked[i] + length + 1, sizeof(below)));
+  }
+  PetscCheck(!below[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s%s takes no value, but keys below it: %s", keys->file,
+    where, unknown, below);
+  PetscFunctionReturn(0);
+}
+
 /* Raises an error for an unknown key, with its line */
 static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[])
 {
@@ -288,6 +294,8 @@ static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[]
   PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
     "%s: %sthe key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
     keys->file, where, unknown);
+  PetscCall(SceneKeysRaiseDashes(keys, unknown, where));
+  PetscCall(SceneKeysRaiseNested(keys, unknown, where));
   PetscCall(SceneKeysExplain(keys, unknown, meant, sizeof(meant)));
   SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %sunknown key \"%s\"; %s", keys->file, where, unknown, meant);
 }

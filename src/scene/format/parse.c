@@ -27,7 +27,8 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
     if (end == start) end = (char *)text;
   }
   if (end == text || !SceneParseAtEnd(end))
-    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a number", key, text));
+    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a number%s", key, text,
+      strchr(text, ',') ? ": decimals have a point" : ""));
   else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor))
     PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a finite number", key, text));
   else *value = (PetscReal)(number / divisor);
@@ -90,7 +91,8 @@ PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[
   PetscFunctionBegin;
   PetscCall(PetscStrToArray(text, ',', &count, words));
   if (*n != PETSC_DECIDE && *n != count) {
-    PetscCall(SceneKeysError(keys, "%s has %d values, it needs %" PetscInt_FMT, key, count, *n));
+    PetscCall(
+      SceneKeysError(keys, "%s has %d value%s, it needs %" PetscInt_FMT, key, count, count == 1 ? "" : "s", *n));
     PetscCall(PetscStrToArrayDestroy(count, *words));
     *words = NULL;
     count  = 0;
@@ -204,7 +206,7 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
         SceneKeysError(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
-      if (same) PetscCall(SceneKeysError(keys, "the name \"%s\" stands twice in %s", words[i], key));
+      if (same) PetscCall(SceneKeysErrorOf(keys, key, words[i], "stands twice: each name in a list is given once"));
     }
   }
   if (required && !*n) PetscCall(SceneKeysError(keys, "%s is empty", key));

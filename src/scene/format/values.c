@@ -85,16 +85,16 @@ static PetscErrorCode ValuesReadSequence(SceneValues *v, yaml_document_t *doc, c
       continue;
     }
     PetscCheck(item->type == YAML_MAPPING_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "Unsupported YAML node type: expected scalar or mapping");
+      "line %zu: a list in a list is not expected here", item->start_mark.line + 1);
     pair = item->data.mapping.pairs.start;
     PetscCheck(item->data.mapping.pairs.top - pair <= 1, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "Unsupported YAML node value: expected a single key:value pair");
+      "line %zu: an entry of a list has one name: - name: {key: value, ...}", item->start_mark.line + 1);
     if (item->data.mapping.pairs.top == pair) continue;
     name = yaml_document_get_node(doc, pair->key);
-    PetscCheck(name->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "Unsupported YAML node type: expected scalar");
+    PetscCheck(name->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP, "line %zu: a name is expected here",
+      name->start_mark.line + 1);
     PetscCheck(strcmp(ValuesText(name), "<<"), PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "Unsupported YAML node value: merge key '<<' not supported here");
+      "line %zu: a merge key, <<, is not an entry of a list", name->start_mark.line + 1);
     PetscCall(ValuesReadNested(v, doc, item, depth, prefix, key));
     PetscCall(ValuesAppend(ValuesText(name), &length, &list));
   }
@@ -124,12 +124,12 @@ static PetscErrorCode ValuesReadMapping(SceneValues *v, yaml_document_t *doc, co
   PetscCheck(depth < VALUES_DEPTH, PETSC_COMM_SELF, PETSC_ERR_SUP, "more than %d mappings are nested", VALUES_DEPTH);
   if (node->type == YAML_SCALAR_NODE && !ValuesText(node)[0]) PetscFunctionReturn(0);
   PetscCheck(node->type == YAML_MAPPING_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "Unsupported YAML node type: expected mapping");
+    "line %zu: keys with values are expected here, as in problem: name", node->start_mark.line + 1);
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key), *value = yaml_document_get_node(doc, p->value);
 
-    PetscCheck(key->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "Unsupported YAML node type: expected scalar");
+    PetscCheck(key->type == YAML_SCALAR_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP, "line %zu: a key is expected here",
+      key->start_mark.line + 1);
     if (!strcmp(ValuesText(key), "<<")) PetscCall(ValuesReadMerged(v, doc, value, depth, prefix));
     else if (value->type == YAML_SCALAR_NODE) PetscCall(ValuesAdd(v, prefix, ValuesText(key), ValuesText(value)));
     else if (value->type == YAML_SEQUENCE_NODE)

@@ -26,20 +26,42 @@ static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
   return PETSC_FALSE;
 }
 
-/* Raises the parser's error; text: the whole text */
+/* The parser's terms in words for people who write scenes */
+static const char *YAMLExplain(const char problem[])
+{
+  static const char *const words[][2] = {
+    {"did not find expected key", "the indentation differs from that of the keys above, or a colon is missing"},
+    {"did not find expected '-' indicator", "a list goes on or ends here, but the line is not indented as its dashes"},
+    {"did not find expected ',' or ']'", "a bracket [ is not closed, or a comma is missing"},
+    {"did not find expected ',' or '}'", "a brace { is not closed, or a comma is missing"},
+    {"could not find expected ':'", "a key lacks its colon and the blank behind it"},
+    {"mapping values are not allowed in this context", "there is a colon too many, or the line is indented too far"},
+    {"found unexpected end of stream", "a quotation mark is not closed"},
+    {"found character that cannot start any token", "a value begins with a character that YAML reserves: quote it"},
+  };
+
+  for (size_t i = 0; problem && i < PETSC_STATIC_ARRAY_LENGTH(words); ++i) {
+    if (!strcmp(problem, words[i][0])) return words[i][1];
+  }
+  return problem ? problem : "it cannot be read";
+}
+
+/* Raises the parser's error. It is at the line where the parser stops, or between there and where the bracket, the
+   quotation or the indented lines begin. text: the whole text */
 static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
 {
-  const size_t line = parser->problem_mark.line + 1;
+  const size_t line = parser->problem_mark.line + 1, start = parser->context ? parser->context_mark.line + 1 : line;
   PetscBool    tab;
+  char         from[64] = "";
 
   PetscFunctionBegin;
-  PetscCheck(parser->error != YAML_READER_ERROR, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "byte %zu: %s",
-    parser->problem_offset + 1, parser->problem);
+  PetscCheck(parser->error != YAML_READER_ERROR, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
+    "byte %zu: the file is not text: %s", parser->problem_offset + 1, parser->problem);
   for (size_t l = 1; l < line && strchr(text, '\n'); ++l) text = strchr(text, '\n') + 1;
   tab = (PetscBool)(text[strspn(text, " ")] == '\t' && strspn(text, " ") == parser->problem_mark.column);
   PetscCheck(!tab, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: it is indented by a tab; YAML needs spaces", line);
-  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line,
-    parser->problem ? parser->problem : "it cannot be read");
+  if (start < line) (void)snprintf(from, sizeof(from), " (or above it, from line %zu on)", start);
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu%s: %s", line, from, YAMLExplain(parser->problem));
 }
 
 static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], RepeatedKeys *keys)

@@ -1,33 +1,28 @@
 /* dynamics: time steps, and the properties of bodies that they require */
 #include "sectionsimpl.h"
 
-/* Records an error, with the line of its key, unless there is one already */
-#define DynamicsRequire(condition, keys, key, ...) \
+#define DynamicsRequire(condition, keys, ...) \
   do { \
-    if (!(condition) && !(keys)->error[0]) { \
-      PetscCall(SceneKeysError(keys, __VA_ARGS__)); \
-      PetscCall(SceneKeysAddLine(keys, key)); \
-    } \
+    if (!(condition)) PetscCall(SceneKeysError(keys, __VA_ARGS__)); \
   } while (0)
 
 /* Checks the values, and that the number of time steps is not too large */
 static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
 {
   PetscFunctionBegin;
-  DynamicsRequire(d->time_step > 0.0, keys, "dynamics_time_step", "dynamics_time_step is %g, which must be above 0",
-    (double)d->time_step);
-  DynamicsRequire(d->end_time >= d->time_step, keys, "dynamics_end_time",
+  DynamicsRequire(d->time_step > 0.0, keys, "dynamics_time_step is %g, which must be above 0", (double)d->time_step);
+  DynamicsRequire(d->end_time >= d->time_step, keys,
     "dynamics_end_time is %g, which must be at least dynamics_time_step, %g", (double)d->end_time,
     (double)d->time_step);
-  DynamicsRequire(d->end_time <= (PetscReal)SCENE_MAX_STEPS * d->time_step, keys, "dynamics_time_step",
+  DynamicsRequire(d->end_time <= (PetscReal)SCENE_MAX_STEPS * d->time_step, keys,
     "dynamics_time_step is %g, which makes more than %d steps up to dynamics_end_time, %g", (double)d->time_step,
     SCENE_MAX_STEPS, (double)d->end_time);
-  DynamicsRequire(d->spectral_radius >= 0.0 && d->spectral_radius <= 1.0, keys, "dynamics_spectral_radius",
+  DynamicsRequire(d->spectral_radius >= 0.0 && d->spectral_radius <= 1.0, keys,
     "dynamics_spectral_radius is %g, which must lie between 0 and 1", (double)d->spectral_radius);
-  DynamicsRequire(d->damping_mass >= 0.0, keys, "dynamics_damping_mass",
-    "dynamics_damping_mass is %g, which must not be negative", (double)d->damping_mass);
-  DynamicsRequire(d->damping_stiffness >= 0.0, keys, "dynamics_damping_stiffness",
-    "dynamics_damping_stiffness is %g, which must not be negative", (double)d->damping_stiffness);
+  DynamicsRequire(d->damping_mass >= 0.0, keys, "dynamics_damping_mass is %g, which must not be negative",
+    (double)d->damping_mass);
+  DynamicsRequire(d->damping_stiffness >= 0.0, keys, "dynamics_damping_stiffness is %g, which must not be negative",
+    (double)d->damping_stiffness);
   PetscFunctionReturn(0);
 }
 
@@ -45,14 +40,6 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   if (!any) PetscFunctionReturn(0);
   *d = *(const SceneDynamics *)list->initial;
   PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, PETSC_FALSE, d));
-  for (const SceneKey *row = list->rows; row->name && keys->error[0]; ++row) {
-    char *named;
-    char  key[SCENE_KEY_LENGTH];
-
-    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_%s", list->name, row->name));
-    PetscCall(PetscStrstr(keys->error, key, &named));
-    if (named == keys->error) PetscCall(SceneKeysAddLine(keys, key));
-  }
   PetscCall(DynamicsCheck(keys, d));
   if (keys->error[0]) d->time_step = d->end_time = 1.0; /* nothing is simulated */
   scene->nsteps = PetscMax(1, (PetscInt)PetscCeilReal(d->end_time / d->time_step * (1.0 - PETSC_SQRT_MACHINE_EPSILON)));

@@ -56,7 +56,8 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscCall(PetscStrallocpy(name, &file));
   PetscCall(SceneResolveFile(keys->file, &file));
   PetscCall(PetscTestFile(file, 'r', &exists));
-  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: the library \"%s\" cannot be read", keys->file, file);
+  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: line %zu: library is \"%s\", which cannot be read",
+    keys->file, SceneKeysGetLine(keys, "library"), file);
   PetscCall(PetscSNPrintf(keys->library, sizeof(keys->library), "the scene or its library %s", file));
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));

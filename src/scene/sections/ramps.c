@@ -40,15 +40,15 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
     scene->nsteps = 1;
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
     if (scene->nsteps > SCENE_MAX_STEPS) {
-      PetscCall(
-        SceneKeysError(keys, "%" PetscInt_FMT " load steps, which must be at most %d", scene->nsteps, SCENE_MAX_STEPS));
+      PetscCall(SceneKeysError(keys, "load_steps is %" PetscInt_FMT ", which must be at most %d", scene->nsteps,
+        SCENE_MAX_STEPS));
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
     PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
   }
   if (scene->nsteps < 1)
-    PetscCall(SceneKeysError(keys, "%" PetscInt_FMT " load steps, which must be at least 1", scene->nsteps));
+    PetscCall(SceneKeysError(keys, "load_steps is %" PetscInt_FMT ", which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
 }
 

@@ -1,0 +1,107 @@
+/* Lines of the scene file in messages. A message names a key, or an entry of a list by its kind and name; the line is
+   found from these, so that no message has to pass it on. */
+#include "formatimpl.h"
+#include <string.h>
+#include <strings.h>
+
+/* Line of a key; of a repeated key the last one; 0: unknown */
+size_t SceneKeysGetLine(SceneKeys keys, const char key[])
+{
+  for (PetscInt i = keys->lines.n; i-- > 0;) {
+    if (!strcasecmp(keys->lines.keys[i], key)) return keys->lines.lines[i];
+  }
+  return 0;
+}
+
+/* Line of a key, or else of the entry or list that it belongs to: of bodies_slab for bodies_slab_young */
+static size_t LineOfOwner(SceneKeys keys, char key[])
+{
+  size_t line = SceneKeysGetLine(keys, key);
+
+  for (char *last = strrchr(key, '_'); !line && last; last = strrchr(key, '_')) {
+    *last = 0;
+    line  = SceneKeysGetLine(keys, key);
+  }
+  return line;
+}
+
+/* Copies the text before `end` if it fits; otherwise empty */
+static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENGTH])
+{
+  const size_t length = (size_t)(end - text);
+
+  key[0] = 0;
+  if (length < SCENE_KEY_LENGTH) (void)snprintf(key, SCENE_KEY_LENGTH, "%.*s", (int)length, text);
+}
+
+/* The list of the entries that a text ends in the name of, as in: body; NULL: none */
+static const char *LineGetList(const char text[], const char *end)
+{
+  static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
+    {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
+    {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"tie", "ties"},
+    {"temperature", "temperatures"}, {"refinement", "refinements"}, {"ramp", "ramps"}, {"ramp name", "ramps"},
+    {"material name", "materials"}, {"material", "materials"}};
+
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
+    const size_t length = strlen(kinds[k][0]);
+    const char  *at     = end - length;
+
+    if (at >= text && !strncasecmp(at, kinds[k][0], length) && (at == text || at[-1] == ' ')) return kinds[k][1];
+  }
+  return NULL;
+}
+
+/* Line of what a message is about; 0: unknown, or the value is not that of the file. First an entry that is named, as
+   body "slab", then the key that the message begins with, then the quotation, as in: the key "bodies" is missing */
+static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t *line)
+{
+  const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
+  const char *list = end && quote > message ? LineGetList(message, quote - 1) : NULL;
+  char        key[SCENE_KEY_LENGTH], name[SCENE_KEY_LENGTH] = "", entry[2 * SCENE_KEY_LENGTH];
+  PetscBool   set;
+
+  PetscFunctionBegin;
+  *line = 0;
+  LineCopy(message, message + strcspn(message, " ,:"), key);
+  (void)snprintf(entry, sizeof(entry), "-%s", key);
+  PetscCall(PetscOptionsHasName(NULL, NULL, entry, &set));
+  if (set) PetscFunctionReturn(0);
+  if (end) LineCopy(quote + 1, end, name);
+  (void)snprintf(entry, sizeof(entry), "%s_%s", list ? list : "", name);
+  if (list) *line = SceneKeysGetLine(keys, entry);
+  if (!list && key[0]) *line = LineOfOwner(keys, key);
+  /* a symmetry plane is displacement "symmetry_slab_xmin" */
+  if (!*line && name[0]) *line = LineOfOwner(keys, name);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysAddLine(SceneKeys keys, size_t size, char message[])
+{
+  char   copy[1024];
+  size_t line = 0;
+
+  PetscFunctionBegin;
+  PetscCall(LineOfMessage(keys, message, &line));
+  if (!line) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(copy, message, sizeof(copy)));
+  (void)snprintf(message, size, "line %zu: %.990s", line, copy);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneKeysRaise(SceneKeys keys, const RankError *error)
+{
+  const size_t length = strlen(keys->file);
+  const char  *text   = error->message;
+  char         message[sizeof(error->message) + 32];
+
+  PetscFunctionBegin;
+  if (!error->code) PetscFunctionReturn(0);
+  PetscCheck(error->code == PETSC_ERR_USER_INPUT || error->code == PETSC_ERR_FILE_OPEN ||
+               error->code == PETSC_ERR_FILE_READ,
+    keys->comm, error->code, "%s", text);
+  if (!strncmp(text, keys->file, length) && !strncmp(text + length, ": ", 2)) text += length + 2;
+  PetscCall(PetscStrncpy(message, text, sizeof(message)));
+  PetscCall(SceneKeysAddLine(keys, sizeof(message), message));
+  SETERRQ(keys->comm, error->code, "%s: %s", keys->file, message);
+}
