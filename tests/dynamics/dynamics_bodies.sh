@@ -15,8 +15,10 @@ cat > three.yaml <<'YAML'
 bodies:
   - a: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [4, 2, 2], young: 1e4, poisson: 0.3, density: 1, initial_velocity: [5, 0, 0]}
   - b: {lower: [1.05, 0, 0], upper: [2.05, 1, 1], cells: [3, 3, 3], young: 1e4, poisson: 0.3, density: 1}
+  - c: {lower: [2.1, 0, 0], upper: [3.1, 1, 1], cells: [4, 2, 2], young: 1e4, poisson: 0.3, density: 1}
 contact:
   - ab: {mortar: a.xmax, nonmortar: b.xmin}
-dynamics: {time_step: 0.001, end_time: 0.06}
+  - bc: {mortar: b.xmax, nonmortar: c.xmin}
+dynamics: {time_step: 0.001, end_time: 0.12}
 YAML
 run three.yaml; cat err
