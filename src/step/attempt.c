@@ -442,14 +442,17 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
 }
 
 /* Sets sim->linearization, and creates u_linearized, where it is: u if u is a forecast; the path's extrapolation if the
-   gap is linearized again; else, in the first load step and after a cut, the last state */
+   gap is linearized again; else the last state: in the first load step, after a cut, and with friction, where what the
+   tolerance leaves would add up over load steps */
 static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
-  Simulation      sim       = p->sim;
-  const PetscBool continues = (PetscBool)(sim->path.time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+  Simulation sim       = p->sim;
+  PetscBool  continues = (PetscBool)(sim->path.time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->scene->npairs; ++k)
+    if (SceneContactPairHasFriction(&sim->scene->pairs[k])) continues = PETSC_FALSE;
   PetscCall(VecDuplicate(u, u_linearized));
   PetscCall(VecCopy(foreseen ? u : sim->path.u, *u_linearized));
   if (foreseen || continues) {
