@@ -236,6 +236,7 @@ def page(found, pages):
 def index(folder):
     """A line for every page of a knob, and for the others"""
     yield "| [elements/choice.md](elements/choice.md) | the element of scenes that name none, on eleven scenes |"
+    yield "| [elements/second.md](elements/second.md) | the same on eleven more: finite strain, friction, plasticity, torsion |"
     yield "| [elements/sharp.md](elements/sharp.md) | order 1 and 2 where contact ends at an edge |"
     yield "| [calculix.md](calculix.md) | CalculiX: times, forces, and why they differ |"
     yield "| [effects.md](effects.md) | what effects cost that a scene does not use |"

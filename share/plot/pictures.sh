@@ -17,9 +17,19 @@ picture() { # scene, options of draw.py
   echo "$folder/$scene.png"
 }
 
+curves() { # scene, columns of its history
+  scene=$1
+  shift
+  bin/contact "share/scenes/$scene.yaml" -quiet -output "$work/$scene"
+  $python -B share/plot/curves.py "$work/$scene.csv" "$folder/$scene.png" "$@"
+  echo "$folder/$scene.png"
+}
+
 picture two_block --limit 8
 picture ironing --limit 1
 picture beam_sphere_linear --view 25 200 --up x
 picture beam_sphere_neo_hookean --view 25 200 --up x
 picture hertz_cylinder --mirror x --around-contact 6 --view 0 -90 --field nodal_von_mises
+picture thick_tube --field equivalent_plastic_strain --view 25 -40
+curves bar_impact '*energy' contact_force_x
 picture lug --view 50 -60 --scale 100 --limit 100 --field nodal_von_mises --no-edges

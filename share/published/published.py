@@ -60,7 +60,7 @@ def kept(problem, mesh, way):
 
 def reduced(record):
     """What the page is made from"""
-    short = {key: record[key] for key in ("dofs", "time", "code", "cut", "limit", "words") if key in record}
+    short = {key: record[key] for key in ("commit", "dofs", "time", "code", "cut", "limit", "words") if key in record}
     short["contact_free"] = {"bound": record.get("contact_free", {}).get("bound")}
     short["ratios"] = [float(f"{ratio:.3g}") for ratio in record["ratios"]]
     short["steps"] = [{key: step[key] for key in STEP_KEYS if key in step} for step in record["steps"]]
@@ -76,7 +76,7 @@ def run(problem, mesh, way, quick):
         os.chdir(TOP)
         code, said, cut = runner.execute([*command(problem, mesh, way), "-summary", base + ".json"], limit)
         record = runner.read_summary(base) or {"steps": []}
-        record.update(code=code, cut=cut, limit=limit, ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)], words=runner.last_words(said))
+        record.update(commit=commit(), code=code, cut=cut, limit=limit, ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)], words=runner.last_words(said))
         with open(base + ".run.json", "w") as file:
             json.dump(reduced(record), file)
     with open(kept(problem, mesh, way)) as file:
@@ -97,7 +97,7 @@ def pcg_of_newton(step):
 
 
 def row(problem, mesh, record):
-    """n, largest n_c and m, mean interior point iterations per load step, mean PCG iterations per system, the bound"""
+    """n, largest n_c and m, mean interior point iterations a load step, mean PCG iterations a system, the bound"""
     done = steps(record)
     systems = [its for step in done for its in pcg_of_newton(step)]
     bound = record.get("contact_free", {}).get("bound")
@@ -127,19 +127,19 @@ def cell(ours, theirs):
 
 def iteration_tables(cases, records, reference, explanations):
     columns = ("n", "n_c_max", "m_max", "ip_iterations_avg", "amgf_pcg_iterations_avg", "amgf_bound")
-    heads = ("unknowns n", "filtered n_c", "constraints m", "interior point iterations per load step", "PCG iterations per system", "bound")
+    heads = ("unknowns n", "filtered n_c", "constraints m", "interior point iterations a load step", "PCG iterations a system", "bound")
     for problem, title in TITLES.items():
         meshes = [mesh for other, mesh in cases if other == problem]
         if not meshes:
             continue
         yield f"### {title}\n"
-        yield "| mesh | load steps done | " + " | ".join(heads) + " |"
-        yield "| --- |" + " --- |" * (len(heads) + 1)
+        yield "| mesh | load steps done | " + " | ".join(heads) + " | commit |"
+        yield "| --- |" + " --- |" * (len(heads) + 2)
         for mesh in meshes:
             record = records[problem, mesh, "AMGF"]
             ours = row(problem, mesh, record)
             cells = [cell(ours[column], reference[problem, mesh][column]) for column in columns]
-            yield f"| {mesh} | {len(steps(record))} | " + " | ".join(cells) + " |"
+            yield f"| {mesh} | {len(steps(record))} | " + " | ".join(cells) + f" | {record['commit']} |"
         yield ""
         for mesh in meshes:
             yield f"    {' '.join(command(problem, mesh, 'AMGF'))}"
@@ -257,13 +257,13 @@ def page(cases, records, omitted, clock):
     yield "# The published results, reproduced\n"
     yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows ours / theirs. A star marks a deviation above 10 %."
     yield "`make published` makes this page, `make published-quick` that of mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". Commit {commit()}, {datetime.date.today()}. Times: {clock}.\n"
+    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". {datetime.date.today()}. Times: {clock}.\n"
     yield "## Iterations and sizes\n"
     yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
     yield "The bound is that of the condition number, from the contact-free problem: PCG iterations of AMG on K times sqrt(2 (beta + 3) / beta).\n"
     yield from iteration_tables(cases, records, reference, explanations)
     yield "## PCG iterations and the barrier\n"
-    yield f"AMG alone is stopped at {AMG_LIMIT} iterations per system, as published. Its curve ends where the time limit ended the run.\n"
+    yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published. Its curve ends where the time limit ended the run.\n"
     yield "![PCG iterations and ratio of the weights against the Newton system](curves.png)\n"
     yield "## Speed-up of AMGF over AMG\n"
     yield "Published: 4 to more than 10.\n"

@@ -73,8 +73,8 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
         ? pair->given
         : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
     pair->depth = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
-    if (pair->gap == GAP_NODE && !pair->mortar.bordered)
-      PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
+    if (!pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
+    if (!pair->nonmortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->nonmortar));
   }
   PetscFunctionReturn(0);
 }

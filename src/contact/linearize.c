@@ -101,7 +101,8 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
   Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that
   face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and
   m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
-  has no row.
+  has no row. A vertex on the border of the nonmortar face has one up to half the size of the area about it: faces that
+  end together bulge. Mortar facets at a border that both faces share reach up to a tenth of a facet beyond it.
 
   Faces of order 2 are cut into facets at their nodes. The patches of smooth mortar pairs follow what the faces bend;
   the vertices of others, and of plane faces, move with the mean displacement of the faces about them. J spreads forces

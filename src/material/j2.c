@@ -272,6 +272,8 @@ PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, c
       i < 2 ? ": a law that softens has no unique answer" : "");
     if (!(positive[i].value >= 0)) return PETSC_FALSE;
   }
+  (void)snprintf(why, length, "= %g, which needs a saturation", (double)h->rate);
+  if (h->rate > 0 && h->saturation == 0) return PETSC_FALSE;
   *key = "saturation";
   (void)snprintf(why, length,
     "= %g, which must not be below the yield stress %g: a law that softens has no unique answer", (double)h->saturation,

@@ -164,7 +164,8 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
   PetscReal               forces[2] = {0.0, 0.0};
 
   PetscFunctionBegin;
-  if (PairLoadTurns(&sim->report) || PairCountTurns(&sim->report, p, forces) < 2) PetscFunctionReturn(0);
+  if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) || PairCountTurns(&sim->report, p, forces) < 2)
+    PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report,
     "contact pair \"%s\": the contact is only one facet of %s wide, and its force oscillates as it moves over the "
     "facets, for example from %.3g to %.3g: refine that face to about seven facets across the contact, or make the "

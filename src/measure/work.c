@@ -21,8 +21,10 @@ static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before
   PetscFunctionReturn(0);
 }
 
-/* Updates the energy balance by a solve in which the loads did `work` and contact took up `taken` */
-static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, StepReport *report)
+/* Updates the energy balance by a solve in which the loads did `work` and contact took up `taken`. rounding: work that
+   rounding of the forces does */
+static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, PetscReal rounding,
+  StepReport *report)
 {
   const PetscReal at_rest = 1e-2; /* relative to the energy: the imbalance of a step with less turnover is related to
                                      this */
@@ -31,7 +33,8 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   PetscFunctionBegin;
   path->energy += stored;
   path->unbalanced += PetscAbsReal(work - stored - taken);
-  path->turnover += PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken)));
+  path->turnover +=
+    PetscMax(rounding, PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken))));
   report->normal_work = report->contact_work - report->dissipated;
   report->imbalance =
     path->turnover > 0.0 ? path->unbalanced / PetscMax(path->turnover, at_rest * PetscAbsReal(path->energy)) : 0.0;
@@ -62,7 +65,8 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
 {
   const Bodies    bodies = SimulationBodies(sim);
   LoadPath       *path   = &sim->path;
-  const PetscReal work = path->work, taken = path->contact_work;
+  const PetscReal work = path->work, taken = path->contact_work, relative = 1e-12;
+  PetscReal       place, way;
   Vec             outside, reaction, increment[2];
 
   PetscFunctionBegin;
@@ -76,6 +80,8 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
+  PetscCall(VecNorm(u, NORM_INFINITY, &place));
+  PetscCall(VecNorm(increment[0], NORM_INFINITY, &way));
   PetscCall(WorkAddForce(increment, 0.5, &path->outside, &outside, &path->work));
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
@@ -84,6 +90,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   report->work         = path->work;
   report->contact_work = path->contact_work;
   if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
-    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, report));
+    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
+      report));
   PetscFunctionReturn(0);
 }

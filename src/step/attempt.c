@@ -123,14 +123,6 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AttemptCopy(Vec u, Vec *copy)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(u, copy));
-  PetscCall(VecCopy(u, *copy));
-  PetscFunctionReturn(0);
-}
-
 /* deepest = min(gap, 0): negative where a row is penetrated, 0 where none is or there are no rows */
 static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 {
@@ -449,21 +441,46 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   PetscFunctionReturn(0);
 }
 
+/* Sets sim->linearization, and creates u_linearized, where it is: u if u is a forecast; the path's extrapolation if the
+   gap is linearized again; else the last state: in the first load step, after a cut, and with friction, where what the
+   tolerance leaves would add up over load steps */
+static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
+  Vec *u_linearized)
+{
+  Simulation sim       = p->sim;
+  PetscBool  continues = (PetscBool)(sim->path.time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->scene->npairs; ++k)
+    if (SceneContactPairHasFriction(&sim->scene->pairs[k])) continues = PETSC_FALSE;
+  PetscCall(VecDuplicate(u, u_linearized));
+  PetscCall(VecCopy(foreseen ? u : sim->path.u, *u_linearized));
+  if (foreseen || continues) {
+    if (!foreseen) PetscCall(PathContinue(sim, p->time, *u_linearized));
+    PetscCall(AttemptMakeRigid(p, *u_linearized));
+    PetscCall(ContactLinearizationDestroy(&sim->upcoming));
+  }
+  if (!sim->upcoming) PetscCall(ContactLinearize(sim->contact, *u_linearized, &sim->upcoming));
+  sim->linearization = sim->upcoming;
+  sim->upcoming      = NULL;
+  PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->linearization));
+  PetscFunctionReturn(0);
+}
+
 /* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit sim->linearization is
-   the one u was found with and `at_u` the one at u. foreseen: u is a forecast; the gap was linearized there and the
-   solve starts there. */
+   the one u was found with and `at_u` the one at u. foreseen: u is a forecast. */
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
 {
-  Simulation           sim          = p->sim;
-  ContactUpdateSecants secants      = {0};
-  Vec                  u_linearized = sim->path.u;
+  Simulation           sim     = p->sim;
+  ContactUpdateSecants secants = {0};
   PetscBool            end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  Vec                  u_linearized;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
   report->gap_unconverged = PETSC_FALSE;
-  if (foreseen) PetscCall(AttemptCopy(u, &u_linearized));
+  PetscCall(AttemptBegin(p, foreseen, u, report, &u_linearized));
   PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
@@ -478,10 +495,9 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
       continue;
     }
     if (end || report->contact_updates == sim->scene->contact_updates) break;
-    if (u_linearized == sim->path.u) PetscCall(AttemptCopy(sim->path.u, &u_linearized));
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
   }
-  if (u_linearized != sim->path.u) PetscCall(VecDestroy(&u_linearized));
+  PetscCall(VecDestroy(&u_linearized));
   PetscCall(ContactUpdateSecantsDestroy(&secants));
   report->gap_unconverged =
     (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
@@ -505,21 +521,6 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
-  PetscFunctionReturn(0);
-}
-
-/* Sets sim->linearization: at u if u is a forecast; else at the last converged state, taken from sim->upcoming,
-   which becomes NULL */
-static PetscErrorCode AttemptBegin(Simulation sim, PetscReal time, PetscBool foreseen, Vec u)
-{
-  PetscFunctionBegin;
-  if (foreseen) {
-    PetscCall(AttemptLinearizeGap(sim, time, u, &sim->linearization));
-    PetscFunctionReturn(0);
-  }
-  sim->linearization = sim->upcoming;
-  sim->upcoming      = NULL;
-  PetscCall(InterferenceAdd(sim, time, 1.0, sim->linearization));
   PetscFunctionReturn(0);
 }
 
@@ -556,8 +557,8 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   Vec                  u, inertia;
 
   PetscFunctionBegin;
-  if (sim->contact && !sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
   if (sim->contact && sim->path.time == 0.0 && !report->cuts && !sim->forecast.failed) {
+    if (!sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
     PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
     PetscCall(StartWarn(sim, sim->upcoming));
   }
@@ -567,7 +568,6 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
-    PetscCall(AttemptBegin(sim, time, foreseen, u));
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
     PetscCall(AttemptFindPassed(sim, u, report));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
@@ -588,11 +588,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     sim->upcoming = at_u;
     if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
   } else if (sim->contact) {
-    if (report->contact_updates || foreseen) PetscCall(ContactLinearizationDestroy(&sim->linearization));
-    else {
-      sim->upcoming = sim->linearization;
-      PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
-    }
+    PetscCall(ContactLinearizationDestroy(&sim->linearization));
     sim->linearization = good;
     PetscCall(ContactLinearizationDestroy(&at_u));
   }

@@ -58,7 +58,7 @@ def hertz():
     """The cylinder that is pressed on a plane of held faces; the same where a rigid plane is pressed on the cylinder"""
     with open(os.path.join(os.environ["AMGF_DIR"], "share", "scenes", "hertz_cylinder.yaml")) as file:
         held = re.sub(r"(patches|even): \[[^]]*\]", lambda m: "patches: [4, 16, 10]" if m[1] == "patches" else "even: [1, 5, 2]", file.read(), count=2)
-    plane = re.sub(r"(cells: \[1, 1, 1\]\n) *young: 1000\n *poisson: 0.3\n", r"\1      material: rigid\n", held)
+    plane = re.sub(r"(cells: \[1, 1, 1\]\n) *young: 1000\n *poisson: 0.3\n(?: *element: .*\n)?", r"\1      material: rigid\n", held)
     plane = re.sub(r"  - rigid: .*\n  - bottom: .*\n", "  - rise: {body: plane, value: [0, 0, 7.7308e-5]}\n", plane).replace("free, free, -7.7308e-5", "free, free, 0")
     return held, plane
 

@@ -4,6 +4,7 @@ python3 rolling.py scenes writes the scenes; python3 rolling.py judges the runs 
 """
 import csv
 import math
+import os
 import sys
 
 from summaries import load, say, within
@@ -67,6 +68,8 @@ if sys.argv[1:] == ["scenes"]:
             file.write(text)
 else:
     for name, rolls in ("roller", "roller"), ("wheel", "hub"), ("roller_3", "roller"):
+        if not os.path.exists(name + ".json"):
+            continue  # the expected output says which must be there
         run = load(name)
         steps = run["steps"]
         last, title = body(steps[-1], rolls), name + ": "

@@ -5,9 +5,9 @@ law="material: j2_finite, young: 200, poisson: 0.3, yield: 0.2"
 cat > bars.yaml <<YAML
 problem: bars
 bodies:
-  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], $law, hardening: 4}
+  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], element: full, $law, hardening: 4}
   - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, $law, hardening: 2, kinematic: 1.5}
-  - second: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [1, 1, 1], order: 2, $law, saturation: 0.6, saturation_rate: 1, hardening: 4}
+  - second: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [1, 1, 1], order: 2, element: full, $law, saturation: 0.6, saturation_rate: 1, hardening: 4}
   - both: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, element: bbar, material: j2_finite, young: 200, poisson: 0.3, plastic_strains: [0, 0.2, 3], yield_stresses: [0.2, 1.2, 12.4]}
 symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, second.xmin, second.ymin, second.zmin, both.xmin, both.ymin, both.zmin]
 displacements:
@@ -40,7 +40,7 @@ done
 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part1.json
 mpiexec --oversubscribe -n 2 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part2.json
 "$contact" tube.yaml -tao_ipfilter_tol 1e-13 -output tube -summary bbar.json > newton.txt || echo "tube: exit code $?"
-sed 's/, element: bbar//' tube.yaml > full.yaml; "$contact" full.yaml $options -summary full.json
+sed 's/element: bbar/element: full/' tube.yaml > full.yaml; "$contact" full.yaml $options -summary full.json
 sed 's/cells: .12, 2, 1./order: 2, cells: [6, 1, 1]/' tube.yaml > order2.yaml; "$contact" order2.yaml $options -summary order2.json
 "$PYTHON" "$AMGF_DIR/tests/material/plasticity_finite.py"
 sed 's/kinematic: 1.5/expansion: 1e-5/' bars.yaml > other.yaml; "$contact" other.yaml -quiet 2>&1 || echo "exit code $?"

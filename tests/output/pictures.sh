@@ -34,5 +34,5 @@ for refused in "--step 7" "--only base,lid" "--only 2" "--field heat" "--field s
 done
 draw nothing no.png 2>&1 || ls no.png 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
-for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density"):
+for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density", "equivalent_plastic_strain", "velocity"):
     print(field, Files("boxes").unit(field))'

@@ -81,3 +81,17 @@ SCENE
 }
 sides coarse block.zmax foot.zmin
 sides fine foot.zmin block.zmax
+
+# Blocks with friction that ride side by side without stress: their works are rounding, and no share of them is warned of
+cat > ride.yaml <<'SCENE'
+problem: ride
+bodies:
+  - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], young: 1, poisson: 0.3, element: full}
+  - high: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [2, 2, 2], young: 1, poisson: 0.3, element: full}
+displacements:
+  - carry: {face: low.zmin, value: [0.1, 0.2, 0.3]}
+  - follow: {face: high.zmax, value: [0.1, 0.2, 0.3]}
+contact:
+  - pair: {mortar: low.zmax, nonmortar: high.zmin, friction: 0.3}
+SCENE
+run ride

@@ -38,6 +38,14 @@ YAML
 )
 compare "two displacements of a face" "$both" "$one $all"
 
+counted=$(energy <<YAML
+$bodies
+displacements: [$floor, press: {face: bar.zmax, value: [free, 0, -0.1], ramp: down}, slide: {face: bar.zmax, value: [0.2, free, free], ramp: along}]
+ramps: [down: {factors: [1/2, 1, 1]}, along: {factors: [0, 0, 1]}]
+YAML
+)
+compare "without a number of load steps" "$counted" "$both"
+
 loads=$(energy <<YAML
 $bodies
 displacements: [$floor]

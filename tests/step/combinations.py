@@ -1,4 +1,4 @@
-"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python combinations.py [table | triples N | with EFFECT]"""
+"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python combinations.py [part | table | triples N | with EFFECT]"""
 import itertools
 import json
 import os
@@ -238,12 +238,15 @@ TABLE = {}
 
 
 def chosen(words):
-    """Each alone and each two; of all effects for the table; or so many of three, always the same ones; or one with each other"""
+    """Each alone and each two, or a quarter of the twos, always the same ones; of all effects for the table; or so many of three; or one with each other"""
     if words[:1] == ["triples"]:
         return random.Random(1).sample(list(itertools.combinations(EFFECTS, 3)), int(words[1]))
     if words[:1] == ["with"]:
         return [(words[1], name) for name in EFFECTS if name != words[1]]
-    return itertools.chain(((name,) for name in EFFECTS), itertools.combinations([name for name in EFFECTS if name not in ALONE or words], 2))
+    pairs = list(itertools.combinations([name for name in EFFECTS if name not in ALONE or words[:1] == ["table"]], 2))
+    if words[:1] == ["part"]:
+        pairs = random.Random(1).sample(pairs, len(pairs) // 4)
+    return [(name,) for name in EFFECTS] + pairs
 
 
 for pair in chosen(sys.argv[1:]):
@@ -257,7 +260,7 @@ for pair, (end, why) in TABLE.items():
     if end not in ("runs", "refused"):
         print(" and ".join(pair), "-", end, why)
 print("each two together run or are refused by one sentence: %s" % ("yes" if all(end in ("runs", "refused") for end, _ in TABLE.values()) else "no"))
-if len(sys.argv) > 1:
+if sys.argv[1:] not in ([], ["part"]):
     print(len(EFFECTS), "effects,", sum(end == "runs" for end, _ in TABLE.values()), "run,", sum(end == "refused" for end, _ in TABLE.values()), "refused")
     for pair, (end, why) in TABLE.items():
         if end == "refused":

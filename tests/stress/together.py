@@ -12,7 +12,7 @@ TRIPLES = 400
 def compare(args, name, words):
     folder = os.path.join(args.folder, "together")
     os.makedirs(folder, exist_ok=True)
-    command = [sys.executable, "-B", os.path.join(AMGF_DIR, "tests", "combinations.py"), *words]
+    command = [sys.executable, "-B", os.path.join(AMGF_DIR, "tests", "step", "combinations.py"), *words]
     done = subprocess.run(command, cwd=folder, env={**os.environ, "AMGF_DIR": AMGF_DIR}, capture_output=True, text=True)
     counts = re.search(r"(\d+) effects, (\d+) run, (\d+) refused", done.stdout)
     wrong = re.findall(r"^(?!\|).* - .*$", done.stdout, re.MULTILINE) if counts else [done.stderr[-300:]]

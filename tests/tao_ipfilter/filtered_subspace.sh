@@ -1,5 +1,6 @@
-# The filtered subspace method on shipped scenes, against the interior point method, on several numbers of ranks. Tolerances and
-# what it may cost are in filtered_subspace.py.
+# The filtered subspace method on shipped scenes, against the interior point method, on several numbers of ranks; filtered_subspace_long on more.
+# Tolerances and limits of the cost are in filtered_subspace.py.
+long=${1-}
 run() {
   name=$1
   ranks=$2
@@ -12,10 +13,10 @@ run() {
 
 run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false -tao_gatol 1e-12
 for ranks in 1 3; do run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true -tao_ipfilter_pc_amgf_factor false -contact_free; done
-for ranks in 1 2; do run "beam_sphere_direct_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -options_file "$AMGF_DIR/share/options/direct.opts" -log_view ":beam_sphere_direct_$ranks.log"; done
+for ranks in ${long:+1} 2; do run "beam_sphere_direct_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -options_file "$AMGF_DIR/share/options/direct.opts" -log_view ":beam_sphere_direct_$ranks.log"; done
 run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false -tao_gatol 1e-12
-for ranks in 1 5; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -tao_ipfilter_pc_amgf_factor false -contact_free; done
-for ranks in 1 3; do run "ironing_chosen_$ranks" "$ranks" ironing -load_steps 4; done
+for ranks in 1 ${long:+5}; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -tao_ipfilter_pc_amgf_factor false -contact_free; done
+for ranks in ${long:+1} 3; do run "ironing_chosen_$ranks" "$ranks" ironing -load_steps 4; done
 # At finite strain: Newton's method on the subspace
 run neo_hookean 1 beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_subspace false
 for ranks in 1 3; do run "neo_hookean_$ranks" "$ranks" beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_pc_amgf_factor false; done

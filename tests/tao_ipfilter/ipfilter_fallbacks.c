@@ -200,7 +200,7 @@ int main(int argc, char **argv)
   PetscCall(Test("stiff rods", "-tao_ipfilter_pc_type cholesky -tao_ipfilter_pc_factor_mat_solver_type mumps", 0.001,
     1.0, 10.0, &stiff));
   PetscCall(Test("stiff rods, their ends to be filtered",
-    "-tao_ipfilter_filter_switch 0 -tao_ipfilter_ksp_max_it 12 "
+    "-tao_ipfilter_filter_switch 0 -tao_ipfilter_ksp_max_it 12 -tao_ipfilter_pc_amgf_amg_lag -1 "
     "-tao_ipfilter_direct_memory 0",
     0.001, 1.0, 10.0, &stiff));
   PetscCall(PetscFinalize());

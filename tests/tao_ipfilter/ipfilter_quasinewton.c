@@ -231,7 +231,7 @@ int main(int argc, char **argv)
          args: -n 3000
 
       test:
-         suffix: large
+         suffix: large_long
          nsize: 2
 
 TEST*/

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The element that a scene gets which names none, beside the others on scenes that the choice was not made on: choice.md
+"""The element that a scene gets which names none, beside the others on scenes that the choice was not made on: choice.md, second.md
 
-    share/bench/elements/choice.py [--only NAME] [--limit SECONDS] [--folder build/choice] [--page FILE]
+    share/bench/elements/choice.py [--set first|second] [--only NAME] [--limit SECONDS] [--folder build/choice] [--page FILE]
 """
 import argparse
 import os
@@ -10,7 +10,8 @@ import subprocess
 import sys
 
 TOP = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(TOP, "share", "bench"))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.join(TOP, "share", "bench")]
+import second  # noqa: E402
 from runner import environment, keep, last_words, read_summary  # noqa: E402
 from store import CONTACT  # noqa: E402
 
@@ -119,6 +120,9 @@ ties:
 }
 
 
+SETS = {"first": (SCENES, ""), "second": (second.SCENES, second.FINDING)}  # scenes, and what follows from them
+
+
 def value(summary, quantity):
     last = summary["steps"][-1]
     return last["energy"] if quantity == "energy" else sum(f**2 for f in last["contact_force"]) ** 0.5
@@ -131,7 +135,7 @@ def run(title, element, level, folder, limit):
 
 
 def run_once(title, element, level, base, limit):
-    quantity, text = SCENES[title]
+    quantity, text = {**SCENES, **second.SCENES}[title]
     text = text.replace(", E}", f", {ELEMENTS[element]}}}" if ELEMENTS[element] else "}")
     with open(base + ".yaml", "w") as file:
         file.write(text + f"refine: {level}\n")
@@ -178,13 +182,15 @@ def answer(good):
     return "yes" if good else "no"
 
 
-def page(found):
+def page(found, finding):
     yield "# The element of a scene that names none\n"
     yield "`share/bench/elements/choice.py` makes this page: scenes on which the choice was not made. Errors are of the contact force, or of the energy where no contact is; the"
     yield "reference is the mean of `full` and `bbar` of order 2 on the mesh refined once. Times are user seconds on one core. Two questions: is the error of `auto` at most"
     yield "1.2 times the least of all elements of order 1 on the mesh? Is it on the front: has no run of any element and mesh, that takes at most its time, an error smaller"
     yield "than its own by more than 20 %? Where the second answer is no, order 2 on a coarser mesh is better: `order: 2` must be asked for, because on the same mesh it has"
     yield "six to eight times the unknowns.\n"
+    if finding:
+        yield finding
     yield "| refinement | best of order 1 on the mesh | on the front of all runs | scenes |"
     yield "| --- | --- | --- | --- |"
     for level in LEVELS[1]:
@@ -204,13 +210,15 @@ def page(found):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--set", choices=SETS, default="first", help="of scenes")
     parser.add_argument("--only", default="", help="scenes whose title has this")
     parser.add_argument("--limit", type=float, default=120.0, help="seconds a run")
     parser.add_argument("--folder", default=os.path.join(TOP, "build", "choice"))
     parser.add_argument("--page", help="file to write; else the page is printed")
     arguments = parser.parse_args()
     os.makedirs(arguments.folder, exist_ok=True)
-    text = "\n".join(page(results([title for title in SCENES if arguments.only in title], arguments.folder, arguments.limit))) + "\n"
+    scenes, finding = SETS[arguments.set]
+    text = "\n".join(page(results([title for title in scenes if arguments.only in title], arguments.folder, arguments.limit), finding)) + "\n"
     if arguments.page:
         with open(arguments.page, "w") as file:
             file.write(text)

@@ -122,4 +122,8 @@ class Files:
             return length + "²"
         if field.startswith("contact_force"):
             return force
+        if field.endswith("plastic_strain"):
+            return "1"
+        if field == "velocity":
+            return length + "/time"
         return stress

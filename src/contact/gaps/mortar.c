@@ -85,7 +85,7 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
 
 /* Fraction of a facet's area that the candidates cover */
 static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
-  const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
+  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
 {
   PetscReal      covered = 0.0, corners[4][2], height[4];
   ContactOverlap overlap;
@@ -94,7 +94,9 @@ static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const Co
   if (!ContactFrameCreate(x, &frame)) return 0.0;
   ContactFrameProject(&frame, x, corners, height);
   for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFind(x, &mortar->x[12 * near[k]], limits, rule, &overlap)) covered += overlap.area;
+    if (ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
+          &overlap))
+      covered += overlap.area;
   }
   return PetscMin(1.0, covered / ContactPolygonArea(4, (const PetscReal(*)[2])corners));
 }
@@ -114,28 +116,48 @@ static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered,
   return PETSC_TRUE;
 }
 
-/* Integrates one nonmortar facet over the candidates near it; normal: at its vertices */
-static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *limits, const ContactRule *rule,
+/* Whether any of the candidates faces a nonmortar facet within the limits */
+static PetscBool MortarIsNear(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
+  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
+{
+  ContactOverlap overlap;
+
+  for (PetscInt k = 0; k < nnear; ++k) {
+    if (ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
+          &overlap))
+      return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Integrates one nonmortar facet over the candidates near it; normal: at its vertices. A facet within the search
+   distance takes part as a whole: if its farther end were left out, the gap would jump as the facet turns. */
+static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *search, const ContactRule *rule,
   const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear,
   const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
 {
-  const PetscBool smooth = pair->nonmortar.patched;
-  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
-         .normal               = normal,
-         .row                  = &pair->row[4 * f],
-         .node                 = &pair->nonmortar.node[4 * f]};
-  ContactOverlap  overlap;
-  PetscReal       dual[4][4];
+  const PetscBool      smooth = pair->nonmortar.patched;
+  const PetscInt       border = pair->nonmortar.border[f];
+  MortarFacet          facet  = {.x = &pair->nonmortar.x[12 * f],
+              .normal               = normal,
+              .row                  = &pair->row[4 * f],
+              .node                 = &pair->nonmortar.node[4 * f]};
+  ContactOverlapLimits whole = *search, *limits = &whole;
+  ContactOverlap       overlap;
+  PetscReal            dual[4][4];
 
   PetscFunctionBegin;
+  if (!MortarIsNear(search, rule, facet.x, border, mortar, nnear, near)) PetscFunctionReturn(0);
+  whole.distance += ContactFacetDiameter(facet.x);
   if (pair->gap == GAP_DUAL || pair->dual) {
-    const PetscReal covered = MortarMeasureCover(limits, rule, facet.x, mortar, nnear, near);
+    const PetscReal covered = MortarMeasureCover(limits, rule, facet.x, border, mortar, nnear, near);
 
     if (MortarGetDual(&pair->nonmortar.reference[12 * f], covered, dual)) facet.dual = dual;
   }
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
   for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFind(facet.x, &mortar->x[12 * near[k]], limits, rule, &overlap))
+    if (ContactOverlapFindAtBorder(facet.x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
+          &overlap))
       PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
   }
   if (facet.noverlaps) {
@@ -166,7 +188,9 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     PetscReal swept[6];
 
-    ContactSweptBox(&pair->nonmortar.x[12 * f], pair->distance + pair->bulge, pair->depth + pair->bulge, swept);
+    ContactSweptBox(&pair->nonmortar.x[12 * f],
+      pair->distance + pair->bulge + ContactFacetDiameter(&pair->nonmortar.x[12 * f]), pair->depth + pair->bulge,
+      swept);
     for (PetscInt c = 0; c < 3; ++c) {
       box[c]     = PetscMin(box[c], swept[c]);
       box[3 + c] = PetscMax(box[3 + c], swept[3 + c]);

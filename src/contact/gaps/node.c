@@ -1,8 +1,12 @@
 /* Node to segment: nonmortar vertices against the closest points of the mortar face */
 #include "gapsimpl.h"
 
-/* a vertex that is beside the mortar face by more than this fraction of a facet's size has no closest point */
+/* a vertex that is beside the mortar face by more than this fraction of the facet's size has no closest point */
 #define BORDER_MARGIN 0.05
+/* a vertex on the border of the nonmortar face: the area about it still lies over the mortar face, so this fraction of
+   that area's size is allowed as well. Otherwise vertices that bulge outwards where faces end together would lose their
+   rows under pressure */
+#define RIM_MARGIN 0.5
 
 /* Whether the closest point is on the border of the mortar face */
 static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
@@ -17,9 +21,10 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
   return PETSC_FALSE;
 }
 
-/* Whether the vertex x lies beside the mortar face: the closest point y is on its border, and x - y is not along the
-   facet's normal */
-static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3])
+/* Whether the vertex x lies beside the mortar face, by more than the margin: the closest point y is on its border, and
+   x - y is not along the facet's normal */
+static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3],
+  PetscReal margin)
 {
   const PetscReal *facet = &mortar->x[12 * nearest->facet];
   PetscReal        t1[3], t2[3], n[3], r[3], area = 0.0, height = 0.0, beside = 0.0;
@@ -38,7 +43,7 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
   }
   if (!(area > 0.0)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) beside += PetscSqr(r[c] - height / area * n[c]);
-  return (PetscBool)(beside > PetscSqr(BORDER_MARGIN) * 4.0 * PetscSqrtReal(area));
+  return (PetscBool)(beside > PetscSqr(PetscMax(margin, BORDER_MARGIN * 2.0 * PetscPowReal(area, 0.25))));
 }
 
 /* Box around the spheres of the search radius about this rank's vertices */
@@ -204,11 +209,13 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
   PetscCall(VecGetArrayRead(rows->mass, &mass));
   for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i) {
     const PetscReal *x = &rows->x[3 * i], *n = &rows->normal[3 * i];
+    const PetscBool  rim    = (PetscBool)(PetscBTLookup(pair->nonmortar.rim, rows->vertex[i]) != 0);
+    const PetscReal  margin = rim ? RIM_MARGIN * PetscSqrtReal(PetscRealPart(mass[i])) : 0.0;
     ContactNearest   nearest;
     NodeGap          gap;
 
     ContactFindNearest(&tree, mortar, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
-    if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x)) continue;
+    if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x, margin)) continue;
     if (pair->mortar.patched)
       NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
     else gap.gap = NodeFacetGap(&nearest, x, n);

@@ -96,6 +96,18 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
   return area;
 }
 
+/* Length of the longer diagonal; of a triangle, of the longer of two edges */
+PetscReal ContactFacetDiameter(const PetscReal x[12])
+{
+  PetscReal square[2] = {0.0, 0.0};
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    square[0] += PetscSqr(x[6 + c] - x[c]);
+    square[1] += PetscSqr(x[9 + c] - x[3 + c]);
+  }
+  return PetscSqrtReal(PetscMax(square[0], square[1]));
+}
+
 /* Of a triangle, whose second parameter is 1 at its last vertex */
 static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {
@@ -111,11 +123,11 @@ static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], 
 /*
    Parameters of the point y of a triangle, whose second parameter is 1 at its last vertex
 */
-void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
+void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal most, PetscReal xi[2])
 {
   PetscReal c[4][2]; /* Parameters of the point y of a plane quadrilateral (Newton's method; one step suffices for a
-                        parallelogram) or of a triangle. The point lies inside up to rounding, so the result is
-                        clipped to [-1, 1]^2, also where the map is degenerate. */
+                        parallelogram) or of a triangle. The point lies inside up to rounding, or within `most` times
+                        the facet, so the result is clipped, also where the map is degenerate. */
 
   if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
     FacetInverseTriangle(q, y, xi);
@@ -140,7 +152,7 @@ void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal 
     if (det == 0.0) break;
     step[0] = (J[1][1] * r[0] - J[0][1] * r[1]) / det;
     step[1] = (J[0][0] * r[1] - J[1][0] * r[0]) / det;
-    for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -1.0, 1.0);
+    for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -most, most);
     if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < 16.0 * PETSC_MACHINE_EPSILON) break;
   }
 }

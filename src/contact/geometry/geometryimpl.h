@@ -28,11 +28,12 @@ PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 PETSC_INTERN PetscBool ContactFacetIsTriangle(const PetscReal x[12]);
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
 PETSC_INTERN void      ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2]);
+PETSC_INTERN PetscReal ContactFacetDiameter(const PetscReal x[12]);
 PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3]);
 PETSC_INTERN void      ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12]);
 PETSC_INTERN void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
-PETSC_INTERN void      ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2]);
+PETSC_INTERN void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal most, PetscReal xi[2]);
 
 /* frame.c: the plane onto which a nonmortar facet is projected */
 typedef struct {
@@ -48,6 +49,10 @@ PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal
 PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
 PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip,
    const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2]);
+
+/* extend.c: mortar facets continued beyond a border that both faces share */
+PETSC_INTERN PetscBool ContactExtendBorder(const PetscReal p1[4][2], PetscInt border1, PetscInt border2,
+  PetscReal p2[4][2]);
 
 /* overlap.c: the part where a nonmortar and a mortar facet face each other. With quadrature points, weights and
    nodal normals held fixed, the weighted gap is linear in the coordinates. */
@@ -78,6 +83,8 @@ typedef struct {
 } ContactOverlapLimits;
 PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *,
   const ContactRule *, ContactOverlap *);
+PETSC_INTERN PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, const PetscReal x2[12],
+  PetscInt border2, const ContactOverlapLimits *, const ContactRule *, ContactOverlap *);
 
 /* closest.c: the point of a facet closest to another point */
 PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2],

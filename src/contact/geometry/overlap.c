@@ -88,9 +88,9 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
 }
 
 /* Adds the quadrature points of the triangles between the polygon's first vertex and its other edges, with this
-   sign. first: number of its first corner */
+   sign. first: number of its first corner; most: bound of the parameters on the mortar facet */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
-  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], ContactOverlap *o)
+  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal most, ContactOverlap *o)
 {
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscReal tri[3][2] = {
@@ -109,8 +109,8 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
         for (PetscInt d = 0; d < 2; ++d) y[d] += rule->barycentric[q][v] * tri[v][d];
       }
       o->weight[o->n] = area * rule->weight[q];
-      ContactInverseMap(p1, y, o->xi1[o->n]);
-      ContactInverseMap(p2, y, o->xi2[o->n]);
+      ContactInverseMap(p1, y, 1.0, o->xi1[o->n]);
+      ContactInverseMap(p2, y, most, o->xi2[o->n]);
       ++o->n;
     }
   }
@@ -131,17 +131,34 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
   return gap / o->area;
 }
 
+/* The mortar facet in the plane, counterclockwise: it is seen from inside its body, so its vertices are reversed. Where
+   both facets are at the borders of their faces it is continued a little beyond its own; returns whether it was.
+   Triangles are not continued. */
+static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, PetscInt nmortar,
+  const PetscReal p2[4][2], PetscInt border2, PetscReal reversed[4][2])
+{
+  PetscInt border = 0;
+
+  for (PetscInt a = 0; a < nmortar; ++a) {
+    for (PetscInt d = 0; d < 2; ++d) reversed[a][d] = p2[nmortar - 1 - a][d];
+  }
+  if (nmortar < 4 || !(border1 & 15) || !(border2 & 15)) return PETSC_FALSE;
+  for (PetscInt e = 0; e < 4; ++e) border |= (border2 >> (6 - e) % 4 & 1) << e; /* from vertex 3 - e to 2 - e */
+  return ContactExtendBorder(p1, border1, border, reversed);
+}
+
 /*
    Finds the overlap: projects both facets to the plane through the centre of the nonmortar facet x1 normal to its mean
    normal, clips, and places quadrature points. Returns false if the facets do not face each other within the limits or
-   hardly overlap.
+   hardly overlap. Borders as in ContactSurface.
 */
-PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
-  const ContactRule *rule, ContactOverlap *o)
+PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, const PetscReal x2[12], PetscInt border2,
+  const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
   const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
   PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
   PetscInt       size[2], vertex[2][4], nparts;
+  PetscReal      most = 1.0;
   ContactFrame   frame;
 
   o->n = o->ncorners = o->ntriangles = 0;
@@ -151,10 +168,8 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     return PETSC_FALSE;
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
-  for (PetscInt a = 0; a < nmortar; ++a) { /* the mortar facet is seen from inside its body, so it is reversed */
-    reversed[a][0] = p2[nmortar - 1 - a][0];
-    reversed[a][1] = p2[nmortar - 1 - a][1];
-  }
+  if (OverlapPutMortar((const PetscReal(*)[2])p1, border1, nmortar, (const PetscReal(*)[2])p2, border2, reversed))
+    most = 1.5; /* the facet is continued by a seventh at most */
   smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
   nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
@@ -165,9 +180,16 @@ PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], con
     if (!n || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
     OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
     OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
-    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, o);
+    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, most, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   gap = OverlapMeanGap(o, h1, h2);
   return (PetscBool)(gap <= limits->distance && gap >= -limits->depth);
+}
+
+/* The same inside of faces, where borders do not matter */
+PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
+  const ContactRule *rule, ContactOverlap *o)
+{
+  return ContactOverlapFindAtBorder(x1, 0, x2, 0, limits, rule, o);
 }

@@ -2,7 +2,8 @@
 #include "searchimpl.h"
 
 /* The prism that a nonmortar facet sweeps along its normal, from the search depth below to the search distance
-   above. A sphere of that radius would contain more facets the finer the mesh is. */
+   and the facet's own size above: a facet that is partly within the distance is needed as a whole. A sphere of that
+   radius would contain more facets the finer the mesh is. */
 typedef struct {
   ContactFrame frame;
   PetscReal    low[3], high[3]; /* bounds in the frame's coordinates */
@@ -14,6 +15,7 @@ static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscRea
   PetscReal y[4][2], h[4];
 
   if (!ContactFrameCreate(x, &p->frame)) return PETSC_FALSE;
+  distance += ContactFacetDiameter(x);
   ContactSweptBox(x, distance, depth, p->box);
   ContactFrameProject(&p->frame, x, y, h);
   for (PetscInt d = 0; d < 2; ++d) {

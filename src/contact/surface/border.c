@@ -60,6 +60,10 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
     if (edge[i] >= 0 && count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, ends));
+  PetscCall(PetscBTCreate(npoints, &s->rim));
+  for (PetscInt v = 0; v < npoints; ++v) {
+    if (ends[v]) PetscCall(PetscBTSet(s->rim, v));
+  }
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     const PetscBool point = (PetscBool)(i % 4 == 2 && s->vertex[i] == s->vertex[i + 1]);
 

@@ -186,6 +186,7 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
   PetscCall(PetscFree(s->border));
+  PetscCall(PetscBTDestroy(&s->rim));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscFree2(s->patch, s->normal_id));
   PetscFunctionReturn(0);

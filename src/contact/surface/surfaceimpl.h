@@ -6,6 +6,7 @@
 
 #include "src/contact/geometry/geometryimpl.h"
 #include <mesh.h>
+#include <petscbt.h>
 
 /* boundary.c: undeformed boundary facets of all bodies on this rank */
 typedef struct {
@@ -36,6 +37,7 @@ typedef struct {
     *held; /* [nfacets] bit 3 a + c: the displacement of vertex a along axis c is prescribed by a face of the mesh */
   PetscInt *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex
                        a is on it. For a triangle bit 2 stands for its last vertex */
+  PetscBT   rim;       /* bit p: the local DMPlex point p is a vertex on the border; NULL unless bordered */
   PetscBool bordered;  /* whether `border` has been computed; the same on all ranks */
   PetscReal area;      /* area of the whole undeformed face, on all ranks [length^2] */
   PetscInt  body;      /* body that the face belongs to */

@@ -229,7 +229,9 @@ static const SceneKey probe_rows[] = {
   NUMBER_OF("body", BODY, SceneProbe, body, "the first of them", "the body, if the point is on several"), {NULL}};
 
 static const SceneKey load_rows[] = {
-  SECTION("steps", "1", "number of load steps; the load factor grows linearly from 0 to 1"),
+  SECTION("steps", "",
+    "number of load steps; the load factor grows linearly from 0 to 1. Default: the number of factors of the first "
+    "ramp that has some, else 1"),
   SECTION("factors", "", "load factor at the end of each load step, instead of `steps`"),
   SECTION("expression", "",
     "load factor as an expression of the time `t` and of `s` = t / number of steps; requires `steps`"),

@@ -10,8 +10,29 @@ static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
   PetscFunctionReturn(0);
 }
 
-/* Reads the load, which is ramp 0 and sets the number of steps */
-static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp)
+/* The number of load steps where the scene does not say it: that of the first ramp's factors, or one */
+static PetscErrorCode SceneCountFactors(SceneKeys keys, PetscInt nramps, char *const ramps[], PetscInt *nsteps)
+{
+  PetscFunctionBegin;
+  *nsteps = 1;
+  for (PetscInt r = 0; r < nramps; ++r) {
+    char        key[SCENE_KEY_LENGTH];
+    const char *text;
+    char      **words;
+
+    PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramps[r]));
+    PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
+    if (!text) continue;
+    *nsteps = PETSC_DECIDE;
+    PetscCall(SceneParseList(keys, key, text, nsteps, &words));
+    PetscCall(PetscStrToArrayDestroy((int)*nsteps, words));
+    break;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Reads the load, which is ramp 0 and sets the number of steps. ramps: names of the others */
+static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps, char *const ramps[], SceneRamp *ramp)
 {
   const char *steps, *factors;
   char      **words;
@@ -37,7 +58,7 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, SceneRamp *ramp
     PetscCall(PetscCalloc1(scene->nsteps, &ramp->factor));
     PetscCall(SceneParseReals(keys, "load_factors", factors, scene->nsteps, ramp->factor));
   } else {
-    scene->nsteps = 1;
+    PetscCall(SceneCountFactors(keys, nramps, ramps, &scene->nsteps));
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
     if (scene->nsteps > SCENE_MAX_STEPS) {
       PetscCall(SceneKeysError(keys, "load_steps is %" PetscInt_FMT ", which must be at most %d", scene->nsteps,
@@ -88,7 +109,7 @@ PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
   PetscCall(SceneGetNames(keys, "ramps", PETSC_FALSE, &n, &names));
   scene->nramps = 1 + n;
   PetscCall(PetscCalloc1(scene->nramps, &scene->ramps));
-  PetscCall(SceneReadLoad(keys, scene, &scene->ramps[0]));
+  PetscCall(SceneReadLoad(keys, scene, n, names, &scene->ramps[0]));
   for (PetscInt r = 0; r < n; ++r) {
     scene->ramps[1 + r].name = names[r];
     PetscCall(SceneReadRamp(keys, scene, &scene->ramps[1 + r]));
