@@ -50,19 +50,15 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
 PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const char owner[], const SceneBody *body)
 {
   const PetscReal *v = body->velocity, *w = body->spin;
-  char             key[SCENE_KEY_LENGTH];
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_density", owner));
-  DynamicsRequire(body->material.density >= 0.0, keys, key, "body \"%s\" has density %g, which must be above 0",
-    body->name, (double)body->material.density);
+  DynamicsRequire(body->material.density >= 0.0, keys, "body \"%s\" has density %g, which must be above 0", body->name,
+    (double)body->material.density);
   if (SceneIsDynamic(scene)) {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
-    DynamicsRequire(body->material.density > 0.0 || body->material.type == MATERIAL_RIGID, keys, key,
+    DynamicsRequire(body->material.density > 0.0 || body->material.type == MATERIAL_RIGID, keys,
       "body \"%s\" has no density, which dynamics needs: the key \"%s_density\" is missing, or 0", body->name, owner);
   } else {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_initial_velocity", owner));
-    DynamicsRequire(!(v[0] || v[1] || v[2] || w[0] || w[1] || w[2]), keys, key,
+    DynamicsRequire(!(v[0] || v[1] || v[2] || w[0] || w[1] || w[2]), keys,
       "body \"%s\" has an initial velocity, and the scene has no dynamics: add dynamics: {time_step: ..., end_time: "
       "...}",
       body->name);
