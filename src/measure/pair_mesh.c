@@ -164,6 +164,7 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
   PetscReal               forces[2] = {0.0, 0.0}, motion = 0.0;
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->report.nsteps; ++k) motion = PetscMax(motion, sim->report.steps[k].motion);
   if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) ||
       PairCountTurns(&sim->report, p, MEASURE_ROUNDING * sim->stiffness * motion, forces) < 2)
     PetscFunctionReturn(0);
