@@ -153,7 +153,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
-  rounding *= 1e-11 * sim->stiffness; /* rounding level of the forces on such bodies */
+  rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding level of the forces on such bodies */
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));

@@ -7,6 +7,8 @@
 
 #include "src/state/stateimpl.h"
 
+#define MEASURE_ROUNDING 1e-11 /* of forces, relative to the stiffness and the largest displacement */
+
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Vec shear, PetscInt pair, Vec force);

@@ -131,11 +131,11 @@ static PetscBool PairLoadTurns(const RunReport *run)
 }
 
 /* Number of times that the force changes its direction by more than a tenth of its size while the contact is narrow;
-   forces: the last two extreme values */
-static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal forces[2])
+   forces: the last two extreme values; rounding: of forces */
+static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal rounding, PetscReal forces[2])
 {
   PetscInt  turns = 0, sense = 0;
-  PetscReal largest = 0.0;
+  PetscReal largest = rounding / PAIR_SWING;
 
   for (PetscInt s = 0; s < run->nsteps; ++s) {
     const PairReport *pair = p < run->steps[s].npairs ? &run->steps[s].pairs[p] : NULL;
@@ -161,10 +161,12 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal force
 static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
-  PetscReal               forces[2] = {0.0, 0.0};
+  PetscReal               forces[2] = {0.0, 0.0}, motion = 0.0;
 
   PetscFunctionBegin;
-  if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) || PairCountTurns(&sim->report, p, forces) < 2)
+  for (PetscInt k = 0; k < sim->report.nsteps; ++k) motion = PetscMax(motion, sim->report.steps[k].motion);
+  if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) ||
+      PairCountTurns(&sim->report, p, MEASURE_ROUNDING * sim->stiffness * motion, forces) < 2)
     PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report,
     "contact pair \"%s\": the contact is only one facet of %s wide, and its force oscillates as it moves over the "

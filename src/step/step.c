@@ -105,8 +105,8 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
    Notes:
    The gap is linearized at the state before the step: deformed mesh, search, mortar integrals. If contact_updates
    allows more than one linearization, the first is where the last two states extrapolate to, except in the first step,
-   after a cut and with friction. Contact updates linearize it again at the solution, up to contact_updates times, until the
-   linearized and the actual gap agree within
+   after a cut and with friction. Contact updates linearize it again at the solution, up to contact_updates times, until
+   the linearized and the actual gap agree within
    `-contact_gap_tol`. Otherwise the step has not converged, unless contact_updates is 1. With linear bodies, or `model:
    quadratic` in the scene, the step is a quadratic program; otherwise the true energy is minimized. A quadratic step
    without contact pairs is one PCG solve (options prefix -elasticity_).

@@ -11,8 +11,8 @@ DIE, PRESS, SLIDE = 4.0, 0.1, 0.75  # radius, how deep it is pressed, how far it
 HOLE, PIN, FURTHER = 10.0, 9.8, 0.01  # radii, how much farther than its play the pin goes
 
 FLAT = """bodies:
-  - flat: {{lower: [-6, 0, -3], upper: [6, 1, 0], cells: [48, 1, 12], young: 1000, poisson: 0.3}}
-  - die: {{shape: tube_arc, axis: y, center: [0, 0, {radius}], radii: [{inner}, {radius}], angles: [135, 225], extent: [0, 1], cells: [3, {around}, 1], young: 1000, poisson: 0.3}}
+  - flat: {{lower: [-6, 0, -3], upper: [6, 1, 0], cells: [48, 1, 12], young: 1000, poisson: 0.3, element: full}}
+  - die: {{shape: tube_arc, axis: y, center: [0, 0, {radius}], radii: [{inner}, {radius}], angles: [135, 225], extent: [0, 1], cells: [3, {around}, 1], young: 1000, poisson: 0.3, element: full}}
 displacements:
   - bottom: {{face: flat.zmin, value: [0, 0, 0]}}
   - press: {{face: die.inner, value: [free, 0, {press}]}}
@@ -25,8 +25,8 @@ ramps:
   - along: {{factors: [{along}]}}
 """
 ROUND = """bodies:
-  - hole: {{shape: tube_arc, axis: y, radii: [{hole}, 16], angles: [80, 280], extent: [0, 1], cells: [4, 60, 1], young: 1000, poisson: 0.3}}
-  - pin: {{shape: tube_arc, axis: y, radii: [4.8, {pin}], angles: [90, 270], extent: [0, 1], cells: [4, 54, 1], young: 1000, poisson: 0.3}}
+  - hole: {{shape: tube_arc, axis: y, radii: [{hole}, 16], angles: [80, 280], extent: [0, 1], cells: [4, 60, 1], young: 1000, poisson: 0.3, element: full}}
+  - pin: {{shape: tube_arc, axis: y, radii: [4.8, {pin}], angles: [90, 270], extent: [0, 1], cells: [4, 54, 1], young: 1000, poisson: 0.3, element: full}}
 displacements:
   - rim: {{face: hole.outer, value: [0, 0, 0]}}
   - along: {{face: pin.inner, value: [{way}, free, free], ramp: sine}}

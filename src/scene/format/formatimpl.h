@@ -69,13 +69,14 @@ PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char format[], ...) 
 PETSC_INTERN PetscErrorCode SceneKeysErrorOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
+/* Makes a file's name relative to the folder of the scene */
+PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
+
 /* lines.c: line of a key, 0 if unknown; puts the line of what a message is about before it, if it is known; raises an
    error of work on the scene, if there is one, with file and line */
 PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
 PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
-/* Makes a file's name relative to the folder of the scene */
-PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
 /* parse.c: converts values; key is for error messages. A list must have n entries, or any number if *n is
    PETSC_DECIDE on entry */
