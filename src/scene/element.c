@@ -28,15 +28,18 @@ static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, 
     PetscFunctionReturn(0);
   }
   PetscCall(MaterialPoisson(&body->material, &poisson));
-  if (MaterialYields(&body->material)) {
+  if (!MaterialIsFinite(&body->material) && nnodes == 8) {
+    *element = ELEMENT_INCOMPATIBLE;
+    *reason  = "small strain, hexahedra of order 1";
+  } else if (MaterialYields(&body->material) && MaterialIsFinite(&body->material) && nnodes > 8) {
+    *element = ELEMENT_FULL; /* bbar has false equilibria under compression, where metal flows: plasticity_finite.sh */
+    *reason  = "metal at finite strain, order 2";
+  } else if (MaterialYields(&body->material)) {
     *element = ELEMENT_BBAR;
     *reason  = "plastic strain keeps the volume";
   } else if (body->material.type == MATERIAL_SAINT_VENANT) {
     *element = ELEMENT_FULL;
     *reason  = "the only element for its law";
-  } else if (!MaterialIsFinite(&body->material) && nnodes == 8) {
-    *element = ELEMENT_INCOMPATIBLE;
-    *reason  = "small strain, hexahedra of order 1";
   } else if (poisson > INCOMPRESSIBLE) {
     *element = ELEMENT_BBAR;
     *reason  = "Poisson's ratio above 0.4";
