@@ -48,9 +48,9 @@ PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, Petsc
    [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
 /* Collective. How deep vertices of a pair are that went through the other face from u0 to u1, and how deep contact is
-   searched for [length] */
+   searched for [length]; turned: a facet turned by more than 90 degrees */
 PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
-  PetscReal *reach);
+  PetscReal *reach, PetscBool *turned);
 /* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
    search reaches */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);

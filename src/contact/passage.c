@@ -163,14 +163,26 @@ static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds vertices of the faces of a pair that passed through the other face between two displacements, and
-   the largest depth. p: number of the pair; moved: bound of the displacement of a vertex along an axis; penetration
+/* Sets *turned if a facet has turned by more than 90 degrees since its corners were at x0 */
+static void PassageFindTurned(const ContactSurface *side, const PetscReal x0[], PetscBool *turned)
+{
+  for (PetscInt f = 0; f < side->nfacets; ++f) {
+    PetscReal n0[3], n1[3];
+
+    if (!ContactFacetNormal(&x0[12 * f], n0) || !ContactFacetNormal(&side->x[12 * f], n1)) continue;
+    if (VectorDot(n0, n1) < 0.0) *turned = PETSC_TRUE;
+  }
+}
+
+/* Collective. Finds vertices of the faces of a pair that passed through the other face between two displacements,
+   and the largest depth. p: number of the pair; moved: bound of the displacement of a vertex along an axis; penetration
    deeper than 2 sqrt(3) times this is not found [length]; u0, u1: global displacements before and after [length];
    depth: depth of the deepest vertex at u1 [length]; 0: none passed through; reach: depth to which the contact search
-   looks [length]. Vertices and facets are assumed to move along straight lines. A vertex that leaves the body again
-   does not count. Vertices less than a tenth of the reach inside the other body count as outside. */
+   looks [length]; turned: a facet of one of the faces turned by more than 90 degrees. Vertices and facets are assumed
+   to move along straight lines. A vertex that leaves the body again does not count. Vertices less than a tenth of the
+   reach inside the other body count as outside. */
 PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
-  PetscReal *reach)
+  PetscReal *reach, PetscBool *turned)
 {
   const PetscReal   all[6]  = {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL,
        PETSC_MAX_REAL};
@@ -180,8 +192,9 @@ PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, V
   PetscReal        *x0[2];
 
   PetscFunctionBegin;
-  *depth = 0.0;
-  *reach = pair->depth;
+  *depth  = 0.0;
+  *reach  = pair->depth;
+  *turned = PETSC_FALSE;
   if (2.0 * PetscSqrtReal(3.0) * moved <= pair->depth) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(ContactDeform(contact, k ? u1 : u0));
@@ -194,9 +207,11 @@ PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, V
   }
   for (PetscInt s = 0; s < 2; ++s) {
     PetscCall(PassageOfSide(side[s], x0[s], facets[s], 0.1 * pair->depth, depth));
+    PassageFindTurned(side[s], x0[s], turned);
     for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactCandidatesDestroy(&facets[s][k]));
     PetscCall(PetscFree(x0[s]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, 1, MPIU_REAL, MPIU_MAX, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, turned, 1, MPI_PETSCBOOL, MPI_LOR, contact->comm));
   PetscFunctionReturn(0);
 }

@@ -259,10 +259,44 @@ static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized
   PetscFunctionReturn(0);
 }
 
+/* Whether faces of a pair are within reach of each other at u */
+static PetscErrorCode AttemptFindMet(Simulation sim, PetscReal time, PetscInt pair, Vec u, PetscBool *met)
+{
+  ContactLinearization lin;
+
+  PetscFunctionBegin;
+  *met = PETSC_FALSE;
+  PetscCall(AttemptLinearizeGap(sim, time, u, &lin));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) *met = (PetscBool)(*met || lin->pair[r] == pair);
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/* A face that turned over and lost the other one may have passed it on ways that are not straight */
+static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt p, Vec u, StepReport *report)
+{
+  const SceneContactPair *pair = &sim->scene->pairs[p];
+  PetscBool               before, now;
+  char                    sentence[256];
+
+  PetscFunctionBegin;
+  PetscCall(AttemptFindMet(sim, time, p, sim->path.u, &before));
+  PetscCall(AttemptFindMet(sim, time, p, u, &now));
+  if (!before || now) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+    "contact pair \"%s\": %s or %s turns by more than 90 degrees within the load step, and has no contact after it; "
+    "use smaller load steps",
+    pair->name, pair->mortar, pair->nonmortar));
+  PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  PetscFunctionReturn(0);
+}
+
 /* Faces that went right through one another since the last state have no contact at u, and never had any on the way.
    That takes motions of at least the depth that is searched */
-static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *report)
+static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, StepReport *report)
 {
+  PetscBool turned;
   PetscReal moved, reach, depth;
   Vec       du;
   char      sentence[256];
@@ -274,7 +308,8 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, Vec u, StepReport *repor
   for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
 
-    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path.u, u, &depth, &reach));
+    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path.u, u, &depth, &reach, &turned));
+    if (turned && depth <= reach) PetscCall(AttemptFindTurned(sim, time, p, u, report));
     if (depth <= reach) continue;
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
       "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
@@ -569,7 +604,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
-    PetscCall(AttemptFindPassed(sim, u, report));
+    PetscCall(AttemptFindPassed(sim, time, u, report));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));

@@ -53,3 +53,18 @@ contact:
 SCENE
 "$AMGF_DIR/bin/contact" through.yaml -quiet 2>&1 | grep -o '^contact: load step 1 failed: contact pair "touch": lid.zmin and cube.zmax go through each other within the load step'
 echo "exit code ${PIPESTATUS[0]}"
+# A smaller one, beside which the cube turns over instead
+cat > over.yaml << 'SCENE'
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 10, poisson: 0.3}
+  - lid: {lower: [0.2, 0.2, 1], upper: [0.8, 0.8, 1.3], cells: [2, 2, 1], material: rigid}
+displacements:
+  - foot: {face: cube.zmin, value: [0, 0, 0]}
+  - press: {body: lid, value: [0, 0, -2]}
+contact:
+  - touch: {mortar: lid.zmin, nonmortar: cube.zmax}
+load: {factors: [0.25, 0.5, 1]}
+SCENE
+"$AMGF_DIR/bin/contact" over.yaml -quiet -load_max_cuts 0 > over.log 2>&1
+echo "exit code $?, $(grep -c 'open at the end of every load step' over.log) warnings of no contact"
+grep -o '^contact: load step 2 failed: contact pair "touch": lid.zmin or cube.zmax turns by more than 90 degrees within the load step' over.log
