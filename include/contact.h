@@ -35,6 +35,7 @@ PETSC_EXTERN PetscErrorCode ContactDetect(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContactPair[], Contact *);
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);
+PETSC_EXTERN PetscErrorCode ContactSetBodies(Contact, const SceneBody[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);

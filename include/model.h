@@ -15,7 +15,12 @@
   SHAPE(HALF_ELLIPSE, HalfEllipse, "half_ellipse") \
   SHAPE(SPHERE_SHELL, SphereShell, "sphere_shell") \
   SHAPE(SPHEROID_SHELL, SpheroidShell, "spheroid_shell") \
-  SHAPE(BALL, Ball, "ball")
+  SHAPE(BALL, Ball, "ball") \
+  SHAPE(RIGID_PLANE, RigidPlane, "rigid_plane") \
+  SHAPE(RIGID_SPHERE, RigidSphere, "rigid_sphere") \
+  SHAPE(RIGID_CYLINDER, RigidCylinder, "rigid_cylinder") \
+  SHAPE(RIGID_CONE, RigidCone, "rigid_cone") \
+  SHAPE(RIGID_TORUS, RigidTorus, "rigid_torus")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
 typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
@@ -23,6 +28,16 @@ typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 PETSC_EXTERN const char *const BodyShapes[];
 
 #define BODY_OWN 16
+
+/* Where a rigid surface has its parameters among a body's own: three numbers each of point and axis */
+enum {
+  SURFACE_POINT   = 0,
+  SURFACE_AXIS    = 3,
+  SURFACE_RADIUS  = 6,
+  SURFACE_SECTION = 7,
+  SURFACE_ANGLE   = 8,
+  SURFACE_SIZE    = 9
+};
 
 /* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis y:
    from z to x) */
@@ -198,21 +213,21 @@ typedef struct {
 } SceneTemperature;
 
 typedef struct {
-  char     *name;
-  char     *mortar;    /* "<body>.<face>" */
-  char     *nonmortar; /* "<body>.<face>": the face that carries the constraints */
-  GapType   gap;
-  PetscReal distance;          /* largest distance of facets that pair [length]; 0: from the size of the faces */
-  PetscReal interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
-  PetscInt  interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
-  PetscReal friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
-  PetscReal shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
-  PetscInt  friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
-  PetscReal tie;               /* only of rules: surfaces that are nearer than this are tied [length]; 0: none */
-  char     *except;            /* only of rules: bodies and faces without contact, or two of them as "a/b" */
-  const char *why;             /* found by a rule: why the nonmortar side is that; NULL: the scene names both sides */
-  PetscReal apart;             /* found by a rule: smallest distance along a normal in the undeformed state [length] */
-  PetscBool smooth;            /* measure the gap between smooth surfaces through the facets of curved faces */
+  char       *name;
+  char       *mortar;    /* "<body>.<face>" */
+  char       *nonmortar; /* "<body>.<face>": the face that carries the constraints */
+  GapType     gap;
+  PetscReal   distance;          /* largest distance of facets that pair [length]; 0: from the size of the faces */
+  PetscReal   interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
+  PetscInt    interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
+  PetscReal   friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
+  PetscReal   shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
+  PetscInt    friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
+  PetscReal   tie;               /* only of rules: surfaces that are nearer than this are tied [length]; 0: none */
+  char       *except;            /* only of rules: bodies and faces without contact, or two of them as "a/b" */
+  const char *why;               /* found by a rule: why the nonmortar side is that; NULL: the scene names both sides */
+  PetscReal   apart;  /* found by a rule: smallest distance along a normal in the undeformed state [length] */
+  PetscBool   smooth; /* measure the gap between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
 static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair)
@@ -274,7 +289,7 @@ typedef struct _n_Scene {
   SceneTemperature *temperatures;
   PetscInt          npairs;
   SceneContactPair *pairs;
-  PetscInt nrules; /* contact entries that name no faces; ContactDetect() turns them into pairs and ties */
+  PetscInt          nrules; /* contact entries that name no faces; ContactDetect() turns them into pairs and ties */
   SceneContactPair *rules;
   PetscInt          nties;
   SceneTie         *ties;
@@ -310,6 +325,19 @@ static inline PetscReal SceneTimeStep(Scene scene)
 
 /* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
+/* Whether a body is a rigid surface: contact is with a formula, not with facets */
+static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
+{
+  return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_TORUS);
+}
+
+/* The cube of one cell that moves a rigid surface: corner, unit vectors of its edges, length of the edges */
+typedef struct {
+  PetscReal corner[3], edge[3][3], size;
+} SceneSurfaceCube;
+PETSC_EXTERN void SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+/* Distance of a point from an undeformed rigid surface, negative inside [length], and its gradient */
+PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
 /* The material of the body that a face belongs to */
 PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);
 /* Evaluates an expression in x, y, z at a point */

@@ -67,12 +67,10 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
   PetscFunctionBegin;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
+    const PetscReal  area = pair->formula ? pair->nonmortar.area : PetscMin(pair->mortar.area, pair->nonmortar.area);
 
-    pair->distance =
-      pair->given > 0.0
-        ? pair->given
-        : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(PetscMin(pair->mortar.area, pair->nonmortar.area)));
-    pair->depth = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
+    pair->distance = pair->given > 0.0 ? pair->given : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(area));
+    pair->depth    = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
     if (!pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
     if (!pair->nonmortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->nonmortar));
   }
@@ -210,7 +208,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "vertex");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
-    if (set_smooth) contact->pairs[p].smooth = smooth;
+    if (set_smooth && !contact->pairs[p].formula) contact->pairs[p].smooth = smooth;
   }
   PetscCall(ContactSmoothReset(contact));
   PetscCall(ContactRuleCreate(degree, &contact->rule));
@@ -244,6 +242,42 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   contact->displacements  = displacements;
   PetscCall(PetscFree(contact->rows.held));
   PetscCall(ContactSmoothReset(contact));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  ContactSetBodies - Tells a contact its bodies, some of which may be rigid surfaces
+
+  Logically Collective
+
+  Input Parameters:
++ contact - the contact
+- bodies  - the bodies of the mesh; not copied, they must exist until the contact is destroyed
+
+  Level: intermediate
+
+  Note:
+  A pair whose mortar side is a rigid surface measures its gap from the formula of the surface. A rigid surface as the
+  nonmortar side is an error.
+
+.seealso: `ContactCreate()`, `ContactLinearize()`
+@*/
+PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
+{
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData *pair = &contact->pairs[p];
+
+    PetscCheck(!SceneBodyIsSurface(&bodies[pair->nonmortar.body]), contact->comm, PETSC_ERR_ARG_WRONG,
+      "Contact pair \"%s\" has the rigid surface %s as its nonmortar side: it is the mortar side, since it has no "
+      "nodes that could carry the constraints",
+      pair->name, pair->nonmortar.name);
+    if (!SceneBodyIsSurface(&bodies[pair->mortar.body])) continue;
+    pair->formula = &bodies[pair->mortar.body];
+    pair->smooth  = PETSC_FALSE;
+  }
+  PetscCall(ContactSmoothReset(contact));
+  PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }
 

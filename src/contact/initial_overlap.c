@@ -67,7 +67,7 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
     i = PetscMax(i, rows->first[p]);
     while (rows->vertex[i] != v) ++i;
     if (k < usual->nlocal && usual->pair[k] == p && usual->vertex[k] == v) continue;
-    if (gap >= -pair->depth || pair->mortar.body == pair->nonmortar.body) continue;
+    if (pair->formula || gap >= -pair->depth || pair->mortar.body == pair->nonmortar.body) continue;
     for (PetscInt c = 0; c < 3; ++c) {
       row.x[c] = rows->x[3 * i + c];
       row.y[c] = row.x[c] + gap * rows->normal[3 * i + c];

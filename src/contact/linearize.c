@@ -16,6 +16,9 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first,
     rows->normal + 3 * first));
   PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
+  if (!pair->formula) PetscFunctionReturn(0);
+  PetscCall(ContactSurfacePlace(contact->comm, pair));
+  PetscCall(ContactSurfaceSetNormals(pair, n, rows->x + 3 * first, rows->normal + 3 * first));
   PetscFunctionReturn(0);
 }
 
@@ -56,7 +59,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
   assembly.gaps_only = gaps_only;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];
-    const ContactGapOps *ops  = gap_ops[pair->gap];
+    const ContactGapOps *ops  = pair->formula ? &ContactGapRigidSurface : gap_ops[pair->gap];
     PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
     ContactCandidates candidates;
 
@@ -103,6 +106,9 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
   m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
   has no row. A vertex on the border of the nonmortar face has one up to half the size of the area about it: faces that
   end together bulge. Mortar facets at a border that both faces share reach up to a tenth of a facet beyond it.
+
+  Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) measure the distance of each nonmortar vertex from
+  it; J is its derivative.
 
   Faces of order 2 are cut into facets at their nodes. The patches of smooth mortar pairs follow what the faces bend;
   the vertices of others, and of plane faces, move with the mean displacement of the faces about them. J spreads forces

@@ -195,7 +195,7 @@ PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, V
   *depth  = 0.0;
   *reach  = pair->depth;
   *turned = PETSC_FALSE;
-  if (2.0 * PetscSqrtReal(3.0) * moved <= pair->depth) PetscFunctionReturn(0);
+  if (pair->formula || 2.0 * PetscSqrtReal(3.0) * moved <= pair->depth) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < 2; ++k) {
     PetscCall(ContactDeform(contact, k ? u1 : u0));
     for (PetscInt s = 0; s < 2; ++s) {

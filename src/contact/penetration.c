@@ -56,6 +56,16 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
   PetscFunctionReturn(0);
 }
 
+/* deepest: raised to the largest depth of this rank's vertices below a rigid surface */
+static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest)
+{
+  const ContactRows *rows = &contact->rows;
+  PetscReal          gradient[3], weight[4];
+
+  for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i)
+    *deepest = PetscMax(*deepest, -ContactSurfaceDistance(&contact->pairs[p], &rows->x[3 * i], gradient, weight));
+}
+
 /* Collective. Computes how deep the vertices of each pair's faces penetrate the other face. u: global displacement
    vector, 3 components per vertex [length]; depth: largest penetration of a vertex of either face, one value per pair
    [length]; 0: no penetration; rounding: uncertainty of the depth, one value per pair: a tenth of the distance between
@@ -73,6 +83,10 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], 
 
     depth[p]    = 0.0;
     rounding[p] = 0.1 * pair->bulge;
+    if (pair->formula) {
+      PenetrationOfFormula(contact, p, &depth[p]);
+      continue;
+    }
     PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
     PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
   }

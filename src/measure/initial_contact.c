@@ -179,6 +179,7 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionBegin;
   if (!scene->npairs) PetscFunctionReturn(0);
   PetscCall(ContactCreate(dm, scene->npairs, scene->pairs, &contact));
+  PetscCall(ContactSetBodies(contact, scene->bodies));
   PetscCall(ContactSetFromOptions(contact));
   PetscCall(ContactSetDisplacements(contact, scene->ndisplacements, scene->displacements));
   PetscCall(DMCreateGlobalVector(dm, &zero));

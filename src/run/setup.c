@@ -64,6 +64,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscFunctionBegin;
   if (!scene->npairs) PetscFunctionReturn(0);
   PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
+  PetscCall(ContactSetBodies(sim->contact, scene->bodies));
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
   for (PetscInt p = 0; p < scene->npairs; ++p)

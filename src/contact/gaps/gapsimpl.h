@@ -17,7 +17,7 @@ typedef struct {
   /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
 } ContactGapOps;
-PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode;
+PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode, ContactGapRigidSurface;
 
 typedef struct {
   PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
@@ -32,5 +32,12 @@ PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12
 PETSC_INTERN void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4]);
 PETSC_INTERN void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[]);
 PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *);
+
+/* rigid_surface.c: pairs whose mortar side is a rigid surface. Place: call after its face was deformed */
+PETSC_INTERN PetscErrorCode ContactSurfacePlace(MPI_Comm, ContactPairData *);
+PETSC_INTERN PetscReal ContactSurfaceDistance(const ContactPairData *, const PetscReal x[3], PetscReal gradient[3],
+  PetscReal weight[4]);
+PETSC_INTERN PetscErrorCode ContactSurfaceSetNormals(const ContactPairData *, PetscInt n, const PetscReal x[],
+  PetscReal normal[]);
 
 #endif

@@ -1,0 +1,115 @@
+/*
+   Rigid surfaces: plane, sphere, cylinder, cone and torus. Contact is with the formula of the surface. The mesh is a cube
+   of one cell, which carries the rigid motion; its only face stands for the surface.
+*/
+#include "shapesimpl.h"
+
+static const char *const *ShapeFaces_RigidSurface(PETSC_UNUSED const SceneBody *body)
+{
+  static const char *const faces[] = {"surface", NULL};
+
+  return faces;
+}
+
+static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
+{
+  const PetscReal *own    = body->own;
+  const char      *shape  = BodyShapes[body->shape];
+  const PetscBool  round  = (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE);
+  PetscReal        square = 0.0;
+
+  PetscFunctionBegin;
+  PetscCheck(body->material.type == MATERIAL_RIGID, comm, PETSC_ERR_ARG_WRONG,
+    "Body \"%s\" has shape %s, which is only for material rigid, but its material is %s", body->name, shape,
+    MaterialTypes[body->material.type]);
+  for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(own[SURFACE_AXIS + c]);
+  PetscCheck(body->shape == SHAPE_RIGID_SPHERE || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" of shape %s has a direction of length 0", body->name, shape);
+  PetscCheck(!round || own[SURFACE_RADIUS] > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" of shape %s has radius %g, which must be positive", body->name, shape, (double)own[SURFACE_RADIUS]);
+  PetscCheck(body->shape != SHAPE_RIGID_TORUS ||
+               (own[SURFACE_SECTION] > 0.0 && own[SURFACE_SECTION] < own[SURFACE_RADIUS]),
+    comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" of shape %s has section_radius %g, which must lie between 0 and its radius %g", body->name, shape,
+    (double)own[SURFACE_SECTION], (double)own[SURFACE_RADIUS]);
+  PetscCheck(body->shape != SHAPE_RIGID_CONE || (own[SURFACE_ANGLE] > 0.0 && own[SURFACE_ANGLE] < 90.0), comm,
+    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" of shape %s has half_angle %g, which must lie between 0 and 90 degrees",
+    body->name, shape, (double)own[SURFACE_ANGLE]);
+  PetscCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" of shape %s has size %g, which must be positive", body->name, shape, (double)own[SURFACE_SIZE]);
+  *ncells    = 1;
+  *nvertices = 8;
+  PetscFunctionReturn(0);
+}
+
+static PetscInt RigidSurfaceVertex(PETSC_UNUSED const void *context, PetscInt i, PetscInt j, PetscInt k)
+{
+  return i + 2 * j + 4 * k;
+}
+
+static PetscErrorCode ShapeCreate_RigidSurface(const SceneBody *body, ShapeGrid *grid)
+{
+  const ShapeBlock block = {{1, 1, 1}, {0, 0, 0, 0, 0, 0}, NULL, RigidSurfaceVertex};
+  SceneSurfaceCube cube;
+
+  PetscFunctionBegin;
+  SceneSurfaceGetCube(body, &cube);
+  PetscCall(ShapeGridCreate(1, &block, 8, PETSC_FALSE, grid));
+  for (PetscInt v = 0; v < 8; ++v) {
+    for (PetscInt c = 0; c < 3; ++c) {
+      grid->coordinates[3 * v + c] = cube.corner[c];
+      for (PetscInt i = 0; i < 3; ++i)
+        if (v >> i & 1) grid->coordinates[3 * v + c] += cube.size * cube.edge[i][c];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+#define SURFACE_KEY(name, n, at, required) SHAPE_KEY(name, KEY_REALS, n, own[at], required)
+#define SURFACE_END \
+  { \
+    NULL, KEY_REALS, 0, 0, PETSC_FALSE \
+  }
+
+static const ShapeKey plane_keys[] = {
+  SURFACE_KEY("point", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("normal", 3, SURFACE_AXIS, PETSC_TRUE),
+  SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
+  SURFACE_END,
+};
+static const ShapeKey sphere_keys[] = {
+  SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
+  SURFACE_END,
+};
+static const ShapeKey cylinder_keys[] = {
+  SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
+  SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
+  SURFACE_END,
+};
+static const ShapeKey cone_keys[] = {
+  SURFACE_KEY("tip", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
+  SURFACE_KEY("half_angle", 1, SURFACE_ANGLE, PETSC_TRUE),
+  SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
+  SURFACE_END,
+};
+static const ShapeKey torus_keys[] = {
+  SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
+  SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
+  SURFACE_KEY("section_radius", 1, SURFACE_SECTION, PETSC_TRUE),
+  SURFACE_END,
+};
+
+#define SURFACE_SHAPE(keys) \
+  { \
+    ShapeFaces_RigidSurface, ShapeSize_RigidSurface, ShapeCreate_RigidSurface, NULL, keys \
+  }
+const Shape ShapeRigidPlane    = SURFACE_SHAPE(plane_keys);
+const Shape ShapeRigidSphere   = SURFACE_SHAPE(sphere_keys);
+const Shape ShapeRigidCylinder = SURFACE_SHAPE(cylinder_keys);
+const Shape ShapeRigidCone     = SURFACE_SHAPE(cone_keys);
+const Shape ShapeRigidTorus    = SURFACE_SHAPE(torus_keys);
