@@ -1,0 +1,111 @@
+"""Rigid surfaces without facets: Hertz's sphere, Sneddon's cone, a plane that presses and is driven by a force, a cylinder in rubber.
+
+python3 rigid_surface.py scenes writes the scenes; python3 rigid_surface.py [exact] judges the runs.
+"""
+import math
+import sys
+
+from summaries import load, say, within
+
+HALF_SPACE = """problem: {name}
+bodies:
+  - block: {{lower: [0, 0, -80], upper: [80, 80, 0], cells: [13, 13, 13], grading: [{grading}, {grading}, {inverse}], even: [5, 5, 5], young: 1000, poisson: 0.3, order: 2}}
+  - tool: {{{tool}, material: rigid}}
+displacements:
+  - bottom: {{face: block.zmin, value: [0, 0, 0]}}
+  - press: {{body: tool, value: [0, 0, {press}]}}
+symmetry: [block.xmin, block.ymin]
+contact:
+  - touch: {{mortar: tool.surface, nonmortar: block.zmax, distance: 1}}
+"""
+FLAT = """problem: flat
+bodies:
+  - block: {{lower: [-1, -1, 0], upper: [1, 1, 1], cells: [6, 6, 3], young: 1000, poisson: 0}}
+  - tool: {{shape: rigid_plane, point: [0.3, 0.2, 1], normal: [0, 0, -2], material: rigid}}
+{rest}
+contact:
+  - touch: {{mortar: tool.surface, nonmortar: block.zmax{pair}}}
+"""
+DRIVEN = """problem: driven
+bodies:
+  - block: {lower: [-1, -1, 0], upper: [1, 1, 1], cells: [8, 8, 4], young: 1000, poisson: 0.3}
+  - tool: {shape: rigid_plane, point: [0, 0, 1], normal: [0, 0, -1], material: rigid}
+displacements:
+  - bottom: {face: block.zmin, value: [0, 0, 0]}
+  - guide: {body: tool, value: [0, 0, free], rotation: [0, free, 0], center: [0, 0, 1]}
+forces:
+  - load: {body: tool, value: [0, 0, -4], moment: [0, 0.4, 0], point: [0, 0, 1]}
+contact:
+  - touch: {mortar: tool.surface, nonmortar: block.zmax}
+"""
+BOTTOM = "displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]}\n  - pin: {point: [-1, -1, 0], body: block, value: [0, 0, 0]}\n  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n"
+RUBBER = """problem: rubber
+bodies:
+  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 2, 8], material: neohookean, young: 1, poisson: 0.4, order: {order}}}
+  - tool: {{{tool}, material: rigid}}
+load_steps: 3
+displacements:
+  - bottom: {{face: block.zmin, value: [0, 0, 0]}}
+  - press: {{body: tool, value: [0.1, 0, -0.3], rotation: [0, 30, 0], center: [0, 0, 1.5]}}
+symmetry: [block.ymin, block.ymax]
+contact:
+  - touch: {{mortar: tool.{face}, nonmortar: block.zmax}}
+"""
+RADIUS, APPROACH, ANGLE, CONTACT = 1000, 1e-4, 89.9, 0.316
+DEPTH = CONTACT * math.pi / 2 / math.tan(math.radians(ANGLE))
+MODULUS = 1000 / (1 - 0.3**2)
+
+
+def grading():
+    """The last of 13 cells over the first, five of which are 0.07 wide, on a length of 80."""
+    low, high = 1.0, 10.0
+    for _ in range(100):
+        q = (low + high) / 2
+        if 0.07 * (5 + sum(q**k for k in range(1, 9))) > 80:
+            high = q
+        else:
+            low = q
+    return q**8
+
+
+SPHERE = f"shape: rigid_sphere, center: [0, 0, {RADIUS}], radius: {RADIUS}"
+CONE = f"shape: rigid_cone, tip: [0, 0, 0], direction: [0, 0, 3], half_angle: {ANGLE}"
+CYLINDER = "shape: rigid_cylinder, center: [0, 0, 1.5], direction: [0, 1, 0], radius: 0.5"
+TUBE = "shape: tube_arc, axis: y, center: [0, 0, 1.5], radii: [0.4, 0.5], angles: [110, 250], extent: [0, 0.5], cells: [1, 96, 1]"
+SCENES = {
+    "sphere": HALF_SPACE.format(name="sphere", tool=SPHERE, press=-APPROACH, grading=grading(), inverse=1 / grading()),
+    "cone": HALF_SPACE.format(name="cone", tool=CONE, press=-DEPTH, grading=grading(), inverse=1 / grading()),
+    "pressed": FLAT.format(pair="", rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
+    "driven": DRIVEN,
+    "rubbed": FLAT.format(pair=", friction: 0.2", rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
+    "rubber_1": RUBBER.format(order=1, tool=CYLINDER, face="surface"),
+    "rubber_2": RUBBER.format(order=2, tool=CYLINDER, face="surface"),
+    "rubber_mesh": RUBBER.format(order=1, tool=TUBE, face="outer"),
+}
+
+
+def pair(name):
+    return load(name)["steps"][-1]["pairs"][0]
+
+
+if sys.argv[1:] == ["scenes"]:
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+elif sys.argv[1:] == ["exact"]:
+    hertz = MODULUS * math.sqrt(RADIUS * APPROACH**3) / 3
+    sneddon = MODULUS * math.tan(math.radians(ANGLE)) * DEPTH**2 / (2 * math.pi)
+    for name, force, energy in ("sphere", hertz, 0.4 * hertz * APPROACH), ("cone", sneddon, sneddon * DEPTH / 3):
+        seen = (-pair(name)["force"][2] / force - 1, load(name)["steps"][-1]["energy"] / energy - 1)
+        say(f"{name}: force within 0.5 % of the closed form, energy within 0.2 %", abs(seen[0]) < 5e-3 and abs(seen[1]) < 2e-3, seen)
+else:
+    seen = pair("pressed")
+    say("plane: uniform pressure of 10", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
+    seen = pair("driven")
+    say("plane that a force and a moment drive: they are carried", within(-seen["force"][2], 4, 1e-8) and within(seen["moment"][1], 0.4, 5e-3), seen)
+    mesh = load("rubber_mesh")["steps"][-1]
+    for order in 1, 2:
+        one, three = (load(f"rubber_{order}{ranks}")["steps"][-1] for ranks in ("", "_3"))
+        say(f"cylinder in rubber, order {order}: within 1 % of a cylinder with facets", within(one["pairs"][0]["force"][2], mesh["pairs"][0]["force"][2], 1e-2) and within(one["energy"], mesh["energy"], 5e-3), (one, mesh))
+        say(f"cylinder in rubber, order {order}: no vertex is inside", one["pairs"][0]["penetration"] < 1e-8, one["pairs"])
+        say(f"cylinder in rubber, order {order}: the same on three ranks", within(three["energy"], one["energy"], 1e-8), (three["energy"], one["energy"]))
