@@ -2,6 +2,7 @@ static char help[] = "Gaps to rigid surfaces against their definitions, and thei
                      "differences, with the surface moved and turned.\n";
 
 #include <contact.h>
+#include <mesh.h>
 #include <vector3.h>
 #include "contact_report.h"
 

@@ -28,9 +28,9 @@ typedef struct {
                           body [length] */
   PetscInt   nfacing;  /* in the last contact update, on this rank: overlapping facet pairs, or vertices opposite a
                           facet */
-  const SceneBody *formula;   /* the mortar side is a rigid surface; NULL: it is a face of facets */
-  PetscInt  corner[4];        /* global numbers of four corners of its cube */
-  PetscReal place[4][3];      /* where they are [length] */
+  const SceneBody *formula;     /* the mortar side is a rigid surface; NULL: it is a face of facets */
+  PetscInt         corner[4];   /* global numbers of four corners of its cube */
+  PetscReal        place[4][3]; /* where they are [length] */
 } ContactPairData;
 
 /* Whether patches follow the bending of order-2 faces between their nodes. Otherwise vertices move with the mean

@@ -35,8 +35,8 @@ PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes
 
 /* rigid_surface.c: pairs whose mortar side is a rigid surface. Place: call after its face was deformed */
 PETSC_INTERN PetscErrorCode ContactSurfacePlace(MPI_Comm, ContactPairData *);
-PETSC_INTERN PetscReal ContactSurfaceDistance(const ContactPairData *, const PetscReal x[3], PetscReal gradient[3],
-  PetscReal weight[4]);
+PETSC_INTERN PetscReal      ContactSurfaceDistance(const ContactPairData *, const PetscReal x[3], PetscReal gradient[3],
+       PetscReal weight[4]);
 PETSC_INTERN PetscErrorCode ContactSurfaceSetNormals(const ContactPairData *, PetscInt n, const PetscReal x[],
   PetscReal normal[]);
 

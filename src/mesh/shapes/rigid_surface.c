@@ -1,6 +1,6 @@
 /*
-   Rigid surfaces: plane, sphere, cylinder, cone and torus. Contact is with the formula of the surface. The mesh is a cube
-   of one cell, which carries the rigid motion; its only face stands for the surface.
+   Rigid surfaces: plane, sphere, cylinder, cone and torus. Contact is with the formula of the surface. The mesh is a
+   cube of one cell, which carries the rigid motion; its only face stands for the surface.
 */
 #include "shapesimpl.h"
 
@@ -15,29 +15,27 @@ static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *bod
   PetscInt64 *nvertices)
 {
   const PetscReal *own    = body->own;
-  const char      *shape  = BodyShapes[body->shape];
   const PetscBool  round  = (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE);
   PetscReal        square = 0.0;
 
   PetscFunctionBegin;
   PetscCheck(body->material.type == MATERIAL_RIGID, comm, PETSC_ERR_ARG_WRONG,
-    "Body \"%s\" has shape %s, which is only for material rigid, but its material is %s", body->name, shape,
-    MaterialTypes[body->material.type]);
+    "Body \"%s\" has the shape of a rigid surface, which is only for material rigid, but its material is %s",
+    body->name, MaterialTypes[body->material.type]);
   for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(own[SURFACE_AXIS + c]);
   PetscCheck(body->shape == SHAPE_RIGID_SPHERE || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" of shape %s has a direction of length 0", body->name, shape);
+    "Body \"%s\" has a direction of length 0", body->name);
   PetscCheck(!round || own[SURFACE_RADIUS] > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" of shape %s has radius %g, which must be positive", body->name, shape, (double)own[SURFACE_RADIUS]);
+    "Body \"%s\" has radius %g, which must be positive", body->name, (double)own[SURFACE_RADIUS]);
   PetscCheck(body->shape != SHAPE_RIGID_TORUS ||
                (own[SURFACE_SECTION] > 0.0 && own[SURFACE_SECTION] < own[SURFACE_RADIUS]),
-    comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" of shape %s has section_radius %g, which must lie between 0 and its radius %g", body->name, shape,
-    (double)own[SURFACE_SECTION], (double)own[SURFACE_RADIUS]);
+    comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has section_radius %g, which must lie between 0 and its radius %g",
+    body->name, (double)own[SURFACE_SECTION], (double)own[SURFACE_RADIUS]);
   PetscCheck(body->shape != SHAPE_RIGID_CONE || (own[SURFACE_ANGLE] > 0.0 && own[SURFACE_ANGLE] < 90.0), comm,
-    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" of shape %s has half_angle %g, which must lie between 0 and 90 degrees",
-    body->name, shape, (double)own[SURFACE_ANGLE]);
+    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\" has half_angle %g, which must lie between 0 and 90 degrees", body->name,
+    (double)own[SURFACE_ANGLE]);
   PetscCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" of shape %s has size %g, which must be positive", body->name, shape, (double)own[SURFACE_SIZE]);
+    "Body \"%s\" has size %g, which must be positive", body->name, (double)own[SURFACE_SIZE]);
   *ncells    = 1;
   *nvertices = 8;
   PetscFunctionReturn(0);
