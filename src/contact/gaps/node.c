@@ -6,7 +6,7 @@
 /* a vertex on the border of the nonmortar face: the area about it still lies over the mortar face, so this fraction of
    that area's size is allowed as well. Otherwise vertices that bulge outwards where faces end together would lose their
    rows under pressure */
-#define RIM_MARGIN 0.5
+#define RIM_MARGIN 0.2
 
 /* Whether the closest point is on the border of the mortar face */
 static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])

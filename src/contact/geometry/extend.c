@@ -4,8 +4,8 @@
 
 /* margin, as a fraction of the size of the smaller facet across its border */
 #define EXTEND_MARGIN 0.1
-/* overhang, as a fraction of the margin, that is rounding */
-#define EXTEND_TINY 1e-6
+/* a segment is beside an edge up to this fraction of the edge's length beyond its ends */
+#define EXTEND_BESIDE 1e-3
 /* cosine of the angle above which two border edges count as parallel */
 #define EXTEND_PARALLEL 0.9
 
@@ -28,6 +28,29 @@ static PetscBool PolygonEdgeCreate(PetscInt n, const PetscReal p[][2], PetscInt 
   return PETSC_TRUE;
 }
 
+/* How far the segment from p to q reaches beyond a line, where it is beside the edge on that line. Neighbouring mortar
+   facets then see nearly the same where they meet. *beside: whether any of it is */
+static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], const PetscReal q[2], PetscBool *beside)
+{
+  const PetscReal along[2] = {-edge->out[1], edge->out[0]}, low = -EXTEND_BESIDE * edge->length;
+  const PetscReal high = (1.0 + EXTEND_BESIDE) * edge->length;
+  PetscReal       s[2] = {0.0, 0.0}, h[2] = {0.0, 0.0}, overhang = 0.0;
+
+  for (PetscInt c = 0; c < 2; ++c) {
+    s[0] += (p[c] - edge->from[c]) * along[c];
+    s[1] += (q[c] - edge->from[c]) * along[c];
+    h[0] += (p[c] - edge->from[c]) * edge->out[c];
+    h[1] += (q[c] - edge->from[c]) * edge->out[c];
+  }
+  *beside = (PetscBool)(PetscMin(s[0], s[1]) <= high && PetscMax(s[0], s[1]) >= low);
+  for (PetscInt v = 0; v < 2; ++v) {
+    const PetscReal t = s[1] != s[0] ? (PetscClipInterval(s[v], low, high) - s[0]) / (s[1] - s[0]) : (PetscReal)v;
+
+    overhang = PetscMax(overhang, h[0] + t * (h[1] - h[0]));
+  }
+  return overhang;
+}
+
 /* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border where that overhangs by less than
    the margin, else not at all. No corner of an overlap lies on a moved edge then, so derivatives need not know it */
 static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], PetscInt border1)
@@ -36,17 +59,14 @@ static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], Pet
 
   for (PetscInt e = 0; e < 4; ++e) {
     PolygonEdge other;
-    PetscReal   overhang = 0.0, margin;
+    PetscReal   overhang, margin;
+    PetscBool   beside;
 
     if (!(border1 >> e & 1) || !PolygonEdgeCreate(4, p1, e, &other)) continue;
     if (edge->out[0] * other.out[0] + edge->out[1] * other.out[1] < EXTEND_PARALLEL) continue;
-    for (PetscInt v = 0; v < 2; ++v) {
-      const PetscReal *y = p1[(e + v) % 4];
-
-      overhang = PetscMax(overhang, (y[0] - edge->from[0]) * edge->out[0] + (y[1] - edge->from[1]) * edge->out[1]);
-    }
-    margin = EXTEND_MARGIN * PetscMin(edge->across, other.across);
-    if (overhang > EXTEND_TINY * margin && overhang <= margin) by = PetscMax(by, 2.0 * margin);
+    overhang = EdgeOverhang(edge, p1[e], p1[(e + 1) % 4], &beside);
+    margin   = EXTEND_MARGIN * PetscMin(edge->across, other.across);
+    if (beside && overhang <= margin) by = PetscMax(by, 2.0 * margin);
   }
   return by;
 }

@@ -3,6 +3,8 @@
 
 /* tolerance for points on a line, relative to its length */
 #define ONE_LINE 1e-4
+/* distance of vertices, relative to the facets' size, that is rounding */
+#define ONE_VERTEX 1e-12
 
 static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt vertex[], PetscReal part[4][2])
 {
@@ -52,6 +54,33 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
+/* Removes edges whose length is rounding, next to vertices of one facet on a line of the other: whether there is one
+   would be left to rounding, and with it the derivative. size: of the facets. Returns the number of vertices left */
+static PetscInt OverlapMergeVertices(PetscInt n, PetscReal size, PetscReal polygon[][2], PetscInt edge[][2])
+{
+  PetscInt i = 0;
+
+  while (n > 2 && i < n) {
+    const PetscInt  next   = (i + 1) % n;
+    const PetscReal square = PetscSqr(polygon[next][0] - polygon[i][0]) + PetscSqr(polygon[next][1] - polygon[i][1]);
+
+    if (square > PetscSqr(ONE_VERTEX * size)) {
+      ++i;
+      continue;
+    }
+    edge[i][1] = edge[next][1];
+    for (PetscInt k = next; k + 1 < n; ++k) {
+      for (PetscInt d = 0; d < 2; ++d) {
+        polygon[k][d] = polygon[k + 1][d];
+        edge[k][d]    = edge[k + 1][d];
+      }
+    }
+    if (!next) i = n; /* the last vertex took the place of the first: all others have been seen */
+    --n;
+  }
+  return n;
+}
+
 /* Attributes an edge that both facets share to the nonmortar facet. The geometry on either side of such an edge is then
    known, and an edge between two mortar facets does not end an overlap. nmortar: number of edges of the mortar facet */
 static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
@@ -87,21 +116,42 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
   }
 }
 
-/* Adds the quadrature points of the triangles between the polygon's first vertex and its other edges, with this
-   sign. first: number of its first corner; most: bound of the parameters on the mortar facet */
+/* The polygon's vertex that is nearest to y */
+static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], const PetscReal y[2])
+{
+  PetscReal least   = PETSC_MAX_REAL;
+  PetscInt  nearest = 0;
+
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscReal square = PetscSqr(polygon[i][0] - y[0]) + PetscSqr(polygon[i][1] - y[1]);
+
+    if (square < least) {
+      least   = square;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+/* Adds the quadrature points of the triangles between a vertex of the polygon and its other edges, with this sign. The
+   vertex does not depend on rounding where vertices coincide. first: number of its first corner; most: bound of the
+   parameters on the mortar facet */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
   PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal most, ContactOverlap *o)
 {
+  const PetscInt apex = OverlapNearestVertex(n, polygon, p1[0]);
+
   for (PetscInt t = 1; t + 1 < n; ++t) {
+    const PetscInt  i = (apex + t) % n, j = (apex + t + 1) % n;
     const PetscReal tri[3][2] = {
-      {polygon[0][0], polygon[0][1]},
-      {polygon[t][0], polygon[t][1]},
-      {polygon[t + 1][0], polygon[t + 1][1]},
+      {polygon[apex][0], polygon[apex][1]},
+      {polygon[i][0], polygon[i][1]},
+      {polygon[j][0], polygon[j][1]},
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
     o->area += area; /* triangles of zero area are included, because their area may change */
-    o->triangle[o->ntriangles++] = (ContactTriangle){{first, first + t, first + t + 1}, sign};
+    o->triangle[o->ntriangles++] = (ContactTriangle){{first + apex, first + i, first + j}, sign};
     for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};
 
@@ -173,11 +223,12 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
   smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
   nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
-    PetscReal      polygon[CONTACT_MAX_POLYGON][2];
-    PetscInt       edge[CONTACT_MAX_POLYGON][2];
-    const PetscInt n = ContactClip(nmortar, reversed, size[k], part[k], polygon, edge);
+    PetscReal polygon[CONTACT_MAX_POLYGON][2];
+    PetscInt  edge[CONTACT_MAX_POLYGON][2];
+    PetscInt  n = ContactClip(nmortar, reversed, size[k], part[k], polygon, edge);
 
-    if (!n || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
+    n = OverlapMergeVertices(n, PetscSqrtReal(smaller), polygon, edge);
+    if (n < 3 || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
     OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
     OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
     OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, most, o);
