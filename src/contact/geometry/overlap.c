@@ -133,13 +133,13 @@ static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], c
   return nearest;
 }
 
-/* Adds the quadrature points of the triangles between a vertex of the polygon and its other edges, with this sign. The
-   vertex does not depend on rounding where vertices coincide. first: number of its first corner; most: bound of the
-   parameters on the mortar facet */
+/* Adds the quadrature points of the triangles between a vertex of the polygon and its other edges, with this sign.
+   Where the mortar facet is continued (most > 1), rounding would choose the first vertex, so it is the nearest one to a
+   nonmortar vertex. first: number of the first corner; most: bound of the parameters on the mortar facet */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
   PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal most, ContactOverlap *o)
 {
-  const PetscInt apex = OverlapNearestVertex(n, polygon, p1[0]);
+  const PetscInt apex = most > 1.0 ? OverlapNearestVertex(n, polygon, p1[0]) : 0;
 
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscInt  i = (apex + t) % n, j = (apex + t + 1) % n;
