@@ -34,7 +34,7 @@ static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], con
 {
   const PetscReal along[2] = {-edge->out[1], edge->out[0]}, low = -EXTEND_BESIDE * edge->length;
   const PetscReal high = (1.0 + EXTEND_BESIDE) * edge->length;
-  PetscReal       s[2] = {0.0, 0.0}, h[2] = {0.0, 0.0}, overhang = 0.0;
+  PetscReal       s[2] = {0.0, 0.0}, h[2] = {0.0, 0.0}, overhang = PETSC_MIN_REAL;
 
   for (PetscInt c = 0; c < 2; ++c) {
     s[0] += (p[c] - edge->from[c]) * along[c];
@@ -51,8 +51,9 @@ static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], con
   return overhang;
 }
 
-/* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border where that overhangs by less than
-   the margin, else not at all. No corner of an overlap lies on a moved edge then, so derivatives need not know it */
+/* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border where the two are apart by less
+   than the margin, else not at all. No corner of an overlap lies on a moved edge then, so derivatives need not know
+   it */
 static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], PetscInt border1)
 {
   PetscReal by = 0.0;
@@ -66,7 +67,7 @@ static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], Pet
     if (edge->out[0] * other.out[0] + edge->out[1] * other.out[1] < EXTEND_PARALLEL) continue;
     overhang = EdgeOverhang(edge, p1[e], p1[(e + 1) % 4], &beside);
     margin   = EXTEND_MARGIN * PetscMin(edge->across, other.across);
-    if (beside && overhang <= margin) by = PetscMax(by, 2.0 * margin);
+    if (beside && PetscAbsReal(overhang) <= margin) by = PetscMax(by, 2.0 * margin);
   }
   return by;
 }
