@@ -24,7 +24,7 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
   return height < 0.0 && 2.0 * height * height >= VectorDot(r, r) ? -height : 0.0;
 }
 
-/* Collective. deepest: raised to the largest depth of a vertex of `side` below `other` */
+/* Collective. Sets deepest to the maximum of itself and the depths of the vertices of `side` below `other` [length] */
 static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const ContactSurface *side,
   const ContactSurface *other, PetscReal *deepest)
 {
@@ -56,7 +56,7 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
   PetscFunctionReturn(0);
 }
 
-/* deepest: raised to the largest depth of this rank's vertices below a rigid surface */
+/* Sets deepest to the maximum of itself and the depths of this rank's vertices below a rigid surface [length] */
 static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest)
 {
   const ContactRows *rows = &contact->rows;

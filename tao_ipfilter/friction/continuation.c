@@ -74,8 +74,8 @@ static PetscErrorCode ContinuationSolve(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* Computes the motions of the last forces. Forces that would move a row by far more than its usual motion are set to
-   zero: guessed forces are far too large for bodies that bend easily. */
+/* Computes the motions of all rows, s->gap, from the forces at the start, s->lambda. If one of them is more than ten
+   times set->length, all forces are set to zero: a guess of forces can be far too large for bodies that bend easily. */
 static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal much    = 10.0;

@@ -1,3 +1,3 @@
-# refinement on more numbers of ranks
+# The test refinement, on further numbers of ranks
 set -- long
 . "$AMGF_DIR/tests/run/refinement.sh"
