@@ -15,7 +15,7 @@ PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
 plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c pc_amgf/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
 library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c))
-programs        := $(if $(PETSC_COMPLEX),,$(patsubst apps/%.c,bin/%,$(wildcard apps/*.c)))
+programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
@@ -54,7 +54,7 @@ $(LIBRARY): $(library_objects) $(source_list)
 	$(call say,AR,$@)
 	$(Q)$(AR) rcs $@ $(library_objects)
 
-bin/%: build/apps/%.o $(LIBRARY) $(PLUGIN) $(configuration)
+bin/contact: build/apps/main.o $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@

@@ -82,7 +82,7 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
 
 /* Solves for dx until the force residual is a fraction of the forces that the constraints transmit. usable: false if
    the problem is not convex along dx */
-static PetscErrorCode PenaltySolve(Tao tao, PetscBool *usable)
+static PetscErrorCode PenaltyMinimize(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     target;
@@ -173,7 +173,7 @@ PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
   PetscFunctionBegin;
   *moved = PETSC_FALSE;
   if (ip->me) PetscFunctionReturn(0);
-  PetscCall(PenaltySolve(tao, &usable));
+  PetscCall(PenaltyMinimize(tao, &usable));
   if (!usable) PetscFunctionReturn(0);
   PetscCall(IPBoundsDirection(tao));
   PetscCall(IPFractionToBoundary(tao, IP_LOWER, 0.9, &alpha, NULL));
