@@ -56,6 +56,13 @@ def write():
     tower = "bodies:\n" + "".join(f"  - {name}: {{mesh: tower.inp, volume: {name}, young: 1000, poisson: 0.3}}\n" for name in ("low", "middle", "high"))
     tower += "weak_springs: true\ndisplacements:\n  - foot: {face: low.surface_%d, value: [0, 0, 0]}\npressures:\n  - top: {face: high.surface_%d, value: 1}\ncontact: auto\n"
     scenes["tower"] = tower % (3, 6)
+    # Rigid surfaces without facets: a plane below two blocks, which the lower one hides from the upper one, and a sphere that comes down
+    scenes["tools"] = ("bodies:\n" + box("low", (0, 0, 0), (2, 2, 0.2), (4, 4, 1)) + box("high", (0, 0, 0.2), (2, 2, 1), (4, 4, 2))
+                       + "  - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}\n  - ball: {shape: rigid_sphere, center: [1, 1, 4], radius: 1}\n"
+                       + "displacements:\n  - rest: {body: floor, value: [0, 0, 0]}\n  - press: {body: ball, value: [0, 0, -2.02]}\n"
+                       + "symmetry: [low.xmin, low.ymin, high.xmin, high.ymin]\ncontact: auto\nload: {steps: 2}\n")
+    scenes["tools_listed"] = scenes["tools"].replace("auto", "\n  - a: {mortar: floor.surface, nonmortar: low.zmin}\n  - b: {mortar: ball.surface, nonmortar: high.zmax}\n  - c: {mortar: low.zmax, nonmortar: high.zmin}")
+    scenes["wrong_tool"] = scenes["tools_listed"].replace("floor.surface", "floor")
     scenes["wrong_body"] = base + "contact:\n  - auto: {except: [slap]}\n"
     scenes["wrong_face"] = base + "contact:\n  - auto: {except: [slab.top]}\n"
     scenes["wrong_side"] = base + "contact:\n  - auto: {mortar: slab.zmax}\n"
@@ -69,8 +76,8 @@ def write():
 
 
 def judge():
-    energy = {name: load(name)["steps"][-1]["energy"] for name in ("found", "listed", "friction", "friction_listed", "tied", "tied_listed")}
-    for name in ("found", "friction", "tied"):
+    energy = {name: load(name)["steps"][-1]["energy"] for name in ("found", "listed", "friction", "friction_listed", "tied", "tied_listed", "tools", "tools_listed")}
+    for name in ("found", "friction", "tied", "tools"):
         other = "listed" if name == "found" else name + "_listed"
         difference = abs(energy[name] / energy[other] - 1)
         say(f"{name}: the energy of the scene that lists it", difference < 1e-9, difference)

@@ -2,13 +2,33 @@
 #include "detectimpl.h"
 #include <string.h>
 
+/* Rigid surfaces have cells that show where they are. One of their facets stands for the surface, which is larger than
+   any other */
+static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
+{
+  const MeshSurfaces *s = &m->surfaces;
+
+  PetscFunctionBegin;
+  m->ntools = 0;
+  PetscCall(PetscMalloc1(nbodies, &m->tool));
+  for (PetscInt f = 0; f < s->n; ++f) {
+    const PetscInt surface = s->surface[f];
+
+    if (!SceneBodyIsSurface(&m->bodies[s->body[surface]]) || m->area[surface] == PETSC_MAX_REAL) continue;
+    m->area[surface]     = PETSC_MAX_REAL;
+    m->tool[m->ntools++] = f;
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 {
   MeshSurfaces *s = &m->surfaces;
   PetscReal    *volume;
 
   PetscFunctionBegin;
-  m->comm = comm;
+  m->comm   = comm;
+  m->bodies = scene->bodies;
   PetscCall(MeshSurfacesCreate(comm, scene->nbodies, scene->bodies, s));
   PetscCall(PetscCalloc2(s->nsurfaces, &m->area, s->nsurfaces, &m->nfacets));
   PetscCall(PetscCalloc3(scene->nbodies, &m->thickness, 6 * scene->nbodies, &m->box, scene->nbodies, &m->fine));
@@ -33,6 +53,7 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
       m->box[6 * body + 3 + c] = PetscMax(m->box[6 * body + 3 + c], box[3 + c]);
     }
   }
+  PetscCall(ModelAddRigidSurfaces(scene->nbodies, m));
   for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * volume[b] / m->thickness[b];
   PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
@@ -44,6 +65,7 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
   PetscCall(MeshSurfacesDestroy(&m->surfaces));
   PetscCall(PetscFree2(m->area, m->nfacets));
   PetscCall(PetscFree3(m->thickness, m->box, m->fine));
+  PetscCall(PetscFree(m->tool));
   PetscFunctionReturn(0);
 }
 
@@ -163,7 +185,8 @@ static PetscErrorCode RulesDestroy(Scene scene)
   file listed them; `SceneView()` prints them, too.
 
   From five points of each facet at refinement level 0 a ray goes along the normal. The first facet that it hits, of
-  another body and with an opposing normal, makes a pair of the two surfaces if it is within the distance. This is done
+  another body and with an opposing normal, makes a pair of the two surfaces if it is within the distance. A rigid surface
+  without facets counts with its distance from these points. This is done
   for the undeformed bodies, and for up to 32 states of the load program with the bodies moved as prescribed. Bodies in
   between hide what is behind them. The cost is O(N log N) in the number of facets, divided by the number of ranks.
 

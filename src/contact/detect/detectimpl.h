@@ -23,19 +23,23 @@ typedef struct {
   PetscReal   *thickness; /* of each body: 2 volume / area [length] */
   PetscReal   *box;       /* [6 bodies] undeformed */
   PetscReal   *fine;      /* of each body: area of the parts of its facets over theirs, 1/4 where it has order 2 */
+
+  const SceneBody *bodies;
+  PetscInt         ntools, *tool; /* one of the facets that stand for each rigid surface, which has none */
 } DetectModel;
 
 /* rules.c: the rule for two surfaces; NULL: they get no contact. detect.c has the public function */
 PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
 
-/* rays.c: the facets in one state, with a tree; calls `hit` for each facet of another body that a ray from a facet
-   along its normal meets: those behind it up to depth, and the first one in front, up to reach */
+/* rays.c: the facets in one state, with a tree; what a ray from a facet along its normal meets of other bodies: all
+   behind it up to depth, and the first in front, up to reach */
 typedef struct {
-  PetscInt  from, to; /* facets */
+  PetscInt  from, to; /* facets; to is that which stands for a rigid surface */
   PetscReal distance; /* negative: the bodies overlap [length] */
 } DetectHit;
 typedef struct {
   const DetectModel *model;
+  const DetectMove  *moves;
   ContactCandidates  facets;
   ContactTree        tree;
 } DetectState;
@@ -45,6 +49,11 @@ PETSC_INTERN PetscErrorCode DetectStateDestroy(DetectState *);
 #define DETECT_HITS 16 /* of a ray, at most */
 PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt ray, PetscReal reach,
   DetectHit hits[DETECT_HITS]);
+
+/* rigid_surface.c: whether a point of a facet faces a rigid surface, and the distance [length] */
+PETSC_INTERN PetscBool DetectFacesRigidSurface(const DetectState *, PetscInt tool, const PetscReal x[3],
+  const PetscReal normal[3], PetscReal *distance);
+#define DETECT_COSINE -0.174 /* of the normals of surfaces that face each other, at most; that of the contact search */
 
 /* facing.c: two surfaces that face each other. Number 0 is the surface with the smaller number */
 typedef struct {

@@ -155,7 +155,8 @@ static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *
     PetscBool      may  = (PetscBool)(start || moves[body].moves);
 
     for (PetscInt b = 0; b < nbodies && !may; ++b)
-      may = (PetscBool)(moves[b].moves && ContactBoxesMeet(&state->tree.box[6 * f], &box[6 * b]));
+      may = (PetscBool)(moves[b].moves && (SceneBodyIsSurface(&state->model->bodies[b]) ||
+                                            ContactBoxesMeet(&state->tree.box[6 * f], &box[6 * b])));
     if (may) PetscCall(FacingShootFacet(state, limits, f, start, list));
   }
   PetscCall(PetscFree(box));
@@ -250,7 +251,9 @@ static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, Petsc
 {
   PetscReal reach = 0.0, largest = 0.0;
 
-  for (PetscInt i = 0; i < model->surfaces.nsurfaces; ++i) largest = PetscMax(largest, model->area[i]);
+  for (PetscInt i = 0; i < model->surfaces.nsurfaces; ++i) {
+    if (model->area[i] < PETSC_MAX_REAL) largest = PetscMax(largest, model->area[i]);
+  }
   for (PetscInt r = 0; r < scene->nrules; ++r)
     reach = PetscMax(reach,
       scene->rules[r].distance > 0.0 ? scene->rules[r].distance : FACING_FRACTION * PetscSqrtReal(largest));

@@ -1,8 +1,7 @@
 /* Rays from a facet along its normal, and the facets that they hit */
 #include "detectimpl.h"
 
-#define RAY_COSINE -0.174 /* of the normals of facets that face each other, at most; that of the contact search */
-#define RAY_INSIDE 0.8    /* parameter of the rays near the corners */
+#define RAY_INSIDE 0.8 /* parameter of the rays near the corners */
 
 PetscErrorCode DetectStateCreate(const DetectModel *model, const DetectMove moves[], DetectState *state)
 {
@@ -10,6 +9,7 @@ PetscErrorCode DetectStateCreate(const DetectModel *model, const DetectMove move
 
   PetscFunctionBegin;
   state->model  = model;
+  state->moves  = moves;
   state->facets = (ContactCandidates){.n = s->n};
   PetscCall(PetscMalloc1(12 * s->n, &state->facets.x));
   for (PetscInt f = 0; f < s->n; ++f)
@@ -71,7 +71,7 @@ static PetscBool RayMeetsFacet(const PetscReal x[12], const PetscReal origin[3],
 {
   PetscReal n[3];
 
-  if (!ContactFacetNormal(x, n) || VectorDot(n, direction) > RAY_COSINE) return PETSC_FALSE;
+  if (!ContactFacetNormal(x, n) || VectorDot(n, direction) > DETECT_COSINE) return PETSC_FALSE;
   if (RayMeetsTriangle(x, x + 3, x + 6, origin, direction, t)) return PETSC_TRUE;
   return (PetscBool)(!ContactFacetIsTriangle(x) && RayMeetsTriangle(x, x + 6, x + 9, origin, direction, t));
 }
@@ -84,6 +84,23 @@ static void RayAdd(const DetectHit *hit, PetscReal touching, PetscInt *n, PetscI
     if (*front < 0) *front = (*n)++;
     hits[*front] = *hit;
   } else if (*n < DETECT_HITS - (*front < 0)) hits[(*n)++] = *hit;
+}
+
+/* Adds the rigid surfaces that the start of a ray faces; limit: that of hits in front, which becomes smaller */
+static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const PetscReal origin[3],
+  const PetscReal normal[3], PetscReal touching, PetscReal *limit, PetscInt *n, PetscInt *front, DetectHit hits[])
+{
+  const DetectModel *model = state->model;
+  const PetscReal    depth = 0.5 * model->thickness[model->surfaces.body[model->surfaces.surface[facet]]];
+
+  for (PetscInt t = 0; t < model->ntools; ++t) {
+    DetectHit hit = {.from = facet, .to = model->tool[t]};
+
+    if (!DetectFacesRigidSurface(state, t, origin, normal, &hit.distance)) continue;
+    if (hit.distance > *limit || hit.distance < -depth) continue;
+    RayAdd(&hit, touching, n, front, hits);
+    if (*front >= 0) *limit = PetscMin(*limit, hits[*front].distance);
+  }
 }
 
 /* Ray 0 starts at the middle of the facet, the others near its corners. Returns the number of hits. A body hides what
@@ -103,6 +120,7 @@ PetscInt DetectShoot(const DetectState *state, PetscInt facet, PetscInt ray, Pet
   ContactShape(xi, phi);
   for (PetscInt i = 0; i < 12; ++i) origin[i % 3] += phi[i / 3] * x[i];
   touching = 1e-6 * thickness[body];
+  RayAddRigidSurfaces(state, facet, origin, normal, touching, &limit, &n, &front, hits);
   if (state->tree.nnodes) stack[depth++] = 0;
   while (depth) {
     const PetscInt         self = stack[--depth];
@@ -118,7 +136,8 @@ PetscInt DetectShoot(const DetectState *state, PetscInt facet, PetscInt ray, Pet
       const PetscInt other = state->tree.order[i], its = s->body[s->surface[other]];
       DetectHit      hit = {.from = facet, .to = other};
 
-      if (other == facet || !RayMeetsFacet(&state->facets.x[12 * other], origin, normal, &hit.distance)) continue;
+      if (other == facet || SceneBodyIsSurface(&state->model->bodies[its])) continue;
+      if (!RayMeetsFacet(&state->facets.x[12 * other], origin, normal, &hit.distance)) continue;
       if (hit.distance > limit || (its == body && hit.distance <= touching)) continue;
       if (hit.distance < -0.5 * PetscMin(thickness[body], thickness[its])) continue;
       RayAdd(&hit, touching, &n, &front, hits);

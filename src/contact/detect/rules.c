@@ -51,7 +51,6 @@ const SceneContactPair *DetectFindRule(const DetectModel *model, Scene scene, Pe
   const SceneContactPair *any = NULL;
 
   if (first->material.type == MATERIAL_RIGID && second->material.type == MATERIAL_RIGID) return NULL;
-  if (SceneBodyIsSurface(first) || SceneBodyIsSurface(second)) return NULL; /* their cells are not the surface */
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     if (RuleJoins(scene->pairs[p].mortar, scene->pairs[p].nonmortar, first->name, second->name)) return NULL;
   }

@@ -28,6 +28,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
+  else if (SceneBodyIsSurface(body)) body->material.type = MATERIAL_RIGID;
   if (body->material.type == MATERIAL_RIGID) {
     body->order = 1;
     PetscCall(SceneRefuseOfRigid(keys, owner, body));

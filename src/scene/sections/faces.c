@@ -84,33 +84,50 @@ PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *
   PetscFunctionReturn(0);
 }
 
+/* The names of a body's faces as text, for messages; found: whether face is one of them */
+static PetscErrorCode FacesDescribe(MPI_Comm comm, SceneBody *body, const char face[], size_t length, char text[],
+  PetscBool *found)
+{
+  char   **names;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  text[0] = 0;
+  *found  = PETSC_FALSE;
+  PetscCall(MeshGetFaceNames(comm, body, &n, &names));
+  for (PetscInt f = 0; f < n; ++f) {
+    const size_t used = strlen(text);
+    PetscBool    same;
+
+    PetscCall(PetscStrcmp(names[f], face, &same));
+    *found = (PetscBool)(*found || same);
+    PetscCall(PetscSNPrintf(text + used, length - used, "%s%s", !f ? "" : f + 1 < n ? ", " : " and ", names[f]));
+  }
+  PetscCall(MeshRestoreFaceNames(&n, &names));
+  if (!text[0]) PetscCall(PetscStrncpy(text, "no named faces", length));
+  PetscFunctionReturn(0);
+}
+
 /* Checks that a face exists; what and owner describe what refers to it, as in: displacement "bottom" */
 PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[],
   const char name[])
 {
   const char    *face;
   const PetscInt b = SceneFindBody(scene, name, &face);
-  PetscBool      same, found = PETSC_FALSE;
-  char           choices[512] = "", **names;
-  PetscInt       n;
-  size_t         used;
+  PetscBool      found;
+  char           choices[512];
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < scene->nbodies; ++i) {
+    if (strcmp(name, scene->bodies[i].name)) continue;
+    PetscCall(FacesDescribe(comm, &scene->bodies[i], "", sizeof(choices), choices, &found));
+    SETERRQ(comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the body \"%s\" where it needs a face; %s has %s", file,
+      what, owner, name, name, choices);
+  }
   PetscCheck(b >= 0, comm, PETSC_ERR_USER_INPUT,
     "%s: %s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>", file, what, owner, name);
-  PetscCall(MeshGetFaceNames(comm, &scene->bodies[b], &n, &names));
-  for (PetscInt f = 0; f < n; ++f) {
-    PetscCall(PetscStrcmp(names[f], face, &same));
-    if (same) found = PETSC_TRUE;
-    used = strlen(choices);
-    PetscCall(PetscSNPrintf(choices + used, sizeof(choices) - used, "%s%s",
-      !f          ? ""
-      : f + 1 < n ? ", "
-                  : " and ",
-      names[f]));
-  }
-  PetscCall(MeshRestoreFaceNames(&n, &names));
+  PetscCall(FacesDescribe(comm, &scene->bodies[b], face, sizeof(choices), choices, &found));
   PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\", which does not exist; %s has %s",
-    file, what, owner, name, scene->bodies[b].name, choices[0] ? choices : "no named faces");
+    file, what, owner, name, scene->bodies[b].name, choices);
   PetscFunctionReturn(0);
 }
