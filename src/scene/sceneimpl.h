@@ -11,6 +11,9 @@
 /* validate.c. Collective: checks a scene beyond its syntax */
 PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
 
+/* key_meanings.c: the keys of shapes and the constants of materials as tables of Markdown */
+PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKeys(PetscViewer);
+
 /* view.c, describe.c, scene.c: only public functions */
 
 #endif

@@ -51,27 +51,6 @@ static PetscErrorCode KeyView(const SceneKey *row, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the constants of the material laws, which belong to bodies and to entries of `materials` */
-static PetscErrorCode KeysViewConstants(PetscViewer viewer)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n### Keys: constants of a material\n\n| key | of | type | symbol | "
-                                           "default |\n| --- | --- | --- | --- | --- |\n"));
-  for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
-    const Material     material = {.type = (MaterialType)t};
-    const MaterialLaw *law;
-
-    PetscCall(MaterialGetLaw(&material, &law));
-    for (const MaterialConstant *c = law->constants; c && c->name; ++c)
-      PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %s | %s | %s |\n", c->name, MaterialTypes[t],
-        !c->n       ? "numbers"
-        : c->n == 1 ? "a number"
-                    : "three numbers",
-        c->symbol ? c->symbol : "", c->required ? "required" : "0"));
-  }
-  PetscFunctionReturn(0);
-}
-
 /*@C
    SceneViewKeys - Prints the keys of the scene file, list by list, as tables of Markdown
 
@@ -96,9 +75,7 @@ PetscErrorCode SceneViewKeys(PetscViewer viewer)
       list == SceneLists ? "" : "\n", list->name[0] ? list->name : "top level"));
     for (const SceneKey *row = list->rows; row->name; ++row) PetscCall(KeyView(row, viewer));
   }
-  PetscCall(KeysViewConstants(viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "\n### Keys: shapes of a body\n\n| key | of | type | default |\n| --- | --- | --- | --- |\n"));
+  PetscCall(SceneViewConstantKeys(viewer));
   PetscCall(SceneViewShapeKeys(viewer));
   PetscFunctionReturn(0);
 }

@@ -21,6 +21,8 @@ def main(action):
         print("the page's reference of keys is what -scene_keys prints:", "yes" if same else "NO: python3 tests/scene/scene_keys.py write")
         for line in () if same else [line for line in printed.splitlines() if line not in written.splitlines()][:5]:
             print("  missing:", line)
+        without = [line for line in printed.splitlines() if line.startswith("| `") and not line.split("|")[4].strip()]
+        print("keys without a meaning:", without or "none")
         print("keys:", "more than 100" if printed.count("| `") > 100 else printed.count("| `"))
 
 

@@ -4,6 +4,7 @@
 #ifndef SECTIONSIMPL_H
 #define SECTIONSIMPL_H
 
+#include "src/mesh/shapes/shapesimpl.h"
 #include "src/scene/format/formatimpl.h"
 
 /* keytable.c: all lists of keys, top level first; lookup of a list; constants of materials */
@@ -35,7 +36,7 @@ PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const
 /* shapes.c: shape, level 0 mesh and mesh file of a body */
 PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
-PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer);
+PETSC_INTERN PetscErrorCode SceneGetShapeKeys(const SceneBody *, const ShapeKey **);
 
 /* bodies.c */
 PETSC_INTERN PetscErrorCode SceneFinishBody(SceneKeys, Scene, const char owner[], void *entry);

@@ -1,6 +1,5 @@
 /* Reading and printing of the keys of all shapes. A key with an underscore may be nested, as outer: {radius: 1} */
 #include "sectionsimpl.h"
-#include "src/mesh/shapes/shapesimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
@@ -15,7 +14,7 @@ static const ShapeKey gmsh_keys[] = {
 };
 
 /* Gets the keys of a body's shape */
-static PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
+PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
 {
   const Shape *shape;
 
@@ -143,27 +142,5 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
     }
   }
   if (!body->curved && body->shape != SHAPE_BOX) PetscCall(PetscViewerASCIIPrintf(viewer, "curved: false\n"));
-  PetscFunctionReturn(0);
-}
-
-/* Prints the keys of all shapes as rows of a Markdown table */
-PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
-{
-  static const char *const types[] = {[KEY_REALS] = "numbers",
-    [KEY_INTS]                                    = "whole numbers",
-    [KEY_AXIS]                                    = "an axis",
-    [KEY_DIRECTION]                               = "a direction",
-    [KEY_TEXT]                                    = "a text"};
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; BodyShapes[i + 2]; ++i) {
-    const SceneBody body = {.shape = (BodyShape)i};
-    const ShapeKey *keys = NULL;
-
-    PetscCall(SceneGetShapeKeys(&body, &keys));
-    for (const ShapeKey *k = keys; k->name; ++k)
-      PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %" PetscInt_FMT " %s | %s |\n", k->name, BodyShapes[i],
-        k->n, types[k->type], k->required ? "required" : ""));
-  }
   PetscFunctionReturn(0);
 }

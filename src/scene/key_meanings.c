@@ -1,0 +1,188 @@
+/* Tables of the keys of shapes and of the constants of materials, which shapes and laws define themselves */
+#include "sceneimpl.h"
+#include <petscviewer.h>
+#include <string.h>
+
+/* A key means the same in all shapes or laws that have it; a new one without a line here has no meaning in the table */
+typedef struct {
+  const char *name, *unit, *help, *otherwise; /* otherwise: default of a key that is not required */
+} KeyMeaning;
+
+static const KeyMeaning shape_meanings[] = {
+  {"angles", " [degrees]",
+    "first and last angle about the axis, from the next axis in the order x, y, z, x; 360 apart: a whole tube", ""},
+  {"axis", "", "the axis along which the body is a prism: `x`, `y`, `z`", ""},
+  {"cap_center", " [L]", "centre of a third sphere, which cuts the outer one", "`center`"},
+  {"cap_radius", " [L]", "radius of the third sphere", "no cut"},
+  {"cells", "",
+    "number of cells along x, y, z; of a tube across the wall, around and along the axis; of a cylinder across the "
+    "square core, from the core to the surface and along the axis",
+    ""},
+  {"center", " [L]", "the centre; of a tube, cylinder or half ellipse a point on the axis; of an octant its corner",
+    "0"},
+  {"depth", "", "direction from the flat side to the crown: `x`, `-x`, ...", ""},
+  {"direction", "", "of the axis; of a cone from the tip into it", ""},
+  {"even", "", "number of cells of equal size at the fine end of a graded direction", "1"},
+  {"extent", " [L]", "first and last coordinate along the axis", ""},
+  {"grading", "", "size of the last cell over that of the first, for each number of `cells` or `patches`", "1"},
+  {"half", "", "direction from the plane of symmetry to the modelled half", "both halves"},
+  {"half_angle", " [degrees]", "between the axis and the surface, below 90", ""},
+  {"inner_center", " [L]", "centre of the inner sphere", "`center`"},
+  {"inner_radius", " [L]", "radius of the inner sphere", ""},
+  {"inner_semi_axes", " [L]", "of the inner ellipsoid along x, y, z", ""},
+  {"layer_even", "", "number of layers of equal thickness at the fine end", "1"},
+  {"layer_grading", "", "thickness of the last layer over that of the first", "1"},
+  {"layers", "",
+    "number of cells across the shell; of a ball from the core to the surface; of a half ellipse along its axis", ""},
+  {"lower", " [L]", "lower corner", ""},
+  {"mesh", "", "the file, relative to the folder of the scene", ""},
+  {"normal", "", "away from the rigid side", ""},
+  {"octant", "", "signs of x, y, z in the octant, as in [1, 1, -1]", "[1, 1, 1]"},
+  {"outer_center", " [L]", "centre of the outer sphere", "`center`"},
+  {"outer_radius", " [L]", "radius of the outer sphere", ""},
+  {"outer_semi_axes", " [L]", "of the outer ellipsoid along x, y, z", ""},
+  {"patches", "",
+    "number of cells along x, y, z; of a half ellipse in the core along its depth, in the core across one half, and "
+    "across the ring around it",
+    ""},
+  {"point", " [L]", "a point of the plane", ""},
+  {"radii", " [L]", "inner and outer radius", ""},
+  {"radius", " [L]", "the radius; of a torus that of the circle in the middle of the ring", ""},
+  {"scale", "", "factor of all coordinates of the file", "1"},
+  {"section_radius", " [L]", "radius of the cross-section of the ring", ""},
+  {"semi_axes", " [L]", "semi-axis along `depth`, and across", ""},
+  {"size", " [L]", "edge of the cube that shows the place of the surface in the output", "1"},
+  {"tip", " [L]", "the tip", ""},
+  {"upper", " [L]", "upper corner", ""},
+  {"volume", "", "name of the volume in the file", ""},
+  {0},
+};
+
+static const KeyMeaning constant_meanings[] = {
+  {"bulk", " [F/L²]", "bulk modulus", ""},
+  {"c01", " [F/L²]", "second constant of Mooney and Rivlin", ""},
+  {"c10", " [F/L²]", "first constant of Mooney and Rivlin", ""},
+  {"density", " [M/L³]", "mass per undeformed volume; required in `dynamics` for bodies that move", "0"},
+  {"expansion", " [1/temperature]", "thermal expansion; of `orthotropic` along the three axes", "0"},
+  {"first_axis", "", "direction of the first material axis", "x"},
+  {"hardening", " [F/L²]", "isotropic hardening: stress per equivalent plastic strain", "0"},
+  {"kinematic", " [F/L²]", "kinematic hardening: stress per equivalent plastic strain", "0"},
+  {"plastic_strains", "", "equivalent plastic strains of a table, ascending from 0", "none"},
+  {"poisson", "", "Poisson's ratio; of `orthotropic` ν12, ν23, ν13", ""},
+  {"saturation", " [F/L²]", "growth of the yield stress that saturates (Voce)", "0"},
+  {"saturation_rate", "", "rate of the saturation per equivalent plastic strain", "0"},
+  {"second_axis", "", "direction of the second material axis", "y"},
+  {"shear", " [F/L²]", "shear moduli G12, G23, G13", ""},
+  {"yield", " [F/L²]", "yield stress; `j2` and `j2_finite` need it or `yield_stresses`", "none"},
+  {"yield_stresses", " [F/L²]", "yield stresses of the table", "none"},
+  {"young", " [F/L²]", "Young's modulus; of `orthotropic` along the three axes", ""},
+  {0},
+};
+
+static const KeyMeaning *MeaningFind(const KeyMeaning meanings[], const char name[])
+{
+  static const KeyMeaning none = {"", "", "", ""};
+
+  for (const KeyMeaning *m = meanings; m->name; ++m) {
+    if (!strcmp(m->name, name)) return m;
+  }
+  return &none;
+}
+
+/* A row of a table; of: the shapes or laws that have the key */
+typedef struct {
+  const char *name, *type;
+  PetscBool   required;
+  char        of[256];
+} MeaningRow;
+
+/* Adds an owner to the row of the same key and type, or a new row; rows: with room for one more */
+static PetscErrorCode RowsAdd(const char name[], const char of[], const char type[], PetscBool required, PetscInt *n,
+  MeaningRow rows[])
+{
+  PetscInt i;
+
+  PetscFunctionBegin;
+  for (i = 0; i < *n; ++i) {
+    if (!strcmp(rows[i].name, name) && !strcmp(rows[i].type, type) && rows[i].required == required) break;
+  }
+  if (i == *n) rows[(*n)++] = (MeaningRow){.name = name, .type = type, .required = required};
+  else PetscCall(PetscStrlcat(rows[i].of, ", ", sizeof(rows[i].of)));
+  PetscCall(PetscStrlcat(rows[i].of, of, sizeof(rows[i].of)));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RowsView(PetscViewer viewer, const char title[], const KeyMeaning meanings[], PetscInt n,
+  const MeaningRow rows[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "\n### Keys: %s\n\n| key | of | type | meaning | default |\n| --- | --- | --- | --- | --- |\n", title));
+  for (PetscInt i = 0; i < n; ++i) {
+    const KeyMeaning *m = MeaningFind(meanings, rows[i].name);
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "| `%s` | %s | %s%s | %s | %s |\n", rows[i].name, rows[i].of, rows[i].type,
+      m->unit, m->help,
+      rows[i].required ? "required"
+      : m->otherwise   ? m->otherwise
+                       : ""));
+  }
+  PetscFunctionReturn(0);
+}
+
+#define MEANING_ROWS 128
+
+PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
+{
+  static const char *const numbers[] = {"", "a number", "two numbers", "three numbers"}, *const whole[] = {"",
+                                                                                           "a whole number",
+                                                                                           "two whole numbers",
+                                                                                           "three whole numbers"};
+  MeaningRow *rows;
+  PetscInt    n = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(MEANING_ROWS, &rows));
+  for (PetscInt i = 0; BodyShapes[i + 2]; ++i) {
+    const SceneBody body = {.shape = (BodyShape)i};
+    const ShapeKey *keys = NULL;
+
+    PetscCall(SceneGetShapeKeys(&body, &keys));
+    for (const ShapeKey *k = keys; k->name && n < MEANING_ROWS; ++k) {
+      const char *type = k->type == KEY_REALS  ? numbers[k->n]
+                         : k->type == KEY_INTS ? whole[k->n]
+                         : k->type == KEY_AXIS ? "an axis"
+                         : k->type == KEY_TEXT ? "a text"
+                                               : "a direction";
+
+      PetscCall(RowsAdd(k->name, BodyShapes[i], type, k->required, &n, rows));
+    }
+  }
+  PetscCall(RowsView(viewer, "shapes of a body", shape_meanings, n, rows));
+  PetscCall(PetscFree(rows));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SceneViewConstantKeys(PetscViewer viewer)
+{
+  MeaningRow *rows;
+  PetscInt    n = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(MEANING_ROWS, &rows));
+  for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
+    const Material     material = {.type = (MaterialType)t};
+    const MaterialLaw *law;
+
+    PetscCall(MaterialGetLaw(&material, &law));
+    for (const MaterialConstant *c = law->constants; c && c->name && n < MEANING_ROWS; ++c)
+      PetscCall(RowsAdd(c->name, MaterialTypes[t],
+        !c->n       ? "numbers"
+        : c->n == 1 ? "a number"
+                    : "three numbers",
+        c->required, &n, rows));
+  }
+  PetscCall(RowsView(viewer, "constants of a material", constant_meanings, n, rows));
+  PetscCall(PetscFree(rows));
+  PetscFunctionReturn(0);
+}
