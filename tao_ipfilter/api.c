@@ -1,5 +1,8 @@
 /* Public functions of TAOIPFILTER. */
 #include "ipfilterimpl.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 
 static PetscErrorCode ReplaceVec(Vec v, Vec *slot)
 {
@@ -39,7 +42,7 @@ static PetscErrorCode TaoIPFilterSetSlackMass_IPFilter(Tao tao, Vec mass)
 
   PetscFunctionBegin;
   PetscCall(CheckPositive(tao, mass, "slack"));
-  PetscCall(ReplaceVec(mass, &ip->given.slack_mass));
+  PetscCall(ReplaceVec(mass, &ip->given->slack_mass));
   PetscFunctionReturn(0);
 }
 
@@ -49,7 +52,7 @@ static PetscErrorCode TaoIPFilterSetPrimalMass_IPFilter(Tao tao, Vec mass)
 
   PetscFunctionBegin;
   PetscCall(CheckPositive(tao, mass, "primal"));
-  PetscCall(ReplaceVec(mass, &ip->given.primal_mass));
+  PetscCall(ReplaceVec(mass, &ip->given->primal_mass));
   PetscFunctionReturn(0);
 }
 
@@ -60,15 +63,15 @@ static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
   PetscFunctionBegin;
   PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP,
     "give both slacks and multipliers, or neither");
-  PetscCall(CopyVec(s, &ip->given.warm_s));
-  PetscCall(CopyVec(z, &ip->given.warm_z));
+  PetscCall(CopyVec(s, &ip->given->warm_s));
+  PetscCall(CopyVec(z, &ip->given->warm_z));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TaoIPFilterSetWarmStartEquality_IPFilter(Tao tao, Vec y)
 {
   PetscFunctionBegin;
-  PetscCall(CopyVec(y, &((TAO_IPFILTER *)tao->data)->given.warm_y));
+  PetscCall(CopyVec(y, &((TAO_IPFILTER *)tao->data)->given->warm_y));
   PetscFunctionReturn(0);
 }
 
@@ -77,8 +80,8 @@ static PetscErrorCode TaoIPFilterSetWarmStartBounds_IPFilter(Tao tao, Vec DL, Ve
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(CopyVec(DL, &ip->given.warm_lower));
-  PetscCall(CopyVec(DU, &ip->given.warm_upper));
+  PetscCall(CopyVec(DL, &ip->given->warm_lower));
+  PetscCall(CopyVec(DU, &ip->given->warm_upper));
   PetscFunctionReturn(0);
 }
 
@@ -97,8 +100,8 @@ static PetscErrorCode TaoIPFilterGetKSPIterations_IPFilter(Tao tao, PetscInt *n,
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (n) *n = ip->rec.nksp;
-  if (its) *its = ip->rec.ksp_iterations;
+  if (n) *n = ip->rec->nksp;
+  if (its) *its = ip->rec->ksp_iterations;
   PetscFunctionReturn(0);
 }
 
@@ -107,8 +110,8 @@ static PetscErrorCode TaoIPFilterGetKKTError_IPFilter(Tao tao, PetscReal *scaled
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (scaled) *scaled = ip->kkt.error;
-  if (unscaled) *unscaled = ip->kkt.unscaled;
+  if (scaled) *scaled = ip->kkt->error;
+  if (unscaled) *unscaled = ip->kkt->unscaled;
   PetscFunctionReturn(0);
 }
 
@@ -117,7 +120,7 @@ static PetscErrorCode TaoIPFilterGetReason_IPFilter(Tao tao, const char *reason[
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *reason = ip->rec.reason;
+  *reason = ip->rec->reason;
   PetscFunctionReturn(0);
 }
 
@@ -126,8 +129,8 @@ static PetscErrorCode TaoIPFilterGetFilterUse_IPFilter(Tao tao, PetscInt *system
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (systems) *systems = ip->rec.nsystems;
-  if (filtered) *filtered = ip->rec.nfiltered;
+  if (systems) *systems = ip->rec->nsystems;
+  if (filtered) *filtered = ip->rec->nfiltered;
   PetscFunctionReturn(0);
 }
 
@@ -137,16 +140,16 @@ static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (steps) *steps = ip->rec.nregularized;
-  if (retries) *retries = ip->rec.nretried;
-  if (largest) *largest = ip->rec.delta_largest;
+  if (steps) *steps = ip->rec->nregularized;
+  if (retries) *retries = ip->rec->nretried;
+  if (largest) *largest = ip->rec->delta_largest;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallbacks *fallbacks)
 {
   PetscFunctionBegin;
-  *fallbacks = ((TAO_IPFILTER *)tao->data)->rec.fallbacks;
+  *fallbacks = ((TAO_IPFILTER *)tao->data)->rec->fallbacks;
   PetscFunctionReturn(0);
 }
 

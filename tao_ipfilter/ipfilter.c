@@ -1,5 +1,22 @@
 /* The Tao type: its manual page and its creation. */
 #include "ipfilterimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
+#include "tao_ipfilter/solver/work.h"
 
 /* Creates the Krylov solver: CG with PCAMGF, convergence by the norm of the true residual */
 static PetscErrorCode CreateKSP(Tao tao)
@@ -28,8 +45,40 @@ static PetscErrorCode DestroyType(Tao tao)
   if (tao->ops->convergencetest == TaoIPFilterDefaultConvergenceTest)
     tao->ops->convergencetest = TaoDefaultConvergenceTest;
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
-  if (ip->method.ops) PetscCall(ip->method.ops->compose(tao, PETSC_FALSE));
+  if (ip->method->ops) PetscCall(ip->method->ops->compose(tao, PETSC_FALSE));
   PetscCall(TaoDestroy_IPFilter(tao));
+  PetscFunctionReturn(0);
+}
+
+/* The parts of the solver: type, and member of the solver */
+#define SOLVER_PARTS \
+  PART(IPOptions, opt) \
+  PART(IPGiven, given) \
+  PART(IPWork, work) PART(IPSides, sides) PART(IPRowScale, rows) PART(IPJacobian, jac) PART(IPHessian, hess) \
+    PART(IPQuasiNewton, qn) PART(IPFirst, first) PART(IPScale, scale) PART(IPStiffness, stiff) PART(IPTerms, terms) \
+      PART(IPKKT, kkt) PART(IPCondensed, cond) PART(IPLinear, lin) PART(IPDirect, direct) PART(IPAugmented, aug) \
+        PART(IPProximal, prox) PART(IPBarrier, bar) PART(IPShift, shift) PART(IPFilterSet, filter) \
+          PART(IPSearch, search) PART(IPRelaxation, relax) PART(IPRestoration, restore) PART(IPMethod, method) \
+            PART(IPRecord, rec)
+
+/* The solver and its parts in one piece of memory; DestroyType() frees it */
+typedef struct {
+  TAO_IPFILTER solver;
+#define PART(type, member) type member;
+  SOLVER_PARTS
+#undef PART
+} SolverMemory;
+
+static PetscErrorCode SolverCreate(Tao tao)
+{
+  SolverMemory *memory;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&memory));
+  tao->data = (void *)&memory->solver;
+#define PART(type, member) memory->solver.member = &memory->member;
+  SOLVER_PARTS
+#undef PART
   PetscFunctionReturn(0);
 }
 
@@ -225,8 +274,8 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPLogRegister());
-  PetscCall(PetscNew(&ip));
-  tao->data                = (void *)ip;
+  PetscCall(SolverCreate(tao));
+  ip                       = (TAO_IPFILTER *)tao->data;
   tao->ops->setup          = TaoSetUp_IPFilter;
   tao->ops->solve          = TaoSolve_IPFilter;
   tao->ops->view           = TaoView_IPFilter;
@@ -235,15 +284,15 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   tao->ops->computedual    = IPBoundsMultipliers;
   if (!tao->ops->convergencetest || tao->ops->convergencetest == TaoDefaultConvergenceTest)
     tao->ops->convergencetest = TaoIPFilterDefaultConvergenceTest;
-  PetscCall(IPOptionsInitialize(&ip->opt));
+  PetscCall(IPOptionsInitialize(ip->opt));
   PetscCall(IPRegisterMethods(ip));
-  if (ip->method.ops) PetscCall(ip->method.ops->create(tao));
+  if (ip->method->ops) PetscCall(ip->method->ops->create(tao));
   PetscObjectParameterSetDefault(tao, max_it, 500);
   PetscObjectParameterSetDefault(tao, gatol, 1e-8);
   PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
   PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);
   PetscCall(CreateKSP(tao));
   PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
-  if (ip->method.ops) PetscCall(ip->method.ops->compose(tao, PETSC_TRUE));
+  if (ip->method->ops) PetscCall(ip->method->ops->compose(tao, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

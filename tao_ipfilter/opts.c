@@ -1,5 +1,6 @@
 /* Options and their defaults. */
 #include "ipfilterimpl.h"
+#include "tao_ipfilter/solver/options.h"
 
 const char *const IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
 const char *const IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
@@ -61,7 +62,7 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
   const PetscInt fewest = 4; /* fewer directions cannot be compressed */
-  IPOptions     *opt    = &((TAO_IPFILTER *)tao->data)->opt;
+  IPOptions     *opt    = ((TAO_IPFILTER *)tao->data)->opt;
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "Interior point with a filter line search");

@@ -1,5 +1,10 @@
 /* Output of -tao_view. */
 #include "ipfilterimpl.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
 
 /* Prints how well the constraints are met, and their tolerances besides gatol */
 static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
@@ -14,14 +19,14 @@ static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
   if (tao->crtol < PETSC_INFINITY && tao->crtol > 0.0)
     PetscCall(PetscSNPrintf(crtol, sizeof(crtol), " (crtol %g)", (double)tao->crtol));
   PetscCall(PetscViewerASCIIPrintf(viewer, "constraints: largest violation %g%s, relative %g%s\n",
-    (double)ip->kkt.inf_pr, catol, (double)ip->kkt.primal, crtol));
+    (double)ip->kkt->inf_pr, catol, (double)ip->kkt->primal, crtol));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
 {
   TAO_IPFILTER               *ip = (TAO_IPFILTER *)tao->data;
-  const TaoIPFilterFallbacks *f  = &ip->rec.fallbacks;
+  const TaoIPFilterFallbacks *f  = &ip->rec->fallbacks;
   PetscBool                   ascii;
 
   PetscFunctionBegin;
@@ -29,43 +34,44 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   if (!ascii) PetscFunctionReturn(0);
   PetscCall(PetscViewerASCIIPushTab(viewer));
   PetscCall(
-    PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt.start],
-      IPBarrierRules[ip->opt.barrier], IPForcings[ip->opt.forcing], IPKKTMeasures[ip->opt.measure]));
+    PetscViewerASCIIPrintf(viewer, "start %s, barrier %s, forcing %s, KKT measure %s\n", IPStarts[ip->opt->start],
+      IPBarrierRules[ip->opt->barrier], IPForcings[ip->opt->forcing], IPKKTMeasures[ip->opt->measure]));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "inequalities %" PetscInt_FMT ", lower bounds %" PetscInt_FMT ", upper bounds %" PetscInt_FMT "\n", ip->mi,
     ip->pair[IP_LOWER].n, ip->pair[IP_UPPER].n));
-  if (ip->me && ip->prox.condensed)
+  if (ip->me && ip->prox->condensed)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "equalities %" PetscInt_FMT ", condensed, with %" PetscInt_FMT " proximal updates\n", ip->me, ip->prox.nupdates));
+      "equalities %" PetscInt_FMT ", condensed, with %" PetscInt_FMT " proximal updates\n", ip->me,
+      ip->prox->nupdates));
   else if (ip->me)
     PetscCall(PetscViewerASCIIPrintf(viewer, "equalities %" PetscInt_FMT ", in the augmented system\n", ip->me));
   PetscCall(
     PetscViewerASCIIPrintf(viewer, "KKT error %g (%s), compared with gatol %g; in the problem's units %g; mu %g\n",
-      (double)ip->kkt.error, ip->opt.measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance",
-      (double)tao->gatol, (double)ip->kkt.unscaled, (double)ip->mu));
+      (double)ip->kkt->error, ip->opt->measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance",
+      (double)tao->gatol, (double)ip->kkt->unscaled, (double)ip->mu));
   PetscCall(ViewConstraints(tao, viewer));
-  if (ip->qn.B)
+  if (ip->qn->B)
     PetscCall(
-      PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn.npairs));
-  if (ip->rec.nreduced)
+      PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn->npairs));
+  if (ip->rec->nreduced)
     PetscCall(PetscViewerASCIIPrintf(viewer,
       "filtered subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT
       ", active sets %" PetscInt_FMT "\n",
-      ip->rec.fallbacks.subspaces ? ", then interior point" : "", ip->rec.napplications, ip->rec.nreduced,
-      ip->rec.npivots));
+      ip->rec->fallbacks.subspaces ? ", then interior point" : "", ip->rec->napplications, ip->rec->nreduced,
+      ip->rec->npivots));
   PetscCall(
     PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n",
-      ip->rec.nsystems, ip->rec.nfiltered));
+      ip->rec->nsystems, ip->rec->nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT
     ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n",
     (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec.nrestored));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec->nrestored));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT
     "\n",
-    ip->rec.nregularized, (double)ip->rec.delta_largest, ip->rec.nretried));
-  if (ip->rec.reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->rec.reason));
+    ip->rec->nregularized, (double)ip->rec->delta_largest, ip->rec->nretried));
+  if (ip->rec->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->rec->reason));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }

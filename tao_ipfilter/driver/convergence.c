@@ -1,5 +1,13 @@
 /* Convergence test: when the iteration ends, and with which reason. */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Tests the start: with zero gradient and no violated constraint it is stationary with zero multipliers. No error
    scale can be derived from such a point, so it is tested before the iteration. */
@@ -13,13 +21,13 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &violation));
   }
-  if (ip->first.gradient > 0.0 || ip->first.equality > 0.0 || violation > 0.0 || ip->terms.given)
+  if (ip->first->gradient > 0.0 || ip->first->equality > 0.0 || violation > 0.0 || ip->terms->given)
     PetscFunctionReturn(0);
   if (ip->mi) PetscCall(VecCopy(ip->at.c, ip->at.s));
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
   ip->mu = 0.0;
-  PetscCall(PetscMemzero(&ip->kkt, sizeof(ip->kkt)));
+  PetscCall(PetscMemzero(ip->kkt, sizeof(*ip->kkt)));
   PetscCall(IPSetMultipliers(tao));
   PetscCall(
     IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: the starting point is stationary and meets all constraints"));
@@ -31,7 +39,7 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
 {
   const PetscReal small = 1e-3;
 
-  return (PetscBool)(ip->kkt.violation > small);
+  return (PetscBool)(ip->kkt->violation > small);
 }
 
 /* Whether the violation is also small relative to the constraints' own terms (own.c) */
@@ -39,18 +47,18 @@ static PetscBool OwnMet(const TAO_IPFILTER *ip)
 {
   const PetscReal trace = 1e-6;
 
-  return (PetscBool)(ip->kkt.own <= PetscMax(trace, ip->tol));
+  return (PetscBool)(ip->kkt->own <= PetscMax(trace, ip->tol));
 }
 
 /* Whether both measures of the KKT error are within the tolerance, and the absolute limits hold */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
-  const IPKKT *k = &ip->kkt;
+  const IPKKT *k = ip->kkt;
 
   if (IPBothErrors(ip) > ip->tol || !OwnMet(ip)) return PETSC_FALSE;
-  return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt.dual_inf_tol, 1.0) &&
-                     k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt.constr_viol_tol, 1e-4) &&
-                     k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
+  return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt->dual_inf_tol, 1.0) &&
+                     k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt->constr_viol_tol, 1e-4) &&
+                     k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
 }
 
 /* Whether both measures of the KKT error are within the acceptable tolerance */
@@ -69,8 +77,8 @@ static PetscErrorCode CountTinySteps(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size          = PetscMax(size, vanishing * ip->first.x);
-  ip->rec.ntiny = tao->niter && ip->search.tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size ? ip->rec.ntiny + 1 : 0;
+  size           = PetscMax(size, vanishing * ip->first->x);
+  ip->rec->ntiny = tao->niter && ip->search->tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size ? ip->rec->ntiny + 1 : 0;
   PetscFunctionReturn(0);
 }
 
@@ -86,21 +94,21 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPCancellation(tao, &times));
   PetscCall(IPErrorBoundOfRelaxation(tao, &work));
-  if (ip->relax.times)
-    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax.told));
+  if (ip->relax->times)
+    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax->told));
   if (times > limit)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
       "bounded multipliers may not exist",
-      (double)ip->kkt.error, relaxed, (double)times));
+      (double)ip->kkt->error, relaxed, (double)times));
   else if (work > ip->tol) {
     const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
 
     PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
       "%s: KKT error %g%s, which have no interior; their relaxation changes the objective by %g times the tolerance",
-      share <= trace ? "acceptable" : "no solution", (double)ip->kkt.error, relaxed, (double)(work / ip->tol)));
+      share <= trace ? "acceptable" : "no solution", (double)ip->kkt->error, relaxed, (double)(work / ip->tol)));
   } else
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt.error,
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt->error,
       (double)ip->tol, relaxed));
   PetscFunctionReturn(0);
 }
@@ -114,7 +122,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *stationary =
-    (PetscBool)(gradient == 0.0 && !ip->terms.n && ip->kkt.violation <= ip->tol && OwnMet(ip) && !ip->relax.times);
+    (PetscBool)(gradient == 0.0 && !ip->terms->n && ip->kkt->violation <= ip->tol && OwnMet(ip) && !ip->relax->times);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -133,7 +141,7 @@ PetscErrorCode IPTestNumbers(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (IPUndefined(ip->kkt.error) || IPUndefined(ip->at.f))
+  if (IPUndefined(ip->kkt->error) || IPUndefined(ip->at.f))
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
       "the objective or a residual is not a number at iteration %" PetscInt_FMT, tao->niter));
   PetscFunctionReturn(0);
@@ -143,7 +151,7 @@ PetscErrorCode IPTestNumbers(Tao tao)
    violation, crtol the relative violation. As everywhere in TAO, 0 means no tolerance */
 PetscBool IPConstraintsMet(Tao tao)
 {
-  const IPKKT *k = &((TAO_IPFILTER *)tao->data)->kkt;
+  const IPKKT *k = ((TAO_IPFILTER *)tao->data)->kkt;
 
   return (PetscBool)((k->inf_pr <= tao->catol || tao->catol == 0.0) && (k->primal <= tao->crtol || tao->crtol == 0.0));
 }
@@ -174,7 +182,7 @@ PetscBool IPConstraintsMet(Tao tao)
 PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  const IPKKT  *k  = &ip->kkt;
+  const IPKKT  *k  = ip->kkt;
   PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
   PetscReal     lowest;
 
@@ -203,10 +211,10 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       (double)tao->fmin));
   } else if (unbounded) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
-      (double)ip->first.f, (double)lowest));
-    ip->rec.best_error = PETSC_INFINITY; /* this point, or the last step, shows that the objective is unbounded; the
+      (double)ip->first->f, (double)lowest));
+    ip->rec->best_error = PETSC_INFINITY; /* this point, or the last step, shows that the objective is unbounded; the
                                             best iterate would not */
-  } else if (ip->rec.nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
+  } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),
       (double)IP_ACCEPTABLE_TOL, (double)ip->tol));
@@ -218,14 +226,14 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 static PetscErrorCode TestLimits(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const IPKKT    *k        = &ip->kkt;
+  const IPKKT    *k        = ip->kkt;
   const PetscReal error    = IPBothErrors(ip);
   const PetscInt  max_tiny = 3;
   PetscInt        nfuncs;
 
   PetscFunctionBegin;
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
-  if (ip->rec.ntiny >= max_tiny) {
+  if (ip->rec->ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
         "steps are as small as rounding at KKT error %g, but the constraint violation %g (relative %g) exceeds catol "
@@ -242,7 +250,7 @@ static PetscErrorCode TestLimits(Tao tao)
     else
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
         "steps are as small as rounding at KKT error %g: multipliers may not exist", (double)error));
-  } else if (tao->niter - ip->rec.ndirections >= tao->max_it) {
+  } else if (tao->niter - ip->rec->ndirections >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
       tao->max_it, (double)error));
   } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
@@ -259,12 +267,12 @@ PetscErrorCode IPTestConvergence(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(CountTinySteps(tao));
-  ip->rec.nacceptable = IPAcceptable(ip) ? ip->rec.nacceptable + 1 : 0;
+  ip->rec->nacceptable = IPAcceptable(ip) ? ip->rec->nacceptable + 1 : 0;
   PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
   if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
-  else if (!ip->rec.reason[0])
+  else if (!ip->rec->reason[0])
     PetscCall(
       IPSetReason(tao, tao->reason, "the test set by TaoSetConvergenceTest() ended the solve with %s, at KKT error %g",
-        TaoConvergedReasons[tao->reason], (double)ip->kkt.error));
+        TaoConvergedReasons[tao->reason], (double)ip->kkt->error));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,9 @@
 /* Detects solutions without bounded multipliers. The KKT error, which is measured with the multipliers, is
    meaningless there. */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 /* Largest force of the present multipliers with the constraint gradients of the starting point */
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
@@ -12,7 +15,7 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   *force = 0.0;
   if (ip->me) {
     PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &size));
-    *force = size * ip->first.equality_jacobian;
+    *force = size * ip->first->equality_jacobian;
   }
   PetscFunctionReturn(0);
 }
@@ -20,7 +23,7 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 /* The larger of the present and the first magnitude of the objective. Possible decreases are compared with it */
 PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 {
-  return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first.f)), ip->first.gradient * ip->first.x);
+  return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first->f)), ip->first->gradient * ip->first->x);
 }
 
 /* stands: whether the last step changed the objective by a negligible part of its magnitude. If multipliers do not
@@ -42,18 +45,18 @@ static PetscErrorCode DegenerateStagnates(Tao tao, PetscBool *stands)
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const IPKKT    *k    = &ip->kkt;
+  const IPKKT    *k    = ip->kkt;
   const PetscReal huge = 1e6; /* relative to the gradient */
   PetscReal       force, gradient;
 
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
-  if (!ip->me || ip->opt.scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol ||
+  if (!ip->me || ip->opt->scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol ||
       k->complementarity > ip->tol)
     PetscFunctionReturn(0);
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first.gradient) && k->dual_norm <= ip->tol * force);
+  *holds = (PetscBool)(force > huge * PetscMax(gradient, ip->first->gradient) && k->dual_norm <= ip->tol * force);
   if (*holds) PetscCall(DegenerateStagnates(tao, holds));
   PetscFunctionReturn(0);
 }

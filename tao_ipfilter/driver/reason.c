@@ -1,5 +1,6 @@
 /* Composes the sentence that explains why the solver stopped. */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/record.h"
 #include <stdarg.h>
 
 PetscErrorCode IPSetReason(Tao tao, TaoConvergedReason reason, const char format[], ...)
@@ -10,8 +11,8 @@ PetscErrorCode IPSetReason(Tao tao, TaoConvergedReason reason, const char format
   PetscFunctionBegin;
   tao->reason = reason;
   va_start(args, format);
-  PetscCall(PetscVSNPrintf(ip->rec.reason, sizeof(ip->rec.reason), format, NULL, args));
+  PetscCall(PetscVSNPrintf(ip->rec->reason, sizeof(ip->rec->reason), format, NULL, args));
   va_end(args);
-  PetscCall(PetscInfo(tao, "%s\n", ip->rec.reason));
+  PetscCall(PetscInfo(tao, "%s\n", ip->rec->reason));
   PetscFunctionReturn(0);
 }

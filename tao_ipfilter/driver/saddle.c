@@ -1,5 +1,10 @@
 /* Stationary points that are no minima: where the linear solver does not meet negative curvature by itself. */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Whether nothing has told so far that the matrix is positive definite: a factorization of the caller's choice solves
    with any matrix */
@@ -9,7 +14,7 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 
   PetscFunctionBegin;
   *unknown = PETSC_FALSE;
-  if (ip->me || ip->hess.products) PetscFunctionReturn(0);
+  if (ip->me || ip->hess->products) PetscFunctionReturn(0);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
   PetscFunctionReturn(0);
 }
@@ -24,8 +29,8 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
 
   PetscFunctionBegin;
   *left = PETSC_FALSE;
-  if (ip->method.on || ip->terms.n || ip->relax.times || ip->rec.nsaddles >= most) PetscFunctionReturn(0);
-  if (!ip->method.constant) PetscCall(IPLineSearchBeyond(tao, left));
+  if (ip->method->on || ip->terms->n || ip->relax->times || ip->rec->nsaddles >= most) PetscFunctionReturn(0);
+  if (!ip->method->constant) PetscCall(IPLineSearchBeyond(tao, left));
   if (!*left) {
     PetscCall(SaddleUnknown(tao, &unknown));
     if (unknown) PetscCall(IPNegativeCurvature(tao, &found));
@@ -33,7 +38,7 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
   }
   if (!*left) PetscFunctionReturn(0);
   PetscCall(PetscInfo(tao, "The point is stationary, but no minimum\n"));
-  ip->rec.nsaddles++;
-  ip->rec.best_error = ip->rec.best_violation = PETSC_INFINITY;
+  ip->rec->nsaddles++;
+  ip->rec->best_error = ip->rec->best_violation = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }

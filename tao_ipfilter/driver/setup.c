@@ -1,5 +1,12 @@
 /* Vectors of the problem's sizes: created in TaoSetUp(), recreated when the sizes change, destroyed */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 {
@@ -22,18 +29,18 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   if (!ip->mi) PetscFunctionReturn(0);
   PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE,
     "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
-  if (ip->given.slack_mass) {
+  if (ip->given->slack_mass) {
     PetscInt n;
 
-    PetscCall(VecGetSize(ip->given.slack_mass, &n));
+    PetscCall(VecGetSize(ip->given->slack_mass, &n));
     PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ,
       "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
   }
   PetscCall(DuplicateAfresh(c, &ip->rc));
   PetscCall(DuplicateAfresh(c, &ip->at.lambda));
   PetscCall(DuplicateAfresh(c, &ip->best.lambda));
-  PetscCall(DuplicateAfresh(c, &ip->stiff.rho));
-  PetscCall(IPPairCreate(c, ip->given.slack_mass, 1.0, &ip->pair[IP_SLACK]));
+  PetscCall(DuplicateAfresh(c, &ip->stiff->rho));
+  PetscCall(IPPairCreate(c, ip->given->slack_mass, 1.0, &ip->pair[IP_SLACK]));
   PetscFunctionReturn(0);
 }
 
@@ -51,12 +58,12 @@ static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
     PetscCall(VecGetLocalSize(tao->constraints_equality, &local));
     PetscCall(DuplicateAfresh(tao->constraints_equality, &tao->DE));
   }
-  ip->me = own + ip->sides.nall;
+  ip->me = own + ip->sides->nall;
   if (!ip->me) PetscFunctionReturn(0);
   PetscCheck(!own || tao->jacobian_equality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "Must call TaoSetJacobianEqualityRoutine() before TaoSolve()");
   PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), layout));
-  PetscCall(VecSetSizes(*layout, local + ip->sides.nequal, PETSC_DETERMINE));
+  PetscCall(VecSetSizes(*layout, local + ip->sides->nequal, PETSC_DETERMINE));
   PetscCall(VecSetType(*layout, VECSTANDARD));
   PetscCall(DuplicateAfresh(*layout, &ip->at.y));
   PetscCall(DuplicateAfresh(*layout, &ip->best.y));
@@ -69,7 +76,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPWorkDestroy(&ip->work));
+  PetscCall(IPWorkDestroy(ip->work));
   PetscCall(IPIterateDestroy(&ip->at));
   PetscCall(IPIterateDestroy(&ip->best));
   PetscCall(IPIterateDestroy(&ip->trial));
@@ -77,22 +84,22 @@ static PetscErrorCode FreeSizes(Tao tao)
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairDestroy(&ip->pair[b]));
   PetscCall(VecDestroy(&ip->rx));
   PetscCall(VecDestroy(&ip->rc));
-  PetscCall(VecDestroy(&ip->stiff.rho));
-  PetscCall(VecDestroy(&ip->stiff.reach));
-  PetscCall(VecDestroy(&ip->stiff.hdiag));
-  PetscCall(VecDestroy(&ip->lin.residual));
-  PetscCall(VecDestroy(&ip->rows.inequality));
-  PetscCall(VecDestroy(&ip->rows.equality));
-  PetscCall(IPCondensedDestroy(&ip->cond));
-  PetscCall(IPJacobianDestroy(&ip->jac));
-  PetscCall(IPHessianDestroy(&ip->hess));
-  PetscCall(IPAugmentedDestroy(&ip->aug));
-  PetscCall(IPDirectDestroy(&ip->direct));
-  if (ip->method.on) PetscCall(ip->method.ops->end(tao));
-  ip->method.on = PETSC_FALSE;
-  PetscCall(KSPDestroy(&ip->lin.flexible));
+  PetscCall(VecDestroy(&ip->stiff->rho));
+  PetscCall(VecDestroy(&ip->stiff->reach));
+  PetscCall(VecDestroy(&ip->stiff->hdiag));
+  PetscCall(VecDestroy(&ip->lin->residual));
+  PetscCall(VecDestroy(&ip->rows->inequality));
+  PetscCall(VecDestroy(&ip->rows->equality));
+  PetscCall(IPCondensedDestroy(ip->cond));
+  PetscCall(IPJacobianDestroy(ip->jac));
+  PetscCall(IPHessianDestroy(ip->hess));
+  PetscCall(IPAugmentedDestroy(ip->aug));
+  PetscCall(IPDirectDestroy(ip->direct));
+  if (ip->method->on) PetscCall(ip->method->ops->end(tao));
+  ip->method->on = PETSC_FALSE;
+  PetscCall(KSPDestroy(&ip->lin->flexible));
   PetscCall(ISDestroy(&ip->fixed));
-  PetscCall(IPSidesDestroy(&ip->sides));
+  PetscCall(IPSidesDestroy(ip->sides));
   PetscFunctionReturn(0);
 }
 
@@ -105,13 +112,13 @@ static PetscErrorCode SetUpHessian(Tao tao)
   PetscInt       n;
 
   PetscFunctionBegin;
-  if (tao->hessian && !ip->qn.B) PetscFunctionReturn(0);
+  if (tao->hessian && !ip->qn->B) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT
     " unknowns, more than %" PetscInt_FMT ", it does not difference gradients",
     n, large);
-  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
+  PetscCall(IPQuasiNewtonDestroy(ip->qn));
   if (n <= large) PetscCall(IPDifferenceHessian(tao));
   else PetscCall(IPQuasiNewtonSetUp(tao));
   PetscFunctionReturn(0);
@@ -137,8 +144,8 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
   PetscCall(VecDestroy(&ce));
   PetscCall(DuplicateAfresh(x, &ip->rx));
-  PetscCall(DuplicateAfresh(x, &ip->stiff.hdiag));
-  PetscCall(DuplicateAfresh(x, &ip->lin.residual));
+  PetscCall(DuplicateAfresh(x, &ip->stiff->hdiag));
+  PetscCall(DuplicateAfresh(x, &ip->lin->residual));
   PetscCall(SetUpHessian(tao));
   PetscFunctionReturn(0);
 }
@@ -164,13 +171,13 @@ static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, Petsc
 static PetscErrorCode SetUpSides(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  PetscBool     had = (PetscBool)(ip->sides.sign != NULL);
+  PetscBool     had = (PetscBool)(ip->sides->sign != NULL);
 
   PetscFunctionBegin;
   PetscCall(IPSidesSetUp(tao));
-  if (!had && !ip->sides.sign) PetscFunctionReturn(0);
-  PetscCall(IPCondensedDestroy(&ip->cond));
-  PetscCall(IPJacobianDestroy(&ip->jac));
+  if (!had && !ip->sides->sign) PetscFunctionReturn(0);
+  PetscCall(IPCondensedDestroy(ip->cond));
+  PetscCall(IPJacobianDestroy(ip->jac));
   PetscFunctionReturn(0);
 }
 
@@ -185,7 +192,7 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
   PetscCall(
-    SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides.nequal, &same));
+    SameLayout(tao, ip->at.ce, tao->eq_constrained ? tao->constraints_equality : NULL, ip->sides->nequal, &same));
   if (same) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&tao->gradient));
   PetscCall(IPKSPReset(tao->ksp));
@@ -199,18 +206,18 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(FreeSizes(tao));
-  if (ip->method.ops) PetscCall(ip->method.ops->destroy(tao));
-  PetscCall(VecDestroy(&ip->given.slack_mass));
-  PetscCall(VecDestroy(&ip->given.primal_mass));
-  PetscCall(VecDestroy(&ip->given.warm_s));
-  PetscCall(VecDestroy(&ip->given.warm_z));
-  PetscCall(VecDestroy(&ip->given.warm_y));
-  PetscCall(VecDestroy(&ip->given.warm_lower));
-  PetscCall(VecDestroy(&ip->given.warm_upper));
-  PetscCall(IPTermsDestroy(&ip->terms));
-  PetscCall(IPFilterSetDestroy(&ip->filter));
-  PetscCall(PetscFree(ip->rec.ksp_iterations));
-  PetscCall(IPQuasiNewtonDestroy(&ip->qn));
+  if (ip->method->ops) PetscCall(ip->method->ops->destroy(tao));
+  PetscCall(VecDestroy(&ip->given->slack_mass));
+  PetscCall(VecDestroy(&ip->given->primal_mass));
+  PetscCall(VecDestroy(&ip->given->warm_s));
+  PetscCall(VecDestroy(&ip->given->warm_z));
+  PetscCall(VecDestroy(&ip->given->warm_y));
+  PetscCall(VecDestroy(&ip->given->warm_lower));
+  PetscCall(VecDestroy(&ip->given->warm_upper));
+  PetscCall(IPTermsDestroy(ip->terms));
+  PetscCall(IPFilterSetDestroy(ip->filter));
+  PetscCall(PetscFree(ip->rec->ksp_iterations));
+  PetscCall(IPQuasiNewtonDestroy(ip->qn));
   PetscCall(KSPDestroy(&tao->ksp));
   PetscCall(PetscFree(tao->data));
   PetscFunctionReturn(0);

@@ -1,5 +1,18 @@
 /* The main iteration of TaoSolve(). */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Evaluates objective, constraints and derivatives at the start. *defined: false if the objective is not a number;
    then nothing else is evaluated */
@@ -26,8 +39,8 @@ static PetscErrorCode ForgetSystem(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPCondensedDestroy(&ip->cond));
-  PetscCall(IPJacobianDestroy(&ip->jac));
+  PetscCall(IPCondensedDestroy(ip->cond));
+  PetscCall(IPJacobianDestroy(ip->jac));
   PetscFunctionReturn(0);
 }
 
@@ -51,21 +64,21 @@ static PetscErrorCode ScaleRows(Tao tao)
 static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFirst      *first = &ip->first;
+  IPFirst      *first = ip->first;
   PetscReal     largest;
 
   PetscFunctionBegin;
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
-  first->unit = ip->opt.scaling == IP_SCALING_GRADIENT ? PetscMax(1.0, largest / IP_GRADIENT_MAX) : 1.0;
+  first->unit = ip->opt->scaling == IP_SCALING_GRADIENT ? PetscMax(1.0, largest / IP_GRADIENT_MAX) : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
-    PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &first->jacobian));
+    PetscCall(MatNorm(ip->jac->inequality, NORM_INFINITY, &first->jacobian));
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
-    PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &first->equality_jacobian));
+    PetscCall(MatNorm(ip->jac->equality, NORM_INFINITY, &first->equality_jacobian));
   }
   *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) &&
                         !IPUndefined(first->equality));
@@ -92,7 +105,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscCall(IPBoundsSetUp(tao));
   PetscCall(IPIterateBind(tao));
   PetscCall(IPBoundsPush(tao));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->first.x));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &ip->first->x));
   PetscCall(EvaluateFirst(tao, finite));
   if (!*finite) PetscFunctionReturn(0);
   PetscCall(ScaleRows(tao));
@@ -104,26 +117,26 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 static PetscErrorCode ResetSolve(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  IPRecord     *rec = &ip->rec;
+  IPRecord     *rec = ip->rec;
 
   PetscFunctionBegin;
   *rec             = (IPRecord){.max_nksp = rec->max_nksp,
                 .ksp_iterations           = rec->ksp_iterations,
                 .best_error               = PETSC_INFINITY,
                 .best_violation           = PETSC_INFINITY};
-  ip->lin          = (IPLinear){.flexible = ip->lin.flexible, .residual = ip->lin.residual};
-  ip->bar          = (IPBarrier){.free = (PetscBool)(ip->opt.barrier == IP_BARRIER_MEHROTRA && !ip->qn.B),
-             .curved                   = (PetscBool)(ip->qn.B != NULL)};
-  ip->search       = (IPSearch){.theta0 = -1.0, .tag = ' '};
-  ip->relax        = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
-  ip->shift        = (IPShift){.delta = 0.0};
-  ip->first        = (IPFirst){.f = 0.0, .energy = -1.0};
+  *ip->lin         = (IPLinear){.flexible = ip->lin->flexible, .residual = ip->lin->residual};
+  *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
+            .curved                    = (PetscBool)(ip->qn->B != NULL)};
+  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
+  *ip->shift       = (IPShift){.delta = 0.0};
+  *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
   ip->dir.norm     = 0.0;
   tao->ksp_its     = 0;
   tao->ksp_tot_its = 0;
   tao->reason      = TAO_CONTINUE_ITERATING;
-  IPQuasiNewtonReset(&ip->qn);
-  PetscCall(IPFilterSetReset(&ip->filter));
+  IPQuasiNewtonReset(ip->qn);
+  PetscCall(IPFilterSetReset(ip->filter));
   PetscFunctionReturn(0);
 }
 
@@ -135,12 +148,12 @@ static PetscErrorCode ResetSolve(Tao tao)
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
   const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
-  const PetscReal violation = PetscMax(ip->kkt.violation, ip->tol), best = PetscMax(ip->rec.best_violation, ip->tol),
+  const PetscReal violation = PetscMax(ip->kkt->violation, ip->tol), best = PetscMax(ip->rec->best_violation, ip->tol),
                   same = 1.01;
 
-  if (acceptable || ip->rec.best_error <= IP_ACCEPTABLE_TOL)
-    return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec.best_error);
-  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec.best_error));
+  if (acceptable || ip->rec->best_error <= IP_ACCEPTABLE_TOL)
+    return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec->best_error);
+  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
 }
 
 /* Stores the current iterate as the best one */
@@ -150,10 +163,10 @@ static PetscErrorCode KeepBest(Tao tao)
 
   PetscFunctionBegin;
   if (!BetterThanBest(ip)) PetscFunctionReturn(0);
-  ip->rec.best_error     = IPBothErrors(ip);
-  ip->rec.best_violation = ip->kkt.violation;
+  ip->rec->best_error     = IPBothErrors(ip);
+  ip->rec->best_violation = ip->kkt->violation;
   PetscCall(IPIterateCopy(&ip->at, &ip->best));
-  if (ip->terms.n) PetscCall(VecCopy(ip->terms.force, ip->terms.best));
+  if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->best));
   PetscFunctionReturn(0);
 }
 
@@ -163,11 +176,11 @@ static PetscErrorCode RestoreBest(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec.best_error)
+  if (ip->rec->best_error == PETSC_INFINITY || BetterThanBest(ip) || IPBothErrors(ip) == ip->rec->best_error)
     PetscFunctionReturn(0);
   if (tao->reason > 0 && tao->reason != TAO_CONVERGED_STEPTOL) PetscFunctionReturn(0);
   PetscCall(IPIterateCopy(&ip->best, &ip->at));
-  if (ip->terms.n) PetscCall(VecCopy(ip->terms.best, ip->terms.force));
+  if (ip->terms->n) PetscCall(VecCopy(ip->terms->best, ip->terms->force));
   PetscCall(IPEvaluateConstraints(tao, tao->solution, ip->at.c, ip->at.ce));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPSlackDistance(tao, ip->at.s, PETSC_FALSE));
@@ -188,15 +201,15 @@ static PetscErrorCode AssessIterate(Tao tao)
   if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
   PetscCall(KeepBest(tao));
   PetscCall(IPSetMultipliers(tao));
-  PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, tao->ksp_tot_its));
+  PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt->error, ip->kkt->inf_pr, tao->ksp_tot_its));
   PetscCall(IPMonitor(tao));
-  PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt.error, ip->kkt.inf_pr, ip->search.alpha));
+  PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt->error, ip->kkt->inf_pr, ip->search->alpha));
   PetscCall(IPTestConvergence(tao));
   if (tao->reason == TAO_CONVERGED_GATOL || tao->reason == TAO_CONVERGED_STEPTOL) PetscCall(IPLeaveSaddle(tao, &left));
   if (left) {
-    tao->reason       = TAO_CONTINUE_ITERATING;
-    ip->rec.reason[0] = '\0';
-    ip->search.tag    = 'R';
+    tao->reason        = TAO_CONTINUE_ITERATING;
+    ip->rec->reason[0] = '\0';
+    ip->search->tag    = 'R';
   }
   PetscFunctionReturn(0);
 }
@@ -206,12 +219,12 @@ static PetscErrorCode EndLinear(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   /* without a direction the residual is the right-hand side itself */
-  const PetscReal residual = IPUndefined(ip->lin.norm) ? ip->lin.rhs : ip->lin.norm;
+  const PetscReal residual = IPUndefined(ip->lin->norm) ? ip->lin->rhs : ip->lin->norm;
 
   PetscFunctionBegin;
   PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "linear solver failed: %s, ||b - A d|| = %g for ||b|| = %g%s%s",
-    KSPConvergedReasons[ip->lin.reason], (double)residual, (double)ip->lin.rhs, ip->lin.why[0] ? "; " : "",
-    ip->lin.why));
+    KSPConvergedReasons[ip->lin->reason], (double)residual, (double)ip->lin->rhs, ip->lin->why[0] ? "; " : "",
+    ip->lin->why));
   PetscFunctionReturn(0);
 }
 
@@ -223,17 +236,17 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionBegin;
   if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-      "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt.inf_pr));
-  else if (!solved && ip->lin.failed) PetscCall(EndLinear(tao));
+      "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt->inf_pr));
+  else if (!solved && ip->lin->failed) PetscCall(EndLinear(tao));
   else if (!solved)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "no direction with enough curvature was found with the Hessian shifted by up to %g; last result of the linear "
       "solver: "
       "%s",
-      (double)ip->shift.delta, KSPConvergedReasons[ip->lin.reason]));
+      (double)ip->shift->delta, KSPConvergedReasons[ip->lin->reason]));
   else if (violated)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
-      (double)ip->kkt.inf_pr));
+      (double)ip->kkt->inf_pr));
   else
     PetscCall(
       IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
@@ -246,7 +259,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
   const PetscInt  iterations = 10;
-  const PetscBool violated   = (PetscBool)(ip->kkt.primal > PetscMax(100.0 * ip->tol, 1e-6));
+  const PetscBool violated   = (PetscBool)(ip->kkt->primal > PetscMax(100.0 * ip->tol, 1e-6));
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
@@ -256,11 +269,11 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
       (double)ip->tol));
     PetscFunctionReturn(0);
   }
-  if (!solved && ip->lin.failed) {
+  if (!solved && ip->lin->failed) {
     PetscCall(EndLinear(tao));
     PetscFunctionReturn(0);
   }
-  if (ip->bar.free) {
+  if (ip->bar->free) {
     PetscCall(IPBarrierHold(tao, iterations));
     PetscFunctionReturn(0);
   }
@@ -273,7 +286,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     if (!ok) PetscCall(IPComputeKKT(tao));
   }
   if (ok) {
-    ip->search.tag = 'R';
+    ip->search->tag = 'R';
     tao->niter++;
   } else PetscCall(EndUnrestored(tao, solved, violated, infeasible));
   PetscFunctionReturn(0);
@@ -292,11 +305,11 @@ static PetscErrorCode RenewMultipliers(Tao tao)
   PetscFunctionBegin;
   if (!ip->me) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
-  PetscCall(MatMultTranspose(ip->jac.equality, ip->at.y, v));
+  PetscCall(MatMultTranspose(ip->jac->equality, ip->at.y, v));
   PetscCall(VecNorm(v, NORM_2, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
   PetscCall(VecNorm(tao->gradient, NORM_2, &gradient));
-  if (force <= huge * PetscMax(gradient, ip->first.gradient)) PetscFunctionReturn(0);
+  if (force <= huge * PetscMax(gradient, ip->first->gradient)) PetscFunctionReturn(0);
   PetscCall(IPEqualityMultipliers(tao));
   PetscCall(IPSetMultipliers(tao));
   PetscCall(IPComputeKKT(tao));
@@ -329,7 +342,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
 /* Ends the alternative method (see IPMethodOps) if it is active */
 static PetscErrorCode EndMethod(Tao tao)
 {
-  IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
+  IPMethod *method = ((TAO_IPFILTER *)tao->data)->method;
 
   PetscFunctionBegin;
   if (method->on) PetscCall(method->ops->end(tao));
@@ -340,7 +353,7 @@ static PetscErrorCode EndMethod(Tao tao)
 /* Starts the alternative method if it applies */
 static PetscErrorCode BeginMethod(Tao tao)
 {
-  IPMethod *method = &((TAO_IPFILTER *)tao->data)->method;
+  IPMethod *method = ((TAO_IPFILTER *)tao->data)->method;
   PetscBool applies;
 
   PetscFunctionBegin;
@@ -355,26 +368,26 @@ static PetscErrorCode BeginMethod(Tao tao)
 static PetscErrorCode LeaveMethod(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  const IPGiven given = ip->given;
+  const IPGiven given = *ip->given;
   Vec           s = NULL, z = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(tao, "The %s makes no more progress at KKT error %g: the interior point method continues\n",
-    ip->method.ops->name, (double)ip->rec.best_error));
+    ip->method->ops->name, (double)ip->rec->best_error));
   PetscCall(EndMethod(tao));
-  ip->rec.fallbacks.subspaces++;
+  ip->rec->fallbacks.subspaces++;
   PetscCall(RestoreBest(tao));
-  if (ip->rec.best_error < PETSC_INFINITY && ip->method.multipliers) {
+  if (ip->rec->best_error < PETSC_INFINITY && ip->method->multipliers) {
     PetscCall(VecDuplicate(ip->best.s, &s));
     PetscCall(VecDuplicate(ip->best.s, &z));
     PetscCall(VecCopy(ip->best.s, s));
     PetscCall(VecCopy(ip->best.z[IP_SLACK], z));
     PetscCall(IPRowScalePair(tao, s, z, PETSC_TRUE));
-    ip->given.warm_s = s;
-    ip->given.warm_z = z;
+    ip->given->warm_s = s;
+    ip->given->warm_z = z;
   }
   PetscCall(IPStartPoint(tao));
-  ip->given = given;
+  *ip->given = given;
   PetscCall(VecDestroy(&s));
   PetscCall(VecDestroy(&z));
   PetscFunctionReturn(0);
@@ -386,14 +399,14 @@ static PetscErrorCode EndTerms(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.best_error <= IP_ACCEPTABLE_TOL)
+  if (ip->rec->best_error <= IP_ACCEPTABLE_TOL)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec.best_error,
+      "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec->best_error,
       (double)ip->tol));
-  else if (ip->rec.best_error < PETSC_INFINITY)
+  else if (ip->rec->best_error < PETSC_INFINITY)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
-      (double)ip->rec.best_error));
+      (double)ip->rec->best_error));
   else
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found. "
@@ -409,9 +422,9 @@ static PetscErrorCode TakeStep(Tao tao)
   PetscBool     done = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (ip->method.on) {
-    PetscCall(ip->method.ops->step(tao, &done));
-    if (!done && ip->terms.n) PetscCall(EndTerms(tao));
+  if (ip->method->on) {
+    PetscCall(ip->method->ops->step(tao, &done));
+    if (!done && ip->terms->n) PetscCall(EndTerms(tao));
     else if (!done) PetscCall(LeaveMethod(tao));
   } else PetscCall(TakeNewtonStep(tao));
   PetscFunctionReturn(0);
@@ -447,21 +460,21 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(GetStates(tao, after));
-  ip->method.linear   = (PetscBool)(before[1] == after[1]);
-  ip->method.constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
+  ip->method->linear   = (PetscBool)(before[1] == after[1]);
+  ip->method->constant = (PetscBool)(before[0] == after[0] && before[1] == after[1]);
   PetscCall(IPComputeStiffness(tao));
   PetscCall(IPMeasureReach(tao));
   PetscCall(IPEqualityChoose(tao));
-  PetscCheck(!ip->terms.n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
+  PetscCheck(!ip->terms->n || ip->laws, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
     "norm terms are not available: this library was built without the folder tao_ipfilter/friction");
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
   PetscCall(BeginMethod(tao));
-  if (!ip->method.on && ip->terms.n) {
+  if (!ip->method->on && ip->terms->n) {
     PetscCall(EndTerms(tao));
     PetscFunctionReturn(0);
   }
-  if (!ip->method.on) PetscCall(IPStartPoint(tao));
+  if (!ip->method->on) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);
 }
@@ -472,10 +485,10 @@ static PetscErrorCode EndSolve(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPDirectDestroy(&ip->direct));
+  PetscCall(IPDirectDestroy(ip->direct));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
-  if (ip->relax.unknowns > 0.0) {
+  if (ip->relax->unknowns > 0.0) {
     PetscCall(IPBoundsReturn(tao));
     PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));
   }
@@ -483,8 +496,8 @@ static PetscErrorCode EndSolve(Tao tao)
   if (ip->mi) PetscCall(IPRowScalePair(tao, ip->at.s, ip->at.z[IP_SLACK], PETSC_TRUE));
   if (ip->mi) PetscCall(IPSidesReturnPairs(tao));
   tao->fc       = ip->at.f;
-  tao->residual = ip->kkt.error;
-  tao->cnorm    = ip->kkt.inf_pr;
+  tao->residual = ip->kkt->error;
+  tao->cnorm    = ip->kkt->inf_pr;
   PetscFunctionReturn(0);
 }
 

@@ -1,12 +1,20 @@
 /* Detects an unbounded objective. */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* The decrease of the objective that counts as unbounded, from its first value and the gain of a Newton step at the
    start */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
-  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first.f), ip->first.gradient * ip->first.x),
-                                 PetscSqr(ip->first.gradient) / ip->stiff.hscale);
+  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first->f), ip->first->gradient * ip->first->x),
+                                 PetscSqr(ip->first->gradient) / ip->stiff->hscale);
 }
 
 /* bounded: whether every unknown has two bounds or is fixed; the objective is then bounded */
@@ -36,7 +44,7 @@ static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
   PetscReal       own;
 
   PetscFunctionBegin;
-  *unbounded = (PetscBool)(fall > 0.0 && ip->at.f < ip->first.f - fall && ip->kkt.violation <= small);
+  *unbounded = (PetscBool)(fall > 0.0 && ip->at.f < ip->first->f - fall && ip->kkt->violation <= small);
   if (!*unbounded) PetscFunctionReturn(0);
   PetscCall(IPOwnViolation(tao, &own));
   *unbounded = (PetscBool)(own <= trace);
@@ -50,17 +58,17 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal straight = 1e-3;
   PetscScalar     slope;
-  PetscBool       counts = (PetscBool)(tao->niter && ip->shift.delta > 0.0 && ip->search.alpha == 1.0 &&
-                                 ip->search.tag != 'R' && !ip->terms.n);
+  PetscBool       counts = (PetscBool)(tao->niter && ip->shift->delta > 0.0 && ip->search->alpha == 1.0 &&
+                                 ip->search->tag != 'R' && !ip->terms->n);
 
   PetscFunctionBegin;
-  *fall          = ip->rec.last_f - ip->at.f;
-  ip->rec.last_f = ip->at.f;
+  *fall           = ip->rec->last_f - ip->at.f;
+  ip->rec->last_f = ip->at.f;
   if (counts) {
     PetscCall(VecDot(tao->gradient, ip->dir.x, &slope));
     counts = (PetscBool)(*fall > 0.0 && PetscAbsReal(*fall + PetscRealPart(slope)) <= straight * *fall);
   }
-  ip->rec.nstraight = counts ? ip->rec.nstraight + 1 : 0;
+  ip->rec->nstraight = counts ? ip->rec->nstraight + 1 : 0;
   PetscFunctionReturn(0);
 }
 
@@ -87,11 +95,11 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
     PetscCall(IPSlackViolation(tao, ip->trial.c, violation));
     PetscCall(VecNorm(violation, NORM_INFINITY, &norm));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
-    if (!(norm <= rounding * ip->first.jacobian * far)) *admitted = PETSC_FALSE;
+    if (!(norm <= rounding * ip->first->jacobian * far)) *admitted = PETSC_FALSE;
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->trial.ce, NORM_INFINITY, &norm));
-    if (!(norm <= rounding * ip->first.equality_jacobian * far)) *admitted = PETSC_FALSE;
+    if (!(norm <= rounding * ip->first->equality_jacobian * far)) *admitted = PETSC_FALSE;
   }
   PetscFunctionReturn(0);
 }
@@ -101,7 +109,7 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
 static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal goal = ip->first.f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
+  const PetscReal goal = ip->first->f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
   PetscReal       norm;
 
   PetscFunctionBegin;
@@ -129,7 +137,7 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   }
   PetscCall(UnboundedAtIterate(tao, unbounded));
   PetscCall(UnboundedCount(tao, &fall));
-  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec.nstraight && ip->rec.nstraight % patience == 0)
+  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec->nstraight && ip->rec->nstraight % patience == 0)
     PetscCall(UnboundedAlong(tao, fall, f, unbounded));
   PetscFunctionReturn(0);
 }

@@ -9,6 +9,15 @@
    it.
 */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
@@ -28,7 +37,7 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
 static PetscErrorCode AugmentedCreate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  IPAugmented  *aug  = &ip->aug;
+  IPAugmented  *aug  = ip->aug;
   MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
   PC            pc;
   PetscInt      m;
@@ -116,7 +125,7 @@ static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented  *aug = &ip->aug;
+  IPAugmented  *aug = ip->aug;
   Mat           blocks[4], nest, K;
   Vec           diagonal;
 
@@ -126,8 +135,8 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscCall(MatDiagonalSet(aug->shift, diagonal, INSERT_VALUES));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &diagonal));
   PetscCall(AugmentedFirstBlock(A, &blocks[0]));
-  PetscCall(MatTranspose(ip->jac.equality, MAT_INITIAL_MATRIX, &blocks[1]));
-  blocks[2] = ip->jac.equality;
+  PetscCall(MatTranspose(ip->jac->equality, MAT_INITIAL_MATRIX, &blocks[1]));
+  blocks[2] = ip->jac->equality;
   blocks[3] = aug->shift;
   PetscCall(MatCreateNest(PetscObjectComm((PetscObject)tao), 2, NULL, 2, NULL, blocks, &nest));
   PetscCall(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, &K));
@@ -215,11 +224,11 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
 }
 
 /* Factors K and checks the inertia (that of a minimum) and whether K was singular. If MUMPS fails for lack of memory
-   or another reason, ip->lin.failed is set: this says nothing about the matrix */
+   or another reason, ip->lin->failed is set: this says nothing about the matrix */
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented   *aug = &ip->aug;
+  IPAugmented   *aug = ip->aug;
   PC             pc;
   PCFailedReason failed;
   Mat            F;
@@ -237,13 +246,13 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
   if (failed != PC_NOERROR) {
-    PetscCall(PetscStrncpy(ip->lin.why,
+    PetscCall(PetscStrncpy(ip->lin->why,
       failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system"
                                     : "MUMPS failed on the augmented system",
-      sizeof(ip->lin.why)));
-    ip->rec.fallbacks.failures++;
-    ip->lin.failed = PETSC_TRUE;
-    ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+      sizeof(ip->lin->why)));
+    ip->rec->fallbacks.failures++;
+    ip->lin->failed = PETSC_TRUE;
+    ip->lin->reason = KSP_DIVERGED_PC_FAILED;
     PetscFunctionReturn(0);
   }
   PetscCall(KSPGetPC(aug->ksp, &pc));
@@ -280,7 +289,7 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
 static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  IPAugmented    *aug      = &ip->aug;
+  IPAugmented    *aug      = ip->aug;
   const PetscReal fraction = 0.01, precise = 1e-8;
   PetscReal       forces, constraints, rhs, asked = fraction * ip->tol;
   Vec             top, bottom;
@@ -288,9 +297,9 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscFunctionBegin;
   PetscCall(MatMult(aug->K, aug->sol, aug->residual));
   PetscCall(VecAYPX(aug->residual, -1.0, aug->rhs));
-  PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin.norm));
+  PetscCall(VecNorm(aug->residual, NORM_2, &ip->lin->norm));
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
-  if (ip->lin.norm <= precise * rhs && IPBothErrors(ip) <= 1.0)
+  if (ip->lin->norm <= precise * rhs && IPBothErrors(ip) <= 1.0)
     asked = PetscMax(asked, PetscSqr(fraction) * IPBothErrors(ip));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &top));
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &bottom));
@@ -299,7 +308,7 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscCall(VecNorm(bottom, NORM_INFINITY, &constraints));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &bottom));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &top));
-  *needless = (PetscBool)(forces <= asked * IPErrorBoundForceUnit(ip) && constraints <= asked * ip->scale.equality);
+  *needless = (PetscBool)(forces <= asked * IPErrorBoundForceUnit(ip) && constraints <= asked * ip->scale->equality);
   PetscFunctionReturn(0);
 }
 
@@ -307,7 +316,7 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  IPAugmented    *aug   = &ip->aug;
+  IPAugmented    *aug   = ip->aug;
   const PetscInt  limit = 3;
   const PetscReal exact = 1e-12;
   PetscReal       rhs, before = PETSC_INFINITY;
@@ -317,18 +326,18 @@ static PetscErrorCode AugmentedRefine(Tao tao)
   PetscCall(VecNorm(aug->rhs, NORM_2, &rhs));
   for (PetscInt k = 0; k <= limit; k++) {
     PetscCall(AugmentedMeasure(tao, &needless));
-    if (!(ip->lin.norm <= before)) {
+    if (!(ip->lin->norm <= before)) {
       PetscCall(VecAXPY(aug->sol, -1.0, aug->correction));
-      ip->lin.norm = before;
+      ip->lin->norm = before;
     }
-    if (needless || !(ip->lin.norm > exact * rhs) || !(ip->lin.norm <= 0.5 * before) || k == limit) break;
-    before = ip->lin.norm;
+    if (needless || !(ip->lin->norm > exact * rhs) || !(ip->lin->norm <= 0.5 * before) || k == limit) break;
+    before = ip->lin->norm;
     PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
     PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
-    ip->rec.fallbacks.refinements++;
+    ip->rec->fallbacks.refinements++;
   }
-  ip->lin.backward_error           = rhs > 0.0 ? ip->lin.norm / rhs : 0.0;
-  ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
+  ip->lin->backward_error           = rhs > 0.0 ? ip->lin->norm / rhs : 0.0;
+  ip->rec->fallbacks.backward_error = PetscMax(ip->rec->fallbacks.backward_error, ip->lin->backward_error);
   PetscFunctionReturn(0);
 }
 
@@ -340,9 +349,9 @@ static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
 
   PetscFunctionBegin;
   *unit = 1.0;
-  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
-  PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &norm));
-  if (norm > 0.0) *unit = PetscSqr(norm) / ip->me / ip->stiff.hscale;
+  if (ip->opt->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  PetscCall(MatNorm(ip->jac->equality, NORM_FROBENIUS, &norm));
+  if (norm > 0.0) *unit = PetscSqr(norm) / ip->me / ip->stiff->hscale;
   PetscFunctionReturn(0);
 }
 
@@ -354,13 +363,13 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscReal     unit;
 
   PetscFunctionBegin;
-  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  PetscCall(AugmentedAssemble(tao, ip->cond->A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));
-  if (!singular || ip->aug.delta != 0.0) PetscFunctionReturn(0);
+  if (!singular || ip->aug->delta != 0.0) PetscFunctionReturn(0);
   PetscCall(AugmentedUnit(tao, &unit));
-  ip->aug.delta    = IP_DELTA_EQUALITY * unit;
-  ip->aug.centered = PETSC_TRUE;
-  PetscCall(AugmentedAssemble(tao, ip->cond.A));
+  ip->aug->delta    = IP_DELTA_EQUALITY * unit;
+  ip->aug->centered = PETSC_TRUE;
+  PetscCall(AugmentedAssemble(tao, ip->cond->A));
   PetscCall(AugmentedFactor(tao, inertia, &singular));
   PetscFunctionReturn(0);
 }
@@ -369,7 +378,7 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  IPAugmented    *aug  = &ip->aug;
+  IPAugmented    *aug  = ip->aug;
   const PetscReal safe = 1e-2, coarse = 1e-6;
   PCFailedReason  failed = PC_NOERROR;
   PetscBool       again  = PETSC_FALSE;
@@ -379,11 +388,11 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
     if (again) PetscCall(AugmentedFactorWithin(aug, &failed));
     if (failed == PC_NOERROR) {
       PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
-      PetscCall(KSPGetConvergedReason(aug->ksp, &ip->lin.reason));
-    } else ip->lin.reason = KSP_DIVERGED_PC_FAILED;
-    *usable = (PetscBool)(ip->lin.reason > 0);
+      PetscCall(KSPGetConvergedReason(aug->ksp, &ip->lin->reason));
+    } else ip->lin->reason = KSP_DIVERGED_PC_FAILED;
+    *usable = (PetscBool)(ip->lin->reason > 0);
     if (*usable) PetscCall(AugmentedRefine(tao));
-    again = (PetscBool)(*usable && aug->pivot < safe && ip->lin.backward_error > coarse);
+    again = (PetscBool)(*usable && aug->pivot < safe && ip->lin->backward_error > coarse);
     if (again) aug->pivot = safe;
   } while (again);
   PetscFunctionReturn(0);
@@ -394,7 +403,7 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  IPAugmented  *aug = &ip->aug;
+  IPAugmented  *aug = ip->aug;
   Vec           negative;
 
   PetscFunctionBegin;
@@ -416,9 +425,9 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, dx, NULL));
-  ip->lin.failed = PETSC_FALSE;
-  ip->lin.why[0] = '\0';
-  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
+  ip->lin->failed = PETSC_FALSE;
+  ip->lin->why[0] = '\0';
+  PetscCall(VecNorm(b, NORM_2, &ip->lin->rhs));
   PetscCall(AugmentedCreate(tao));
   *usable = PETSC_TRUE;
   if (matrix) PetscCall(AugmentedFactorRegular(tao, usable));
@@ -446,15 +455,15 @@ PetscErrorCode IPAugmentedMultipliers(Tao tao)
   PetscCall(VecGetLocalSize(ip->rx, &n));
   PetscCall(VecGetSize(ip->rx, &N));
   PetscCall(MatCreateConstantDiagonal(PetscObjectComm((PetscObject)tao), n, n, N, N, 1.0, &identity));
-  ip->aug.delta    = 0.0;
-  ip->aug.centered = PETSC_FALSE;
+  ip->aug->delta    = 0.0;
+  ip->aug->centered = PETSC_FALSE;
   PetscCall(AugmentedAssemble(tao, identity));
   PetscCall(MatDestroy(&identity));
   PetscCall(AugmentedFactor(tao, &inertia, &singular));
   if (!inertia) PetscFunctionReturn(0);
   PetscCall(VecScale(ip->rx, -1.0));
-  PetscCall(AugmentedJoin(ip->aug.rhs, ip->rx, ip->at.y, PETSC_FALSE));
-  PetscCall(KSPSolve(ip->aug.ksp, ip->aug.rhs, ip->aug.sol));
-  PetscCall(AugmentedJoin(ip->aug.sol, ip->rx, ip->at.y, PETSC_TRUE));
+  PetscCall(AugmentedJoin(ip->aug->rhs, ip->rx, ip->at.y, PETSC_FALSE));
+  PetscCall(KSPSolve(ip->aug->ksp, ip->aug->rhs, ip->aug->sol));
+  PetscCall(AugmentedJoin(ip->aug->sol, ip->rx, ip->at.y, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

@@ -4,6 +4,13 @@
    anything large is allocated.
 */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
 #include "pc_amgf/mumps.h"
 
 PetscErrorCode IPDirectDestroy(IPDirect *direct)
@@ -51,7 +58,7 @@ static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 static PetscErrorCode DirectAnalyse(Tao tao)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect      *direct = &ip->direct;
+  IPDirect      *direct = ip->direct;
   MatFactorError error;
   MatFactorInfo  info;
   const char    *prefix;
@@ -93,11 +100,11 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
 {
   PetscFunctionBegin;
-  *allows = (PetscBool)(memory <= ip->opt.direct_memory);
+  *allows = (PetscBool)(memory <= ip->opt->direct_memory);
   if (!*allows)
-    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why),
+    PetscCall(PetscSNPrintf(ip->lin->why, sizeof(ip->lin->why),
       "MUMPS would need %g MB for the whole matrix, more than the %g MB allowed", (double)memory,
-      (double)ip->opt.direct_memory));
+      (double)ip->opt->direct_memory));
   PetscFunctionReturn(0);
 }
 
@@ -106,7 +113,7 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect     *direct = &ip->direct;
+  IPDirect     *direct = ip->direct;
   MatFactorInfo info;
   PetscBool     again, allows;
 
@@ -115,7 +122,7 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
   if (!direct->relaxation) (void)AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation);
   do {
     *error = MAT_FACTOR_OTHER;
-    PetscCall(PetscStrncpy(ip->lin.why, "MUMPS failed on the whole matrix", sizeof(ip->lin.why)));
+    PetscCall(PetscStrncpy(ip->lin->why, "MUMPS failed on the whole matrix", sizeof(ip->lin->why)));
     if (!direct->F) PetscCall(DirectAnalyse(tao));
     if (!direct->F) break;
     PetscCall(DirectAllows(ip, direct->memory, &allows));
@@ -135,29 +142,29 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect      *direct = &ip->direct;
+  IPDirect      *direct = ip->direct;
   PetscReal      least  = 0.0;
   MatFactorError error  = MAT_FACTOR_OTHER;
   PetscBool      allows;
 
   PetscFunctionBegin;
   *factored = *singular = PETSC_FALSE;
-  if (ip->hess.products) {
-    PetscCall(PetscStrncpy(ip->lin.why, "a Hessian that gives products alone leaves MUMPS nothing to factor",
-      sizeof(ip->lin.why)));
+  if (ip->hess->products) {
+    PetscCall(PetscStrncpy(ip->lin->why, "a Hessian that gives products alone leaves MUMPS nothing to factor",
+      sizeof(ip->lin->why)));
     PetscFunctionReturn(0);
   }
-  PetscCall(DirectLeastMemory(ip->cond.A, &least));
+  PetscCall(DirectLeastMemory(ip->cond->A, &least));
   PetscCall(DirectAllows(ip, least, &allows));
   if (!allows) PetscFunctionReturn(0);
-  PetscCall(DirectTakeMatrix(ip->cond.A, direct));
+  PetscCall(DirectTakeMatrix(ip->cond->A, direct));
   if (direct->A) PetscCall(DirectFactorWithin(tao, &error));
-  else PetscCall(PetscStrncpy(ip->lin.why, "no MUMPS to factor the whole matrix", sizeof(ip->lin.why)));
+  else PetscCall(PetscStrncpy(ip->lin->why, "no MUMPS to factor the whole matrix", sizeof(ip->lin->why)));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
   if (*factored) {
-    direct->system = ip->rec.nsystems;
-    ip->lin.why[0] = '\0';
+    direct->system  = ip->rec->nsystems;
+    ip->lin->why[0] = '\0';
   } else PetscCall(IPDirectDestroy(direct));
   PetscFunctionReturn(0);
 }
@@ -165,7 +172,7 @@ static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *sing
 static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
 {
   PetscFunctionBegin;
-  PetscCall(MatSolve(((TAO_IPFILTER *)tao->data)->direct.F, r, e));
+  PetscCall(MatSolve(((TAO_IPFILTER *)tao->data)->direct->F, r, e));
   PetscFunctionReturn(0);
 }
 
@@ -174,17 +181,17 @@ static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
 PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  IPDirect     *direct   = &ip->direct;
+  IPDirect     *direct   = ip->direct;
   PetscBool     factored = PETSC_TRUE, singular = PETSC_FALSE;
 
   PetscFunctionBegin;
   *verdict = IP_LINEAR_FAILED;
-  if (ip->qn.npairs) {
-    PetscCall(PetscStrncpy(ip->lin.why, "the Hessian is a limited-memory approximation, which MUMPS does not take",
-      sizeof(ip->lin.why)));
+  if (ip->qn->npairs) {
+    PetscCall(PetscStrncpy(ip->lin->why, "the Hessian is a limited-memory approximation, which MUMPS does not take",
+      sizeof(ip->lin->why)));
     PetscFunctionReturn(0);
   }
-  if (!direct->F || direct->system != ip->rec.nsystems) {
+  if (!direct->F || direct->system != ip->rec->nsystems) {
     PetscCall(DirectFactor(tao, &factored, &singular));
     if (factored) PetscCall(MatGetInertia(direct->F, &direct->negative, NULL, NULL));
   }
@@ -195,7 +202,7 @@ PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   PetscCall(IPResidualRefine(tao, b, d, PETSC_TRUE, DirectApply, KSP_CONVERGED_ITS));
   if (IPResidualReached(ip, KSP_CONVERGED_ITS)) *verdict = IP_LINEAR_SOLVED;
   else
-    PetscCall(PetscSNPrintf(ip->lin.why, sizeof(ip->lin.why), "MUMPS on the whole matrix leaves a backward error of %g",
-      (double)ip->lin.backward_error));
+    PetscCall(PetscSNPrintf(ip->lin->why, sizeof(ip->lin->why),
+      "MUMPS on the whole matrix leaves a backward error of %g", (double)ip->lin->backward_error));
   PetscFunctionReturn(0);
 }

@@ -4,6 +4,12 @@
    rest of the solve uses the augmented system.
 */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 #include "pc_amgf/mumps.h"
 
 /* fits: whether the preconditioner can handle stiff rows, the equality constraints have few rows and the problem
@@ -21,9 +27,9 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, fits));
   PetscCall(VecGetSize(tao->solution, &n));
-  *fits = (PetscBool)(*fits && !ip->opt.direct_always && n >= many);
+  *fits = (PetscBool)(*fits && !ip->opt->direct_always && n >= many);
   if (!*fits) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceOf(ip->jac.equality, &touched));
+  PetscCall(IPSubspaceOf(ip->jac->equality, &touched));
   PetscCall(ISGetSize(touched, &ntouched));
   PetscCall(ISDestroy(&touched));
   *fits = (PetscBool)(ntouched <= fraction * n);
@@ -36,10 +42,10 @@ PetscErrorCode IPEqualityChoose(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->prox = (IPProximal){.condensed = PETSC_FALSE};
+  *ip->prox = (IPProximal){.condensed = PETSC_FALSE};
   if (!ip->me) PetscFunctionReturn(0);
-  if (ip->opt.equality == IP_EQUALITY_AUTO) PetscCall(EqualityFitsFilter(tao, &ip->prox.condensed));
-  else ip->prox.condensed = (PetscBool)(ip->opt.equality == IP_EQUALITY_CONDENSED);
+  if (ip->opt->equality == IP_EQUALITY_AUTO) PetscCall(EqualityFitsFilter(tao, &ip->prox->condensed));
+  else ip->prox->condensed = (PetscBool)(ip->opt->equality == IP_EQUALITY_CONDENSED);
   PetscFunctionReturn(0);
 }
 
@@ -51,14 +57,14 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 
   PetscFunctionBegin;
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, possible));
-  *possible = (PetscBool)(*possible && ip->opt.direct_memory > 0.0 && !ip->hess.products &&
-                          ip->lin.reason != KSP_DIVERGED_NANORINF);
+  *possible = (PetscBool)(*possible && ip->opt->direct_memory > 0.0 && !ip->hess->products &&
+                          ip->lin->reason != KSP_DIVERGED_NANORINF);
   if (!*possible) PetscFunctionReturn(0);
-  ip->prox.condensed = PETSC_FALSE;
-  ip->rec.fallbacks.direct++;
+  ip->prox->condensed = PETSC_FALSE;
+  ip->rec->fallbacks.direct++;
   PetscCall(PetscInfo(tao,
     "Proximal updates do not meet the equality constraints: the augmented system is used from now on\n"));
-  PetscCall(IPCondenseMatrix(tao, ip->cond.rows.inequality));
+  PetscCall(IPCondenseMatrix(tao, ip->cond->rows.inequality));
   PetscFunctionReturn(0);
 }
 
@@ -71,9 +77,9 @@ PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix,
   PetscBool     exact = PETSC_FALSE, possible = PETSC_TRUE;
 
   PetscFunctionBegin;
-  if (ip->prox.condensed) {
+  if (ip->prox->condensed) {
     PetscCall(IPProximalSolve(tao, b, ce, dx, target, usable, &exact));
-    if (exact || (!*usable && !ip->lin.failed)) PetscFunctionReturn(0);
+    if (exact || (!*usable && !ip->lin->failed)) PetscFunctionReturn(0);
     PetscCall(EqualityGiveUpProximal(tao, &possible));
     if (!possible) PetscFunctionReturn(0);
     matrix = PETSC_TRUE;
@@ -86,7 +92,7 @@ PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix,
 PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
 {
   PetscFunctionBegin;
-  if (((TAO_IPFILTER *)tao->data)->prox.condensed) PetscCall(IPProximalRestore(tao, b, ce, dx, usable));
+  if (((TAO_IPFILTER *)tao->data)->prox->condensed) PetscCall(IPProximalRestore(tao, b, ce, dx, usable));
   else PetscCall(IPAugmentedSolve(tao, b, ce, dx, PETSC_TRUE, usable));
   PetscFunctionReturn(0);
 }
@@ -105,7 +111,7 @@ static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
   PetscCall(VecSet(ip->at.y, 0.0));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecScale(ip->rx, -1.0));
-  PetscCall(MatCreateTranspose(ip->jac.equality, &forces));
+  PetscCall(MatCreateTranspose(ip->jac->equality, &forces));
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ksp));
   PetscCall(KSPSetType(ksp, KSPLSQR));
   PetscCall(KSPSetOperators(ksp, forces, forces));
@@ -131,11 +137,11 @@ PetscErrorCode IPEqualityMultipliers(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(tao->solution, &n));
-  if (ip->prox.condensed || n + ip->me > few) PetscCall(EqualityMultipliersByLSQR(tao));
+  if (ip->prox->condensed || n + ip->me > few) PetscCall(EqualityMultipliersByLSQR(tao));
   else PetscCall(IPAugmentedMultipliers(tao));
   PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &y));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &g));
-  PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &j));
+  PetscCall(MatNorm(ip->jac->equality, NORM_INFINITY, &j));
   if (!(y * j <= huge * g)) PetscCall(VecSet(ip->at.y, 0.0));
   PetscFunctionReturn(0);
 }

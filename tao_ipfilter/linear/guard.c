@@ -1,13 +1,14 @@
 /* Treats an error of a library inside a solver, such as hypre, as a failure of that solver, for which there are
    remedies, instead of ending the program. */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/linear.h"
 #include "pc_amgf/guard.h"
 
 /* Replaces a PC whose library was interrupted by a new one of the same type and options. PETSc can neither reuse nor
    destroy the old one, so a reference to it is never released */
 static PetscErrorCode GuardReplacePC(Tao tao)
 {
-  KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin.flexible};
+  KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin->flexible};
   PC          broken, fresh;
   PCType      type;
   const char *prefix;
@@ -59,14 +60,14 @@ PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
   PetscCall(PCAMGFGuardBegin_Private(&guard, b));
   error = KSPSolve(ksp, b, x);
   PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));
-  if (*failed) PetscCall(PetscStrncpy(ip->lin.why, guard.why, sizeof(ip->lin.why)));
+  if (*failed) PetscCall(PetscStrncpy(ip->lin->why, guard.why, sizeof(ip->lin->why)));
   else {
     PetscCall(KSPGetConvergedReason(ksp, &reason));
     if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(GuardAskPC(ksp, failed));
     if (!*failed) PetscFunctionReturn(0);
-    PetscCall(PetscStrncpy(ip->lin.why, "an error inside the multigrid", sizeof(ip->lin.why)));
+    PetscCall(PetscStrncpy(ip->lin->why, "an error inside the multigrid", sizeof(ip->lin->why)));
   }
-  PetscCall(PetscInfo(tao, "Error inside the linear solver: %s\n", ip->lin.why));
+  PetscCall(PetscInfo(tao, "Error inside the linear solver: %s\n", ip->lin->why));
   PetscCall(GuardReplacePC(tao));
   PetscCall(VecSet(x, 0.0));
   PetscFunctionReturn(0);

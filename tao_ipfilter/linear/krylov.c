@@ -1,5 +1,13 @@
 /* Solves the condensed system by the user's Krylov method: tolerance, early end, verdict, and record of iterations. */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
 
 /* Context of the convergence test: the KSP's own test, and what is needed to detect stagnation */
 typedef struct {
@@ -17,11 +25,11 @@ PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec.nksp == ip->rec.max_nksp) {
-    ip->rec.max_nksp = 2 * ip->rec.max_nksp + 32;
-    PetscCall(PetscRealloc(ip->rec.max_nksp * sizeof(PetscInt), &ip->rec.ksp_iterations));
+  if (ip->rec->nksp == ip->rec->max_nksp) {
+    ip->rec->max_nksp = 2 * ip->rec->max_nksp + 32;
+    PetscCall(PetscRealloc(ip->rec->max_nksp * sizeof(PetscInt), &ip->rec->ksp_iterations));
   }
-  ip->rec.ksp_iterations[ip->rec.nksp++] = its;
+  ip->rec->ksp_iterations[ip->rec->nksp++] = its;
   tao->ksp_its += its;
   tao->ksp_tot_its += its;
   PetscFunctionReturn(0);
@@ -33,7 +41,7 @@ static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
 {
   const PetscInt factor = 10;
 
-  return ip->lin.longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin.longest)) : given;
+  return ip->lin->longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin->longest)) : given;
 }
 
 /* Convergence test that also ends a solve which gains less than one digit in a number of iterations near the end */
@@ -80,24 +88,24 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscBool     guess, direct, failed;
 
   PetscFunctionBegin;
-  PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond.A));
+  PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond->A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* PREONLY takes no initial guess */
-  ip->lin.limit = maxits;
-  if (ip->opt.forcing == IP_FORCING_ADAPTIVE) {
-    ip->lin.limit = KrylovLimit(ip, maxits);
+  ip->lin->limit = maxits;
+  if (ip->opt->forcing == IP_FORCING_ADAPTIVE) {
+    ip->lin->limit = KrylovLimit(ip, maxits);
     PetscCall(KSPSetInitialGuessNonzero(ksp, direct ? PETSC_FALSE : PETSC_TRUE));
-    PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->lin.target, dtol, ip->lin.limit));
+    PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->lin->target, dtol, ip->lin->limit));
   }
   PetscCall(KrylovUnlessStalled(tao, ksp, b, d, &failed));
   PetscCall(KSPSetTolerances(ksp, rtol, abstol, dtol, maxits));
   PetscCall(KSPSetInitialGuessNonzero(ksp, guess));
   PetscCall(KSPGetIterationNumber(ksp, &its));
-  PetscCall(KSPGetConvergedReason(ksp, &ip->lin.reason));
-  if (failed) ip->lin.reason = KSP_DIVERGED_PC_FAILED;
+  PetscCall(KSPGetConvergedReason(ksp, &ip->lin->reason));
+  if (failed) ip->lin->reason = KSP_DIVERGED_PC_FAILED;
   PetscCall(IPKrylovRecord(tao, its));
-  ip->lin.its = its;
+  ip->lin->its = its;
   PetscFunctionReturn(0);
 }
 
@@ -122,18 +130,18 @@ static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
     PetscCall(KrylovRun(tao, tao->ksp, r, e));
     PetscFunctionReturn(0);
   }
-  if (!ip->lin.flexible) {
-    PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ip->lin.flexible));
-    PetscCall(KSPSetType(ip->lin.flexible, KSPFCG));
-    PetscCall(KSPFCGSetMmax(ip->lin.flexible, directions));
-    PetscCall(KSPFCGSetNprealloc(ip->lin.flexible, directions + 1));
-    PetscCall(KSPSetNormType(ip->lin.flexible, KSP_NORM_UNPRECONDITIONED));
+  if (!ip->lin->flexible) {
+    PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &ip->lin->flexible));
+    PetscCall(KSPSetType(ip->lin->flexible, KSPFCG));
+    PetscCall(KSPFCGSetMmax(ip->lin->flexible, directions));
+    PetscCall(KSPFCGSetNprealloc(ip->lin->flexible, directions + 1));
+    PetscCall(KSPSetNormType(ip->lin->flexible, KSP_NORM_UNPRECONDITIONED));
   }
   PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(KSPSetPC(ip->lin.flexible, pc));
+  PetscCall(KSPSetPC(ip->lin->flexible, pc));
   PetscCall(KSPGetTolerances(tao->ksp, &rtol, &abstol, &dtol, &maxits));
-  PetscCall(KSPSetTolerances(ip->lin.flexible, rtol, abstol, dtol, maxits));
-  PetscCall(KrylovRun(tao, ip->lin.flexible, r, e));
+  PetscCall(KSPSetTolerances(ip->lin->flexible, rtol, abstol, dtol, maxits));
+  PetscCall(KrylovRun(tao, ip->lin->flexible, r, e));
   PetscFunctionReturn(0);
 }
 
@@ -149,7 +157,7 @@ static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
   if (size == 0.0) PetscFunctionReturn(0);
   PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, &dtol, NULL));
   PetscCall(IPResidualMeasure(tao, b, d));
-  if (!(ip->lin.norm < 0.1 * dtol * ip->lin.rhs)) PetscCall(VecSet(d, 0.0));
+  if (!(ip->lin->norm < 0.1 * dtol * ip->lin->rhs)) PetscCall(VecSet(d, 0.0));
   PetscFunctionReturn(0);
 }
 
@@ -178,13 +186,13 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 
   PetscFunctionBegin;
   *drowned = PETSC_TRUE;
-  PetscCall(MatHasOperation(ip->hess.H, MATOP_NORM, &has));
+  PetscCall(MatHasOperation(ip->hess->H, MATOP_NORM, &has));
   if (!has) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
-  PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  PetscCall(MatGetDiagonal(ip->cond->A, diagonal));
   PetscCall(VecNorm(diagonal, NORM_INFINITY, &a));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
-  PetscCall(MatNorm(ip->hess.H, NORM_FROBENIUS, &h));
+  PetscCall(MatNorm(ip->hess->H, NORM_FROBENIUS, &h));
   *drowned = (PetscBool) !(a <= ratio * h);
   PetscFunctionReturn(0);
 }
@@ -204,7 +212,7 @@ PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf) PetscFunctionReturn(0);
   PetscCall(PCAMGFGetFactored(pc, &factored, NULL));
-  if (!factored && !ip->lin.filtered) PetscFunctionReturn(0);
+  if (!factored && !ip->lin->filtered) PetscFunctionReturn(0);
   PetscCall(KrylovDrowned(tao, &drowned));
   if (drowned) PetscFunctionReturn(0);
   PetscCall(PCAMGFGetFilterPivots(pc, &negative));
@@ -221,28 +229,28 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   PetscBool          direct, indefinite = PETSC_FALSE, zero = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (ip->opt.forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
+  if (ip->opt->forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
   PetscCall(KrylovRun(tao, tao->ksp, b, d));
-  reason = ip->lin.reason;
-  its    = ip->lin.its;
+  reason = ip->lin->reason;
+  its    = ip->lin->its;
   PetscCall(IPResidualMeasure(tao, b, d));
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, &direct));
   PetscCall(IPResidualRefine(tao, b, d, direct, KrylovCorrect, reason));
-  ip->lin.reason = reason;
-  ip->lin.its    = its;
+  ip->lin->reason = reason;
+  ip->lin->its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
   /* tested only if the problem has shown that it is not convex, and its constraints have an interior */
-  if (ip->lin.filtered && ip->bar.curved && !ip->relax.times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
+  if (ip->lin->filtered && ip->bar->curved && !ip->relax->times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
   if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
   else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
   else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
   if (*verdict == IP_LINEAR_SOLVED) {
-    ip->lin.longest = PetscMax(ip->lin.longest, its);
-    ip->lin.ndirect = 0;
+    ip->lin->longest = PetscMax(ip->lin->longest, its);
+    ip->lin->ndirect = 0;
   } else
     PetscCall(PetscInfo(tao,
       "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n",
-      KSPConvergedReasons[reason], its, (double)ip->lin.norm, (double)ip->lin.target, (double)ip->lin.rhs));
+      KSPConvergedReasons[reason], its, (double)ip->lin->norm, (double)ip->lin->target, (double)ip->lin->rhs));
   /* a failed factorization must not be reused */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
   PetscFunctionReturn(0);

@@ -1,6 +1,12 @@
 /* Solves the condensed system by the Krylov method and, if that fails, by one remedy after another. No remedy shifts
    the Hessian, because the failure of a solver is not negative curvature. */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 
 /* The PC, if it is a PCAMGF, else NULL */
 static PetscErrorCode GetAMGF(Tao tao, PC *pc)
@@ -26,7 +32,7 @@ static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
   *done = (PetscBool)(age > 0);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(PCReset(pc));
-  ((TAO_IPFILTER *)tao->data)->rec.fallbacks.amg_rebuilds++;
+  ((TAO_IPFILTER *)tao->data)->rec->fallbacks.amg_rebuilds++;
   PetscFunctionReturn(0);
 }
 
@@ -38,12 +44,12 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
-  *done = (PetscBool)(pc && ip->cond.filter && !ip->lin.filtered);
+  *done = (PetscBool)(pc && ip->cond->filter && !ip->lin->filtered);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
-  ip->lin.filter_forced = ip->lin.filtered = PETSC_TRUE;
-  ip->rec.nfiltered++;
-  ip->rec.fallbacks.filters++;
+  ip->lin->filter_forced = ip->lin->filtered = PETSC_TRUE;
+  ip->rec->nfiltered++;
+  ip->rec->fallbacks.filters++;
   PetscFunctionReturn(0);
 }
 
@@ -59,18 +65,18 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
   *done = PETSC_FALSE;
-  if (!pc || !ip->cond.filter || !ip->lin.filtered) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceGrow(tao, ip->cond.A, ip->cond.filter, &wide));
-  PetscCall(ISGetSize(ip->cond.filter, &before));
+  if (!pc || !ip->cond->filter || !ip->lin->filtered) PetscFunctionReturn(0);
+  PetscCall(IPSubspaceGrow(tao, ip->cond->A, ip->cond->filter, &wide));
+  PetscCall(ISGetSize(ip->cond->filter, &before));
   PetscCall(ISGetSize(wide, &after));
   PetscCall(VecGetSize(tao->solution, &n));
   *done = (PetscBool)(after > before && after <= fraction * n);
   if (*done) {
-    PetscCall(PetscObjectCompose((PetscObject)ip->cond.A, PCAMGF_FILTER_KEY, (PetscObject)wide));
+    PetscCall(PetscObjectCompose((PetscObject)ip->cond->A, PCAMGF_FILTER_KEY, (PetscObject)wide));
     /* switching makes it look for its subspace again */
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
-    ip->rec.fallbacks.filters++;
+    ip->rec->fallbacks.filters++;
   }
   PetscCall(ISDestroy(&wide));
   PetscFunctionReturn(0);
@@ -80,8 +86,8 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
    caller is no sign */
 static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 {
-  switch (ip->lin.reason) {
-  case KSP_DIVERGED_ITS: return (PetscBool)(ip->lin.limit >= IP_MANY_ITERATIONS);
+  switch (ip->lin->reason) {
+  case KSP_DIVERGED_ITS: return (PetscBool)(ip->lin->limit >= IP_MANY_ITERATIONS);
   case KSP_DIVERGED_INDEFINITE_PC:
   case KSP_DIVERGED_BREAKDOWN:
   case KSP_DIVERGED_DTOL:
@@ -94,8 +100,8 @@ static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
    remedies failed */
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!IPUndefined(ip->lin.norm) &&
-                     ip->lin.norm <= PetscMax(10.0 * ip->lin.target, IP_FORCING_MAX * ip->lin.rhs));
+  return (PetscBool)(!IPUndefined(ip->lin->norm) &&
+                     ip->lin->norm <= PetscMax(10.0 * ip->lin->target, IP_FORCING_MAX * ip->lin->rhs));
 }
 
 /* Remedies in the order in which they are tried: `prepare` changes something (if possible), `solve` solves then */
@@ -115,7 +121,7 @@ static PetscBool DirectOnly(const TAO_IPFILTER *ip)
 {
   const PetscInt in_vain = 2;
 
-  return (PetscBool)(ip->opt.direct_always || ip->lin.ndirect >= in_vain);
+  return (PetscBool)(ip->opt->direct_always || ip->lin->ndirect >= in_vain);
 }
 
 /* sound: whether matrix and right-hand side contain only numbers; otherwise no solver is tried */
@@ -125,9 +131,9 @@ static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
   PetscReal     norm;
 
   PetscFunctionBegin;
-  if (ip->hess.products) PetscCall(VecNorm(ip->cond.hdiag, NORM_2, &norm));
-  else PetscCall(MatNorm(ip->cond.A, NORM_FROBENIUS, &norm));
-  *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin.rhs));
+  if (ip->hess->products) PetscCall(VecNorm(ip->cond->hdiag, NORM_2, &norm));
+  else PetscCall(MatNorm(ip->cond->A, NORM_FROBENIUS, &norm));
+  *sound = (PetscBool)(!PetscIsInfOrNanReal(norm) && !IPUndefined(ip->lin->rhs));
   if (!*sound) PetscCall(IPResidualNotANumber(tao));
   PetscFunctionReturn(0);
 }
@@ -139,13 +145,13 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 
   PetscFunctionBegin;
   if (*verdict == IP_LINEAR_SOLVED) {
-    ip->rec.fallbacks.direct += !ip->opt.direct_always;
-    ip->lin.ndirect++;
+    ip->rec->fallbacks.direct += !ip->opt->direct_always;
+    ip->lin->ndirect++;
   } else if (*verdict == IP_LINEAR_FAILED) {
-    ip->lin.ndirect = 0;
+    ip->lin->ndirect = 0;
     if (LooksIndefinite(ip)) *verdict = IP_LINEAR_INDEFINITE;
     else if (Coarse(ip)) *verdict = IP_LINEAR_SOLVED;
-    else ip->rec.fallbacks.failures++;
+    else ip->rec->fallbacks.failures++;
   }
   PetscFunctionReturn(0);
 }
@@ -172,7 +178,7 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
 /*
    Solves A d = b from the guess d to ||b - A d|| <= target. With fixed forcing the KSP's own tolerances and guess are
    used. *usable: false if the matrix is not positive definite, or if no solver gave a usable direction; in the second
-   case ip->lin.failed is true, and shifting the Hessian does not help
+   case ip->lin->failed is true, and shifting the Hessian does not help
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {
@@ -181,13 +187,13 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterSolve, tao, b, d, NULL));
-  PetscCall(VecNorm(b, NORM_2, &ip->lin.rhs));
-  ip->lin.target = target;
-  ip->lin.why[0] = '\0';
+  PetscCall(VecNorm(b, NORM_2, &ip->lin->rhs));
+  ip->lin->target = target;
+  ip->lin->why[0] = '\0';
   PetscCall(TryRemedies(tao, b, d, &verdict));
-  *usable        = (PetscBool)(verdict == IP_LINEAR_SOLVED);
-  ip->lin.failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
-  if (*usable) ip->rec.fallbacks.backward_error = PetscMax(ip->rec.fallbacks.backward_error, ip->lin.backward_error);
+  *usable         = (PetscBool)(verdict == IP_LINEAR_SOLVED);
+  ip->lin->failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
+  if (*usable) ip->rec->fallbacks.backward_error = PetscMax(ip->rec->fallbacks.backward_error, ip->lin->backward_error);
   PetscCall(PetscLogEventEnd(TAO_IPFilterSolve, tao, b, d, NULL));
   PetscFunctionReturn(0);
 }

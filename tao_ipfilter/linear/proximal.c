@@ -10,6 +10,9 @@
    where PCAMGF solves exactly, so it costs few iterations.
 */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/matrices.h"
 
 /* rhs = b - J_E^T (y + W c_E) */
 static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
@@ -19,10 +22,10 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
-  PetscCall(VecPointwiseMult(force, ip->cond.rows.below, ce));
+  PetscCall(VecPointwiseMult(force, ip->cond->rows.below, ce));
   if (y) PetscCall(VecAXPY(force, 1.0, y));
   PetscCall(VecScale(force, -1.0));
-  PetscCall(MatMultTransposeAdd(ip->jac.equality, force, b, rhs));
+  PetscCall(MatMultTransposeAdd(ip->jac->equality, force, b, rhs));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &force));
   PetscCall(IPFixedZero(tao, rhs));
   PetscFunctionReturn(0);
@@ -40,7 +43,7 @@ static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &residual));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &correction));
-  PetscCall(MatMult(ip->cond.A, dx, residual));
+  PetscCall(MatMult(ip->cond->A, dx, residual));
   PetscCall(VecAYPX(residual, -1.0, rhs));
   PetscCall(VecNorm(residual, NORM_2, &left));
   *done = (PetscBool)(left <= 2.0 * target);
@@ -48,7 +51,7 @@ static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target
     PetscCall(VecSet(correction, 0.0));
     PetscCall(IPLinearSolve(tao, residual, correction, tenth * target, usable));
     if (*usable) PetscCall(VecAXPY(dx, 1.0, correction));
-    ip->prox.nupdates++;
+    ip->prox->nupdates++;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &correction));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &residual));
@@ -63,9 +66,9 @@ static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &r));
-  PetscCall(MatMultAdd(ip->jac.equality, dx, ce, r));
+  PetscCall(MatMultAdd(ip->jac->equality, dx, ce, r));
   PetscCall(VecNorm(r, NORM_INFINITY, left));
-  PetscCall(VecPointwiseMult(r, r, ip->cond.rows.below));
+  PetscCall(VecPointwiseMult(r, r, ip->cond->rows.below));
   PetscCall(VecAXPY(y, 1.0, r));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &r));
   PetscFunctionReturn(0);
@@ -82,7 +85,7 @@ static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
   PetscFunctionBegin;
   PetscCall(VecNorm(dx, NORM_INFINITY, &step));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  PetscCall(MatNorm(ip->jac.equality, NORM_INFINITY, &row));
+  PetscCall(MatNorm(ip->jac->equality, NORM_INFINITY, &row));
   *limit = row * PetscMax(little * step, 4.0 * PETSC_MACHINE_EPSILON * (size + step));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,11 @@
 /* Judges linear solves by the true residual of the condensed system, not by a Krylov method's estimate. If it is too
    large, the solve is continued from the iterate reached. */
 #include "linearimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 
 #define IP_MAX_REFINEMENTS 3
 #define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* refinement stops below this backward error */
@@ -15,16 +20,16 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   Vec           terms;
 
   PetscFunctionBegin;
-  PetscCall(MatMult(IPQuasiNewtonOperator(ip), d, ip->lin.residual));
-  PetscCall(VecAYPX(ip->lin.residual, -1.0, b));
-  PetscCall(VecNorm(ip->lin.residual, NORM_2, &ip->lin.norm));
+  PetscCall(MatMult(IPQuasiNewtonOperator(ip), d, ip->lin->residual));
+  PetscCall(VecAYPX(ip->lin->residual, -1.0, b));
+  PetscCall(VecNorm(ip->lin->residual, NORM_2, &ip->lin->norm));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));
-  PetscCall(MatGetDiagonal(ip->cond.A, terms));
+  PetscCall(MatGetDiagonal(ip->cond->A, terms));
   PetscCall(VecPointwiseMult(terms, terms, d));
   PetscCall(VecNorm(terms, NORM_2, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &terms));
-  size += ip->lin.rhs;
-  ip->lin.backward_error = size > 0.0 ? ip->lin.norm / size : 0.0;
+  size += ip->lin->rhs;
+  ip->lin->backward_error = size > 0.0 ? ip->lin->norm / size : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -32,27 +37,27 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
    criterion decides, unless its result is unusable */
 PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
-  if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
-  if (ip->lin.backward_error <= IP_ROUNDING) return PETSC_TRUE;
-  if (ip->opt.forcing == IP_FORCING_FIXED)
-    return (PetscBool)(reason > 0 && ip->lin.norm <= IP_FORCING_MAX * ip->lin.rhs);
-  return (PetscBool)(ip->lin.norm <= 2.0 * ip->lin.target);
+  if (IPUndefined(ip->lin->norm)) return PETSC_FALSE;
+  if (ip->lin->backward_error <= IP_ROUNDING) return PETSC_TRUE;
+  if (ip->opt->forcing == IP_FORCING_FIXED)
+    return (PetscBool)(reason > 0 && ip->lin->norm <= IP_FORCING_MAX * ip->lin->rhs);
+  return (PetscBool)(ip->lin->norm <= 2.0 * ip->lin->target);
 }
 
 /* Whether the requested target was missed, even if rounding is the cause */
 static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
-  return ip->opt.forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason)
-                                             : (PetscBool)(ip->lin.norm > 2.0 * ip->lin.target);
+  return ip->opt->forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason)
+                                              : (PetscBool)(ip->lin->norm > 2.0 * ip->lin->target);
 }
 
 /* Whether continuing from the iterate reached may help: the last solve ended by its own estimate of the residual, or
    a product p^T A p got the wrong sign by rounding close to the end */
 static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
-  if (IPUndefined(ip->lin.norm)) return PETSC_FALSE;
+  if (IPUndefined(ip->lin->norm)) return PETSC_FALSE;
   if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC || reason == KSP_DIVERGED_BREAKDOWN)
-    return (PetscBool)(ip->lin.norm <= IP_CLOSE * ip->lin.rhs);
+    return (PetscBool)(ip->lin->norm <= IP_CLOSE * ip->lin->rhs);
   return (PetscBool)(reason > 0);
 }
 
@@ -66,24 +71,24 @@ PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErr
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < IP_MAX_REFINEMENTS; k++) {
-    const PetscReal before = ip->lin.norm;
+    const PetscReal before = ip->lin->norm;
 
-    if (!ResidualRefinable(ip, reason) || ip->lin.backward_error <= (exact ? IP_EXACT : IP_ROUNDING) ||
+    if (!ResidualRefinable(ip, reason) || ip->lin->backward_error <= (exact ? IP_EXACT : IP_ROUNDING) ||
         (!exact && !ResidualMissed(ip, reason)))
       break;
     PetscCall(IPGetWork(tao, IP_UNKNOWNS, &correction));
-    PetscCall((*solve)(tao, ip->lin.residual, correction));
+    PetscCall((*solve)(tao, ip->lin->residual, correction));
     PetscCall(VecAXPY(d, 1.0, correction));
     PetscCall(IPResidualMeasure(tao, b, d));
-    ip->rec.fallbacks.refinements++;
+    ip->rec->fallbacks.refinements++;
     PetscCall(PetscInfo(tao, "Refined from ||b - A d|| = %g to %g, asked for %g\n", (double)before,
-      (double)ip->lin.norm, (double)ip->lin.target));
-    if (!(ip->lin.norm <= before)) {
+      (double)ip->lin->norm, (double)ip->lin->target));
+    if (!(ip->lin->norm <= before)) {
       PetscCall(VecAXPY(d, -1.0, correction));
       PetscCall(IPResidualMeasure(tao, b, d));
     }
     PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &correction));
-    if (!(ip->lin.norm <= 0.5 * before)) break;
+    if (!(ip->lin->norm <= 0.5 * before)) break;
   }
   PetscFunctionReturn(0);
 }
@@ -94,10 +99,10 @@ PetscErrorCode IPResidualNotANumber(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrncpy(ip->lin.why, "the Hessian, a Jacobian or a gradient has an entry that is not a number",
-    sizeof(ip->lin.why)));
-  ip->rec.fallbacks.failures++;
-  ip->lin.failed = PETSC_TRUE;
-  ip->lin.reason = KSP_DIVERGED_NANORINF;
+  PetscCall(PetscStrncpy(ip->lin->why, "the Hessian, a Jacobian or a gradient has an entry that is not a number",
+    sizeof(ip->lin->why)));
+  ip->rec->fallbacks.failures++;
+  ip->lin->failed = PETSC_TRUE;
+  ip->lin->reason = KSP_DIVERGED_NANORINF;
   PetscFunctionReturn(0);
 }

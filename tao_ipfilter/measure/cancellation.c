@@ -1,5 +1,7 @@
 /* Forces of constraints that cancel one another: a sign that a solution has no bounded multipliers. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 /* r += |J|^T |M multiplier|, M = 1 where it is NULL */
 static PetscErrorCode CancellationAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
@@ -43,8 +45,8 @@ static PetscErrorCode CancellationForce(Tao tao, PetscReal *largest)
   PetscCall(VecSet(sum, 0.0));
   if (ip->mi)
     PetscCall(
-      CancellationAddForces(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
-  if (ip->me) PetscCall(CancellationAddForces(tao, IP_EQUALITIES, ip->jac.equality, ip->at.y, NULL, sum));
+      CancellationAddForces(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.lambda, ip->pair[IP_SLACK].w, sum));
+  if (ip->me) PetscCall(CancellationAddForces(tao, IP_EQUALITIES, ip->jac->equality, ip->at.y, NULL, sum));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecPointwiseMult(force, ip->pair[b].w, ip->pair[b].z));
@@ -67,7 +69,7 @@ PetscErrorCode IPCancellation(Tao tao, PetscReal *times)
   PetscFunctionBegin;
   PetscCall(CancellationForce(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  gradient = PetscMax(gradient, vanishing * ((TAO_IPFILTER *)tao->data)->first.gradient);
+  gradient = PetscMax(gradient, vanishing * ((TAO_IPFILTER *)tao->data)->first->gradient);
   *times   = gradient > 0.0 ? force / gradient : 0.0;
   PetscFunctionReturn(0);
 }

@@ -8,6 +8,14 @@
    the number of bounds, as the error does. All terms are compared with the objective.
 */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 #define IP_BOUND_MULTIPLE 20.0 /* allowed error bound relative to the objective, as a multiple of the tolerance */
 #define IP_BOUND_TERMS    1e-6 /* replaces the objective by this fraction of its terms if these cancel */
@@ -65,8 +73,8 @@ static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *bound)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
-  if (ip->cond.A && ip->rec.nsystems) PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
-  else PetscCall(VecCopy(ip->stiff.hdiag, diagonal));
+  if (ip->cond->A && ip->rec->nsystems) PetscCall(MatGetDiagonal(ip->cond->A, diagonal));
+  else PetscCall(VecCopy(ip->stiff->hdiag, diagonal));
   PetscCall(ErrorBoundImbalance(tao, diagonal, ip->rx, bound));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
   PetscFunctionReturn(0);
@@ -119,7 +127,7 @@ PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
-  PetscCall(MatMult(ip->hess.H, tao->solution, Hx));
+  PetscCall(MatMult(ip->hess->H, tao->solution, Hx));
   PetscCall(ErrorBoundProduct(Hx, tao->solution, terms));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
   PetscCall(ErrorBoundProduct(tao->gradient, tao->solution, &linear));
@@ -135,9 +143,9 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscReal     gain, gap;
 
   PetscFunctionBegin;
-  PetscCall(ErrorBoundImbalance(tao, ip->stiff.hdiag, tao->gradient, &gain));
+  PetscCall(ErrorBoundImbalance(tao, ip->stiff->hdiag, tao->gradient, &gain));
   PetscCall(ErrorBoundOfGap(tao, &gap));
-  ip->first.energy = terms + gain + gap;
+  ip->first->energy = terms + gain + gap;
   PetscFunctionReturn(0);
 }
 
@@ -149,12 +157,12 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
 
   PetscFunctionBegin;
   PetscCall(IPErrorBoundTerms(tao, &terms));
-  if (ip->first.energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
+  if (ip->first->energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   *energy = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
-    IP_BOUND_FIRST * ip->first.energy);
+    IP_BOUND_FIRST * ip->first->energy);
   *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
-  if (ip->first.gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
+  if (ip->first->gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -162,18 +170,18 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
 PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal unit = IP_BOUND_MULTIPLE * ip->scale.energy;
+  const PetscReal unit = IP_BOUND_MULTIPLE * ip->scale->energy;
   PetscReal       forces, violation, gap;
 
   PetscFunctionBegin;
-  ip->kkt.work = ip->kkt.work_dual = 0.0;
-  if (!(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  ip->kkt->work = ip->kkt->work_dual = 0.0;
+  if (!(ip->scale->energy < PETSC_INFINITY)) PetscFunctionReturn(0);
   PetscCall(ErrorBoundOfForces(tao, &forces));
   PetscCall(ErrorBoundOfViolation(tao, &violation));
   PetscCall(ErrorBoundOfGap(tao, &gap));
-  if (forces > 0.0) ip->kkt.work_dual = forces / unit;
+  if (forces > 0.0) ip->kkt->work_dual = forces / unit;
   gap = PetscMax(PetscMax(forces, violation), gap);
-  if (gap > 0.0) ip->kkt.work = gap / unit;
+  if (gap > 0.0) ip->kkt->work = gap / unit;
   PetscFunctionReturn(0);
 }
 
@@ -187,41 +195,42 @@ PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
 
   PetscFunctionBegin;
   *work = 0.0;
-  if (!ip->relax.times || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  if (!ip->relax->times || !(ip->scale->energy < PETSC_INFINITY)) PetscFunctionReturn(0);
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
     PetscCall(VecNorm(force, NORM_1, &bound));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-    bound *= ip->relax.by;
+    bound *= ip->relax->by;
   }
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal sum;
 
     if (!ip->pair[b].n) continue;
     PetscCall(ErrorBoundProduct(ip->pair[b].w, ip->pair[b].z, &sum));
-    bound += ip->relax.unknowns * sum;
+    bound += ip->relax->unknowns * sum;
   }
-  *work = bound / (IP_BOUND_MULTIPLE * ip->scale.energy);
+  *work = bound / (IP_BOUND_MULTIPLE * ip->scale->energy);
   PetscFunctionReturn(0);
 }
 
 /* Converts such a relative value to the units of the objective */
 PetscReal IPErrorBoundOfWork(const TAO_IPFILTER *ip, PetscReal work)
 {
-  return work * IP_BOUND_MULTIPLE * ip->scale.energy;
+  return work * IP_BOUND_MULTIPLE * ip->scale->energy;
 }
 
 /* Whether a complementarity gap is within the tolerance */
 PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 {
-  return (PetscBool)(gap <= IP_BOUND_MULTIPLE * ip->tol * ip->scale.energy);
+  return (PetscBool)(gap <= IP_BOUND_MULTIPLE * ip->tol * ip->scale->energy);
 }
 
 /* Norm of the stationarity residual up to which both measures of the KKT error are at most 1 */
 PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 {
-  return ip->kkt.work_dual > 0.0 ? PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual) : ip->scale.dual;
+  return ip->kkt->work_dual > 0.0 ? PetscMin(ip->scale->dual, ip->kkt->dual_norm / ip->kkt->work_dual)
+                                  : ip->scale->dual;
 }
 
 /* The same at the end of the step dx, with the objective of the quadratic model: at a start of zero the objective's
@@ -234,11 +243,11 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 
   PetscFunctionBegin;
   *unit = IPErrorBoundForceUnit(ip);
-  if (!(ip->kkt.work_dual > 0.0) || !(ip->scale.energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  if (!(ip->kkt->work_dual > 0.0) || !(ip->scale->energy < PETSC_INFINITY)) PetscFunctionReturn(0);
   PetscCall(VecDot(tao->gradient, dx, &slope));
   energy = PetscAbsReal(ip->at.f + 0.5 * PetscRealPart(slope));
-  if (energy > ip->scale.energy)
-    *unit = PetscMin(ip->scale.dual, ip->kkt.dual_norm / ip->kkt.work_dual * energy / ip->scale.energy);
+  if (energy > ip->scale->energy)
+    *unit = PetscMin(ip->scale->dual, ip->kkt->dual_norm / ip->kkt->work_dual * energy / ip->scale->energy);
   PetscFunctionReturn(0);
 }
 
@@ -246,11 +255,11 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
    it */
 PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
 {
-  PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale.product;
+  PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale->product;
 
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
-  if (weight > 0.0 && ip->scale.energy < PETSC_INFINITY)
-    mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * ip->scale.energy / weight);
-  return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt.compl_inf_tol, 1e-4));
+  if (weight > 0.0 && ip->scale->energy < PETSC_INFINITY)
+    mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * ip->scale->energy / weight);
+  return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
 }

@@ -1,5 +1,11 @@
 /* Residuals of the optimality conditions. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 /* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms; multiplier: lambda or z */
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
@@ -13,10 +19,10 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(VecPointwiseMult(force, multiplier, ip->pair[IP_SLACK].w));
     PetscCall(VecScale(force, -1.0));
-    PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
+    PetscCall(MatMultTransposeAdd(ip->jac->inequality, force, r, r));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
-  if (ip->me) PetscCall(MatMultTransposeAdd(ip->jac.equality, ip->at.y, r, r));
+  if (ip->me) PetscCall(MatMultTransposeAdd(ip->jac->equality, ip->at.y, r, r));
   PetscCall(IPTermsSubtractForces(tao, r));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
@@ -64,7 +70,7 @@ static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &scaled));
-  if (ip->given.primal_mass) PetscCall(VecPointwiseDivide(scaled, ip->rx, ip->given.primal_mass));
+  if (ip->given->primal_mass) PetscCall(VecPointwiseDivide(scaled, ip->rx, ip->given->primal_mass));
   else PetscCall(VecCopy(ip->rx, scaled));
   PetscCall(VecDot(ip->rx, scaled, &uu));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &scaled));
@@ -80,22 +86,22 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscReal     slacks;
 
   PetscFunctionBegin;
-  if (ip->opt.measure == IP_KKT_MASS) {
+  if (ip->opt->measure == IP_KKT_MASS) {
     PetscCall(DualMassNorm(tao, dual));
     PetscFunctionReturn(0);
   }
   PetscCall(SlackStationarity(tao, &slacks));
   if (ip->mi) slacks = PetscSqrtReal(slacks / ip->pair[IP_SLACK].weight);
-  *dual = Larger(slacks / ip->scale.pressure, ip->kkt.dual_norm / ip->scale.dual);
+  *dual = Larger(slacks / ip->scale->pressure, ip->kkt->dual_norm / ip->scale->dual);
   PetscFunctionReturn(0);
 }
 
 /* Scale for violations of successive iterates: the constraints' first values, or |J| |x| at the start */
 static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
 {
-  const PetscReal size = PetscMax(values, jacobian * ip->first.x);
+  const PetscReal size = PetscMax(values, jacobian * ip->first->x);
 
-  return ip->opt.scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
+  return ip->opt->scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
 /* Sets ip->rc = c_I - s. primal: violation of constraints and of the laws of norm terms, relative to their scales;
@@ -106,26 +112,26 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   PetscReal     norm;
 
   PetscFunctionBegin;
-  *primal = *largest = ip->kkt.violation = 0.0;
+  *primal = *largest = ip->kkt->violation = 0.0;
   if (ip->mi) {
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
-    ip->kkt.violation = norm / FirstSize(ip, ip->first.length, ip->first.jacobian);
+    ip->kkt->violation = norm / FirstSize(ip, ip->first->length, ip->first->jacobian);
     PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->at.c));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
-    *primal = norm / ip->scale.length;
+    *primal = norm / ip->scale->length;
     PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, ip->rc, largest));
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
-    *primal = Larger(*primal, norm / ip->scale.equality);
-    ip->kkt.violation =
-      Larger(ip->kkt.violation, norm / FirstSize(ip, ip->first.equality, ip->first.equality_jacobian));
+    *primal = Larger(*primal, norm / ip->scale->equality);
+    ip->kkt->violation =
+      Larger(ip->kkt->violation, norm / FirstSize(ip, ip->first->equality, ip->first->equality_jacobian));
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
     *largest = Larger(*largest, norm);
   }
   PetscCall(IPTermsViolation(tao, &norm));
-  *primal  = Larger(*primal, norm / ip->scale.length);
+  *primal  = Larger(*primal, norm / ip->scale->length);
   *largest = Larger(*largest, norm);
   PetscFunctionReturn(0);
 }
@@ -133,7 +139,7 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
 /* The larger of the two measures of the KKT error */
 PetscReal IPBothErrors(const TAO_IPFILTER *ip)
 {
-  return Larger(ip->kkt.error, ip->kkt.work);
+  return Larger(ip->kkt->error, ip->kkt->work);
 }
 
 /* Measures the violation relative to the constraints' own terms if everything else has converged. With given scales
@@ -144,11 +150,11 @@ static PetscErrorCode OwnNearEnd(Tao tao)
   const PetscReal near = PetscMax(ip->tol, IP_ACCEPTABLE_TOL);
 
   PetscFunctionBegin;
-  ip->kkt.own = 0.0;
-  if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
-  if (ip->kkt.inf_pr == 0.0 && !ip->relax.times) PetscFunctionReturn(0);
-  if (ip->kkt.primal <= near) PetscCall(IPOwnViolation(tao, &ip->kkt.own));
-  else ip->kkt.own = PETSC_INFINITY;
+  ip->kkt->own = 0.0;
+  if (ip->opt->scaling != IP_SCALING_PROBLEM || ip->opt->measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  if (ip->kkt->inf_pr == 0.0 && !ip->relax->times) PetscFunctionReturn(0);
+  if (ip->kkt->primal <= near) PetscCall(IPOwnViolation(tao, &ip->kkt->own));
+  else ip->kkt->own = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -156,13 +162,13 @@ static PetscErrorCode OwnNearEnd(Tao tao)
 PetscErrorCode IPComputeKKT(Tao tao)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  IPKKT        *k        = &ip->kkt;
+  IPKKT        *k        = ip->kkt;
   PetscReal     products = 0.0, deviation = 0.0;
 
   PetscFunctionBegin;
   PetscCall(IPComputeScale(tao));
-  if (ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.measure == IP_KKT_RELATIVE)
-    PetscCall(IPErrorBoundEnergy(tao, &ip->scale.energy));
+  if (ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->measure == IP_KKT_RELATIVE)
+    PetscCall(IPErrorBoundEnergy(tao, &ip->scale->energy));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));
@@ -177,8 +183,8 @@ PetscErrorCode IPComputeKKT(Tao tao)
     deviation = Larger(deviation, central);
   }
   k->inf_compl       = products;
-  k->complementarity = products / ip->scale.product;
-  k->centrality      = deviation / ip->scale.product;
+  k->complementarity = products / ip->scale->product;
+  k->centrality      = deviation / ip->scale->product;
   k->error           = Larger(Larger(k->dual, k->primal), k->complementarity);
   PetscCall(IPErrorBoundOfResiduals(tao));
   PetscCall(OwnNearEnd(tao));

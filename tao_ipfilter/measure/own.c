@@ -1,6 +1,9 @@
 /* Violation of each constraint relative to its own present terms. The size of the constraints at a distant start, or
    of other rows, would make any violation look small. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 /* For every row of J: sums = sum_j |J_ij x_j|, the terms that cancel where the constraint is met; largest = max_j
    |J_ij|, may be NULL */
@@ -73,7 +76,7 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const IPFirst  *first = &ip->first;
+  const IPFirst  *first = ip->first;
   const PetscReal trace = 1e-6, small = 1e-4 / PETSC_MACHINE_EPSILON,
                   rows = PetscMax(first->length, first->jacobian * first->x);
   PetscReal other      = 0.0;
@@ -84,17 +87,17 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
     PetscCall(IPSlackViolation(tao, ip->at.c, v));
-    PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v, trace, rows, own));
-    if (ip->relax.by > 0.0) { /* the violation without that */
+    PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, trace, rows, own));
+    if (ip->relax->by > 0.0) { /* the violation without that */
       PetscCall(VecWAXPY(v, -1.0, ip->at.s, ip->at.c));
-      PetscCall(VecShift(v, -ip->relax.by));
-      PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac.inequality, ip->at.c, v, 1.0, small * rows, &other));
+      PetscCall(VecShift(v, -ip->relax->by));
+      PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, 1.0, small * rows, &other));
     }
     *own = PetscMax(*own, other);
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   }
   if (ip->me)
-    PetscCall(OwnLargest(tao, IP_EQUALITIES, ip->jac.equality, ip->at.ce, ip->at.ce, trace,
+    PetscCall(OwnLargest(tao, IP_EQUALITIES, ip->jac->equality, ip->at.ce, ip->at.ce, trace,
       PetscMax(first->equality, first->equality_jacobian * first->x), &other));
   *own = PetscMax(*own, other);
   PetscFunctionReturn(0);
@@ -113,8 +116,8 @@ PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
 
   PetscFunctionBegin;
   for (PetscInt k = 2; k < 4; k++) PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v[k]));
-  PetscCall(MatMult(ip->jac.inequality, tao->solution, v[2]));
-  PetscCall(IPOwnTerms(ip->jac.inequality, tao->solution, v[3], NULL));
+  PetscCall(MatMult(ip->jac->inequality, tao->solution, v[2]));
+  PetscCall(IPOwnTerms(ip->jac->inequality, tao->solution, v[3], NULL));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   for (PetscInt k = 0; k < 4; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
   for (PetscInt i = 0; i < n; i++) {

@@ -4,6 +4,9 @@
    violation would look small.
 */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 #define IP_FAR  1e3  /* a constraint is out of reach if its value exceeds its expected change by this factor */
 #define IP_SOFT 1e-8 /* curvatures below this fraction of the largest count as zero */
@@ -11,7 +14,7 @@
 /* distance: expected change of each unknown, |x_j| or its own Newton step */
 static PetscErrorCode ReachUnknowns(Tao tao, Vec distance)
 {
-  Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
+  Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff->hdiag;
   const PetscScalar *g, *h;
   PetscScalar       *w;
   PetscReal          hmax;
@@ -46,13 +49,13 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
   for (PetscInt i = 0; i < n; i++) {
-    distance[0] = PetscMax(distance[0], -PetscRealPart(c[i]) / ip->first.jacobian);
-    if (PetscRealPart(c[i]) > 0.0) distance[1] = PetscMax(distance[1], -PetscRealPart(c[i]) / ip->first.jacobian);
+    distance[0] = PetscMax(distance[0], -PetscRealPart(c[i]) / ip->first->jacobian);
+    if (PetscRealPart(c[i]) > 0.0) distance[1] = PetscMax(distance[1], -PetscRealPart(c[i]) / ip->first->jacobian);
   }
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  if (ip->first.equality_jacobian > 0.0)
-    distance[0] = PetscMax(distance[0], ip->first.equality / ip->first.equality_jacobian);
+  if (ip->first->equality_jacobian > 0.0)
+    distance[0] = PetscMax(distance[0], ip->first->equality / ip->first->equality_jacobian);
   *violated = distance[0];
   *nearest  = distance[1] > PETSC_NINFINITY ? -distance[1] : 0.0;
   PetscFunctionReturn(0);
@@ -68,16 +71,16 @@ static PetscErrorCode ReachRows(Tao tao, Vec distance)
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(ip->at.c, &ip->stiff.reach));
-  PetscCall(IPOwnTerms(ip->jac.inequality, distance, ip->stiff.reach, NULL));
+  PetscCall(VecDuplicate(ip->at.c, &ip->stiff->reach));
+  PetscCall(IPOwnTerms(ip->jac->inequality, distance, ip->stiff->reach, NULL));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
-  PetscCall(VecGetArray(ip->stiff.reach, &r));
+  PetscCall(VecGetArray(ip->stiff->reach, &r));
   for (PetscInt i = 0; i < n; i++) {
-    if (r[i] == 0.0) r[i] = ip->first.jacobian * ip->first.reach;
+    if (r[i] == 0.0) r[i] = ip->first->jacobian * ip->first->reach;
     r[i] = PetscMax(PetscRealPart(r[i]), -PetscRealPart(c[i]));
   }
-  PetscCall(VecRestoreArray(ip->stiff.reach, &r));
+  PetscCall(VecRestoreArray(ip->stiff->reach, &r));
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscFunctionReturn(0);
 }
@@ -86,12 +89,12 @@ static PetscErrorCode ReachRows(Tao tao, Vec distance)
 PetscErrorCode IPMeasureReach(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFirst      *first = &ip->first;
+  IPFirst      *first = ip->first;
   PetscReal     largest, violated, nearest;
   Vec           distance;
 
   PetscFunctionBegin;
-  PetscCall(VecDestroy(&ip->stiff.reach));
+  PetscCall(VecDestroy(&ip->stiff->reach));
   if (!ip->mi || !(first->jacobian > 0.0)) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &distance));
   PetscCall(ReachUnknowns(tao, distance));
@@ -101,7 +104,7 @@ PetscErrorCode IPMeasureReach(Tao tao)
   if (first->reach == 0.0) first->reach = nearest;
   if (first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, distance));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &distance));
-  if (!ip->stiff.reach) PetscFunctionReturn(0);
+  if (!ip->stiff->reach) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &largest));
   PetscCall(IPSizeWithinReach(tao, ip->at.c, &first->length));
   if (first->length == 0.0 && largest > 0.0) first->length = first->jacobian * first->reach;
@@ -111,7 +114,7 @@ PetscErrorCode IPMeasureReach(Tao tao)
 /* Largest expected change of an unknown */
 PetscReal IPReachOfUnknowns(const TAO_IPFILTER *ip)
 {
-  return ip->first.reach > 0.0 ? IP_FAR * ip->first.reach : PETSC_INFINITY;
+  return ip->first->reach > 0.0 ? IP_FAR * ip->first->reach : PETSC_INFINITY;
 }
 
 /* near: the entries of v (layout of c_I) that are within reach, zeros for the others. The reach grows with x. */
@@ -126,16 +129,16 @@ PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
 
   PetscFunctionBegin;
   PetscCall(VecCopy(v, near));
-  if (!ip->stiff.reach) PetscFunctionReturn(0);
+  if (!ip->stiff->reach) PetscFunctionReturn(0);
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  far = IP_FAR * PetscClipInterval(xsize / ip->first.reach, 1.0, runaway);
+  far = IP_FAR * PetscClipInterval(xsize / ip->first->reach, 1.0, runaway);
   PetscCall(VecGetLocalSize(near, &n));
-  PetscCall(VecGetArrayRead(ip->stiff.reach, &r));
+  PetscCall(VecGetArrayRead(ip->stiff->reach, &r));
   PetscCall(VecGetArray(near, &a));
   for (PetscInt i = 0; i < n; i++)
     if (PetscAbsScalar(a[i]) > far * PetscRealPart(r[i])) a[i] = 0.0;
   PetscCall(VecRestoreArray(near, &a));
-  PetscCall(VecRestoreArrayRead(ip->stiff.reach, &r));
+  PetscCall(VecRestoreArrayRead(ip->stiff->reach, &r));
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,6 @@
 /* Stiffness that resists the motions of norm terms, and directions in which they cannot move. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Creates the matrix of the sums of each term's two rows */
 static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
@@ -53,7 +54,7 @@ static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, Pets
    almost no motion v, e.g. across a symmetry plane. There v does not depend on x and counts as zero */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
-  IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscReal    unmoved = 1e-6; /* relative to the largest motion */
   const PetscScalar *c, *b, *v;
   PetscScalar       *rho, *dead;

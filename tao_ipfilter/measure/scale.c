@@ -1,5 +1,9 @@
 /* Scales by which residuals are divided. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 #define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
 #define IP_AMPLE \
@@ -23,23 +27,23 @@ static PetscReal Within(PetscReal size, PetscReal limit)
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPScale      *s  = &ip->scale;
+  IPScale      *s  = ip->scale;
   PetscReal     c, t, gradient, now, jacobian, upper = 0.0;
   PetscReal     transmitted;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(ip->jac.inequality, NORM_INFINITY, &now));
+  PetscCall(MatNorm(ip->jac->inequality, NORM_INFINITY, &now));
   jacobian =
-    now < IP_STEEP * ip->first.jacobian ? PetscMax(now, IP_VANISHING * ip->first.jacobian) : ip->first.jacobian;
+    now < IP_STEEP * ip->first->jacobian ? PetscMax(now, IP_VANISHING * ip->first->jacobian) : ip->first->jacobian;
   transmitted = jacobian * ip->pair[IP_SLACK].weight / ip->mi;
   PetscCall(IPSizeWithinReach(tao, ip->at.c, &c));
   PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
-  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first.length),
-      10.0 * IP_VANISHING * PetscMax(ip->first.length, jacobian * xsize));
-  s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff.mean * s->length);
+  s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first->length),
+      10.0 * IP_VANISHING * PetscMax(ip->first->length, jacobian * xsize));
+  s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff->mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;
   s->pressure = PetscMax(s->pressure, IP_VANISHING * s->balance);
@@ -56,12 +60,12 @@ static PetscErrorCode EqualityScale(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &sums));
-  PetscCall(IPOwnTerms(ip->jac.equality, tao->solution, sums, NULL));
+  PetscCall(IPOwnTerms(ip->jac->equality, tao->solution, sums, NULL));
   PetscCall(VecNorm(sums, NORM_INFINITY, &norm));
-  ip->scale.equality_terms = norm;
+  ip->scale->equality_terms = norm;
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &sums));
-  ip->scale.equality = PetscMax(ip->first.equality,
-    Within(norm, IP_RUNAWAY * PetscMax(ip->first.equality, ip->first.equality_jacobian * ip->first.x)));
+  ip->scale->equality = PetscMax(ip->first->equality,
+    Within(norm, IP_RUNAWAY * PetscMax(ip->first->equality, ip->first->equality_jacobian * ip->first->x)));
   PetscFunctionReturn(0);
 }
 
@@ -78,15 +82,15 @@ static PetscErrorCode DualScale(Tao tao)
   PetscReal       norm, terms, stiffness;
   const PetscReal least = PetscSqr(
     PETSC_MACHINE_EPSILON); /* fraction of the first gradient: a smaller one is no gain, even if the unknowns diverge */
-  const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first.gradient;
+  const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first->gradient;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_2, &norm));
   PetscCall(IPStiffnessTerms(tao, &terms));
-  PetscCall(VecNorm(ip->stiff.hdiag, NORM_2, &stiffness));
-  ip->scale.dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first.x * stiffness));
-  if (limited) ip->scale.dual = PetscMax(ip->scale.dual, norm);
-  ip->scale.dual = PetscMax(ip->scale.dual, PetscMax(rounding * terms, least * ip->first.gradient) / ip->tol);
+  PetscCall(VecNorm(ip->stiff->hdiag, NORM_2, &stiffness));
+  ip->scale->dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first->x * stiffness));
+  if (limited) ip->scale->dual = PetscMax(ip->scale->dual, norm);
+  ip->scale->dual = PetscMax(ip->scale->dual, PetscMax(rounding * terms, least * ip->first->gradient) / ip->tol);
   PetscFunctionReturn(0);
 }
 
@@ -94,7 +98,7 @@ static PetscErrorCode DualScale(Tao tao)
 PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
 {
   if (given >= 0.0) return given;
-  return ip->opt.scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
+  return ip->opt->scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
 }
 
 /*
@@ -106,23 +110,23 @@ PetscErrorCode IPComputeScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     xsize, z;
-  IPScale      *s = &ip->scale;
+  IPScale      *s = ip->scale;
 
   PetscFunctionBegin;
-  *s         = (IPScale){.dual = ip->first.unit, .length = 1.0, .equality = 1.0, .pressure = ip->first.unit};
-  s->product = ip->first.unit;
+  *s         = (IPScale){.dual = ip->first->unit, .length = 1.0, .equality = 1.0, .pressure = ip->first->unit};
+  s->product = ip->first->unit;
   s->energy  = PETSC_INFINITY;
-  if (ip->opt.scaling != IP_SCALING_PROBLEM || ip->opt.measure == IP_KKT_MASS) PetscFunctionReturn(0);
+  if (ip->opt->scaling != IP_SCALING_PROBLEM || ip->opt->measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){.dual = 0.0};
   PetscCall(DualScale(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first.x), ip->first.x);
+  xsize = PetscMax(Within(xsize, IP_RUNAWAY * ip->first->x), ip->first->x);
   if (ip->mi) PetscCall(InequalityScale(tao, xsize));
   if (ip->me) PetscCall(EqualityScale(tao));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecNorm(ip->pair[b].z, NORM_INFINITY, &z));
-    s->product = PetscMax(s->product, xsize * PetscMax(z, IP_VANISHING * ip->stiff.hscale * xsize));
+    s->product = PetscMax(s->product, xsize * PetscMax(z, IP_VANISHING * ip->stiff->hscale * xsize));
   }
   if (!(s->dual > 0.0)) s->dual = 1.0;
   if (!(s->length > 0.0)) s->length = 1.0;

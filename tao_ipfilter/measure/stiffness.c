@@ -1,5 +1,7 @@
 /* Stiffness of the objective from the diagonal of its Hessian. Units and sizes are derived from it. */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* size: magnitude of the terms of the gradient at x. Rounding keeps the stationarity residual above a few eps times
    this */
@@ -10,7 +12,7 @@ PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));
-  PetscCall(VecPointwiseMult(terms, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecPointwiseMult(terms, ip->stiff->hdiag, tao->solution));
   PetscCall(VecNorm(terms, NORM_2, size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &terms));
   PetscFunctionReturn(0);
@@ -26,7 +28,7 @@ PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &energies));
-  PetscCall(VecPointwiseMult(energies, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecPointwiseMult(energies, ip->stiff->hdiag, tao->solution));
   PetscCall(VecPointwiseMult(energies, energies, tao->solution));
   if (largest) PetscCall(VecNorm(energies, NORM_INFINITY, largest));
   PetscCall(VecSum(energies, &sum));
@@ -65,7 +67,7 @@ PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &roots));
-  PetscCall(InverseRoots(ip->stiff.hdiag, roots));
+  PetscCall(InverseRoots(ip->stiff->hdiag, roots));
   PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &scaled));
   PetscCall(MatDiagonalScale(scaled, NULL, roots));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &roots));
@@ -101,22 +103,22 @@ static PetscErrorCode ConstraintStiffness(Tao tao)
   PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(IPCompliances(tao, ip->jac.inequality, ip->stiff.rho));
-  PetscCall(VecPointwiseMult(ip->stiff.rho, ip->stiff.rho, slack->w));
-  PetscCall(VecDot(ip->stiff.rho, slack->w, &sum));
-  mean           = PetscRealPart(sum) / slack->weight;
-  ip->stiff.mean = mean > 0.0 ? 1.0 / mean : 1.0;
-  PetscCall(VecGetLocalSize(ip->stiff.rho, &n));
-  PetscCall(VecGetArray(ip->stiff.rho, &rho));
+  PetscCall(IPCompliances(tao, ip->jac->inequality, ip->stiff->rho));
+  PetscCall(VecPointwiseMult(ip->stiff->rho, ip->stiff->rho, slack->w));
+  PetscCall(VecDot(ip->stiff->rho, slack->w, &sum));
+  mean            = PetscRealPart(sum) / slack->weight;
+  ip->stiff->mean = mean > 0.0 ? 1.0 / mean : 1.0;
+  PetscCall(VecGetLocalSize(ip->stiff->rho, &n));
+  PetscCall(VecGetArray(ip->stiff->rho, &rho));
   for (PetscInt i = 0; i < n; i++) rho[i] = mean > 0.0 ? 1.0 / PetscMax(PetscRealPart(rho[i]), 1e-2 * mean) : 1.0;
-  PetscCall(VecRestoreArray(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArray(ip->stiff->rho, &rho));
   PetscFunctionReturn(0);
 }
 
 /* Updates the diagonal of the present Hessian, from which sizes of gradients are derived */
 PetscErrorCode IPStiffnessUpdate(Tao tao)
 {
-  Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff.hdiag;
+  Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff->hdiag;
 
   PetscFunctionBegin;
   PetscCall(IPHessianDiagonal(tao, hdiag));
@@ -128,7 +130,7 @@ PetscErrorCode IPStiffnessUpdate(Tao tao)
 PetscErrorCode IPComputeStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPStiffness  *s  = &ip->stiff;
+  IPStiffness  *s  = ip->stiff;
   PetscScalar   sum;
   PetscInt      n;
 

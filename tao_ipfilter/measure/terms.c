@@ -7,6 +7,8 @@
    Equivalently, tau_i is the projection of tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
 */
 #include "measureimpl.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/terms.h"
 
 #define IP_HARD 1e3 /* stiffness of a term without a bound, as a multiple of the stiffness that resists it */
 
@@ -32,7 +34,7 @@ PetscErrorCode IPTermsDestroy(IPTerms *terms)
 static PetscErrorCode TermsTakeMatrix(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPTerms      *terms = &ip->terms;
+  IPTerms      *terms = ip->terms;
   Vec           mask;
 
   PetscFunctionBegin;
@@ -56,7 +58,7 @@ static PetscErrorCode TermsTakeMatrix(Tao tao)
 
 static PetscErrorCode TermsCheckSizes(Tao tao)
 {
-  const IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  const IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
   MPI_Comm       comm  = PetscObjectComm((PetscObject)tao);
   PetscInt       n, nt, columns, rows, constraints = 0;
 
@@ -97,7 +99,7 @@ void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
 /* v = T x + t, without components along directions that cannot move */
 PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 {
-  IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscScalar *dead;
   PetscScalar       *a;
   PetscInt           n;
@@ -116,7 +118,7 @@ PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 /* Sets up the terms for a solve, except for the resistances */
 PetscErrorCode IPTermsSetUp(Tao tao)
 {
-  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
   PetscInt n;
 
   PetscFunctionBegin;
@@ -145,7 +147,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
 /* r -= T^T tau */
 PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
 {
-  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
   Vec      force;
 
   PetscFunctionBegin;
@@ -180,7 +182,7 @@ PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], Pets
 static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  IPTerms           *terms = &ip->terms;
+  IPTerms           *terms = ip->terms;
   const PetscScalar *limit = NULL, *coefficient = NULL, *scale = NULL, *f;
   PetscScalar       *b;
   PetscInt           n;
@@ -191,7 +193,7 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
   PetscCall(VecGetArrayRead(force, &f));
   if (terms->limit) PetscCall(VecGetArrayRead(terms->limit, &limit));
   if (terms->coefficient) PetscCall(VecGetArrayRead(terms->coefficient, &coefficient));
-  if (ip->rows.inequality) PetscCall(VecGetArrayRead(ip->rows.inequality, &scale));
+  if (ip->rows->inequality) PetscCall(VecGetArrayRead(ip->rows->inequality, &scale));
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal most = limit ? PetscRealPart(limit[i]) : PETSC_INFINITY;
 
@@ -199,7 +201,7 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
                            PetscRealPart(f[i]) * (scale ? PetscRealPart(scale[i]) : 1.0))
                        : most;
   }
-  if (ip->rows.inequality) PetscCall(VecRestoreArrayRead(ip->rows.inequality, &scale));
+  if (ip->rows->inequality) PetscCall(VecRestoreArrayRead(ip->rows->inequality, &scale));
   if (terms->coefficient) PetscCall(VecRestoreArrayRead(terms->coefficient, &coefficient));
   if (terms->limit) PetscCall(VecRestoreArrayRead(terms->limit, &limit));
   PetscCall(VecRestoreArrayRead(force, &f));
@@ -211,7 +213,7 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
    they are constant */
 PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 {
-  IPTerms           *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscScalar *b, *v, *rho;
   PetscInt           n;
   Vec                bounds, value;
@@ -246,7 +248,7 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 /* stiffness of the terms' rows: what resists the terms that stick; 0 for the others. force: M lambda */
 PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
 {
-  IPTerms           *terms  = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms  = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscReal    inside = 0.99;
   const PetscScalar *b, *tau, *rho;
   PetscScalar       *d;
@@ -280,7 +282,7 @@ PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
 PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  IPTerms           *terms = &ip->terms;
+  IPTerms           *terms = ip->terms;
   const PetscScalar *tau, *value, *rho, *b;
   PetscReal          local = 0.0;
   PetscInt           n;
@@ -325,7 +327,7 @@ static PetscErrorCode TermsReference(Vec given, Vec *own)
 
 PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao tao, Mat T, Vec t, Vec limit, Vec coefficient)
 {
-  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
 
   PetscFunctionBegin;
   if (T) PetscCall(PetscObjectReference((PetscObject)T));
@@ -340,7 +342,7 @@ PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao tao, Mat T, Vec t, Vec limit
 
 PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao tao, Vec force)
 {
-  IPTerms *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
 
   PetscFunctionBegin;
   if (!terms->warm) PetscCall(VecDuplicate(force, &terms->warm));
@@ -351,7 +353,7 @@ PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao tao, Vec force)
 PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 {
   PetscFunctionBegin;
-  *force = ((TAO_IPFILTER *)tao->data)->terms.force;
+  *force = ((TAO_IPFILTER *)tao->data)->terms->force;
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,8 @@
 /* Variable bounds x_l <= x <= x_u as complementarity pairs. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/relaxation.h"
 
 /* Whether an entry of a bound makes a pair: it is finite and the variable is not fixed; other: the opposite bound,
    or NULL */
@@ -43,7 +46,7 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *lower = &ip->pair[IP_LOWER], *upper = &ip->pair[IP_UPPER];
-  PetscReal     relax = ip->relax.unknowns;
+  PetscReal     relax = ip->relax->unknowns;
 
   PetscFunctionBegin;
   if (lower->n) PetscCall(BoundDistance(x, tao->XL, tao->XU, lower->sign, relax, trial ? lower->trial : lower->t));
@@ -95,8 +98,8 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
    the rows */
 PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->opt.start == IP_START_WARM && (ip->given.warm_lower || ip->given.warm_upper) &&
-                     (!ip->mi || ip->given.warm_s));
+  return (PetscBool)(ip->opt->start == IP_START_WARM && (ip->given->warm_lower || ip->given->warm_upper) &&
+                     (!ip->mi || ip->given->warm_s));
 }
 
 /* Size of an unknown and its bound; if both are zero, `all`, the size of all unknowns */

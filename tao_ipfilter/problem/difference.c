@@ -1,5 +1,6 @@
 /* Hessian of the Lagrangian by differences of its gradient, if the caller gives none. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/rows.h"
 
 /* Gradient of f + DE^T c_E - DI^T c_I at x. Leaves the Jacobians at x. */
 static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
@@ -9,7 +10,7 @@ static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
 
   PetscFunctionBegin;
   PetscCall(TaoComputeGradient(tao, x, g));
-  if (ip->me > ip->sides.nall) {
+  if (ip->me > ip->sides->nall) {
     PetscCall(TaoComputeJacobianEquality(tao, x, tao->jacobian_equality, tao->jacobian_equality_pre));
     PetscCall(MatMultTransposeAdd(tao->jacobian_equality, tao->DE, g, g));
   }

@@ -1,5 +1,7 @@
 /* The caller's functions at a point: constraints and derivatives. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/rows.h"
 
 /* Evaluates c_E at x: the caller's equality constraints. The rows of c_I with equal bounds have been stored already */
 static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
@@ -7,12 +9,12 @@ static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (!ip->sides.nall) PetscCall(TaoComputeEqualityConstraints(tao, x, ce));
-  else if (ip->me > ip->sides.nall) {
+  if (!ip->sides->nall) PetscCall(TaoComputeEqualityConstraints(tao, x, ce));
+  else if (ip->me > ip->sides->nall) {
     PetscCall(TaoComputeEqualityConstraints(tao, x, tao->constraints_equality));
     PetscCall(IPSidesEquality(tao->constraints_equality, ce, PETSC_FALSE));
   }
-  if (ip->rows.equality) PetscCall(VecPointwiseMult(ce, ce, ip->rows.equality));
+  if (ip->rows->equality) PetscCall(VecPointwiseMult(ce, ce, ip->rows->equality));
   PetscFunctionReturn(0);
 }
 
@@ -25,8 +27,8 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
   if (ip->mi) {
     PetscCall(TaoComputeInequalityConstraints(tao, x, c));
     PetscCall(IPSidesConstraints(tao, c, ce));
-    if (ip->rows.inequality) PetscCall(VecPointwiseMult(c, c, ip->rows.inequality));
-    if (ip->relax.by > 0.0) PetscCall(VecShift(c, ip->relax.by));
+    if (ip->rows->inequality) PetscCall(VecPointwiseMult(c, c, ip->rows->inequality));
+    if (ip->relax->by > 0.0) PetscCall(VecShift(c, ip->relax->by));
   }
   if (ip->me) PetscCall(EvaluateEquality(tao, x, ce));
   PetscFunctionReturn(0);
@@ -44,7 +46,7 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   if (alone) PetscCall(TaoComputeGradient(tao, tao->solution, tao->gradient));
   else PetscCall(TaoComputeObjectiveAndGradient(tao, tao->solution, &ip->at.f, tao->gradient));
   PetscCall(IPFixedZero(tao, tao->gradient));
-  if (ip->me > ip->sides.nall)
+  if (ip->me > ip->sides->nall)
     PetscCall(TaoComputeJacobianEquality(tao, tao->solution, tao->jacobian_equality, tao->jacobian_equality_pre));
   if (ip->mi)
     PetscCall(TaoComputeJacobianInequality(tao, tao->solution, tao->jacobian_inequality, tao->jacobian_inequality_pre));
@@ -62,11 +64,11 @@ PetscErrorCode IPSetMultipliers(Tao tao)
 
   PetscFunctionBegin;
   if (ip->mi) PetscCall(VecPointwiseMult(tao->DI, ip->at.lambda, ip->pair[IP_SLACK].w));
-  if (ip->rows.inequality) PetscCall(VecPointwiseMult(tao->DI, tao->DI, ip->rows.inequality));
+  if (ip->rows->inequality) PetscCall(VecPointwiseMult(tao->DI, tao->DI, ip->rows->inequality));
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &y));
-  if (ip->rows.equality) PetscCall(VecPointwiseMult(y, ip->at.y, ip->rows.equality));
+  if (ip->rows->equality) PetscCall(VecPointwiseMult(y, ip->at.y, ip->rows->equality));
   else if (ip->me) PetscCall(VecCopy(ip->at.y, y));
-  if (ip->me > ip->sides.nall) PetscCall(IPSidesEquality(tao->DE, y, PETSC_TRUE));
+  if (ip->me > ip->sides->nall) PetscCall(IPSidesEquality(tao->DE, y, PETSC_TRUE));
   if (ip->mi) PetscCall(IPSidesMultipliers(tao, y, tao->DI));
   PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &y));
   PetscFunctionReturn(0);

@@ -1,6 +1,7 @@
 /* Fixed variables, x_l = x_u, keep their value and are removed from the linear system. They have no barrier term and
    no multiplier. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Whether a variable is fixed */
 PetscBool IPIsFixed(PetscScalar lower, PetscScalar upper)
@@ -96,6 +97,6 @@ PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
   PetscCheck(!sbaij, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
     "Variables with equal bounds need a Hessian of type AIJ or BAIJ on more than one rank, not SBAIJ");
   PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
-  PetscCall(MatZeroRowsColumnsIS(A, ip->fixed, ip->stiff.hscale, NULL, NULL));
+  PetscCall(MatZeroRowsColumnsIS(A, ip->fixed, ip->stiff->hscale, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,6 @@
 /* The Hessian used by the iteration: the caller's matrix, or what it was converted to. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
 
 PetscErrorCode IPHessianDestroy(IPHessian *hess)
 {
@@ -13,7 +14,7 @@ PetscErrorCode IPHessianDestroy(IPHessian *hess)
 /* Evaluates the Hessian of the Lagrangian at tao->solution */
 PetscErrorCode IPHessianEvaluate(Tao tao)
 {
-  IPHessian *hess = &((TAO_IPFILTER *)tao->data)->hess;
+  IPHessian *hess = ((TAO_IPFILTER *)tao->data)->hess;
   PetscBool  taken;
   Mat        H = tao->hessian;
 
@@ -65,7 +66,7 @@ static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
   PetscCall(VecSet(diagonal, 0.0));
   for (PetscInt k = 0; k < probes; k++) {
     PetscCall(HessianProbe(v, k));
-    PetscCall(MatMult(ip->hess.H, v, Hv));
+    PetscCall(MatMult(ip->hess->H, v, Hv));
     PetscCall(VecPointwiseMult(Hv, Hv, v));
     PetscCall(VecAXPY(diagonal, 1.0 / probes, Hv));
   }
@@ -84,7 +85,7 @@ static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
 /* The diagonal of the Hessian, or an estimate if the matrix does not give it */
 PetscErrorCode IPHessianDiagonal(Tao tao, Vec diagonal)
 {
-  IPHessian *hess = &((TAO_IPFILTER *)tao->data)->hess;
+  IPHessian *hess = ((TAO_IPFILTER *)tao->data)->hess;
   PetscBool  has  = PETSC_TRUE;
 
   PetscFunctionBegin;

@@ -1,5 +1,7 @@
 /* The constraints' Jacobians used by the iteration: AIJ, rows scaled, columns of fixed variables zeroed. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/rows.h"
 
 PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
 {
@@ -106,7 +108,7 @@ static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
 static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const IPSides *sides = &ip->sides;
+  const IPSides *sides = ip->sides;
   PetscInt       nown = 0, m, n, rstart, longest = 0;
 
   PetscFunctionBegin;
@@ -130,15 +132,15 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 static PetscErrorCode JacobianTakeStack(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  IPJacobian   *jac = &ip->jac;
+  IPJacobian   *jac = ip->jac;
   Mat           own = NULL, fresh, converted = NULL;
 
   PetscFunctionBegin;
-  if (ip->me > ip->sides.nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted, &own));
+  if (ip->me > ip->sides->nall) PetscCall(JacobianAsAIJ(tao->jacobian_equality, &converted, &own));
   PetscCall(JacobianStack(tao, own, jac->converted[0] ? jac->converted[0] : tao->jacobian_inequality, &fresh));
   PetscCall(IPMatrixKeep(&fresh, &jac->converted[1]));
   PetscCall(MatDestroy(&converted));
-  PetscCall(JacobianTake(tao, jac->converted[1], ip->rows.equality, NULL, &jac->equality, &jac->equality_stamp));
+  PetscCall(JacobianTake(tao, jac->converted[1], ip->rows->equality, NULL, &jac->equality, &jac->equality_stamp));
   PetscFunctionReturn(0);
 }
 
@@ -148,10 +150,10 @@ PetscErrorCode IPJacobianEquality(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->sides.nall) PetscCall(JacobianTakeStack(tao));
+  if (ip->sides->nall) PetscCall(JacobianTakeStack(tao));
   else
-    PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows.equality, &ip->jac.converted[1], &ip->jac.equality,
-      &ip->jac.equality_stamp));
+    PetscCall(JacobianTake(tao, tao->jacobian_equality, ip->rows->equality, &ip->jac->converted[1], &ip->jac->equality,
+      &ip->jac->equality_stamp));
   PetscFunctionReturn(0);
 }
 
@@ -161,13 +163,13 @@ PetscErrorCode IPJacobianInequality(Tao tao)
   Vec           scale = NULL;
 
   PetscFunctionBegin;
-  if (ip->sides.sign) {
+  if (ip->sides->sign) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &scale));
-    if (ip->rows.inequality) PetscCall(VecPointwiseMult(scale, ip->sides.sign, ip->rows.inequality));
-    else PetscCall(VecCopy(ip->sides.sign, scale));
+    if (ip->rows->inequality) PetscCall(VecPointwiseMult(scale, ip->sides->sign, ip->rows->inequality));
+    else PetscCall(VecCopy(ip->sides->sign, scale));
   }
-  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows.inequality, &ip->jac.converted[0],
-    &ip->jac.inequality, &ip->jac.inequality_stamp));
+  PetscCall(JacobianTake(tao, tao->jacobian_inequality, scale ? scale : ip->rows->inequality, &ip->jac->converted[0],
+    &ip->jac->inequality, &ip->jac->inequality_stamp));
   if (scale) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &scale));
   PetscFunctionReturn(0);
 }

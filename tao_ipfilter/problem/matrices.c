@@ -4,6 +4,9 @@
    solvers that need no entries; small ones are read column by column.
 */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/rows.h"
 
 #define IP_COLUMNS_MAX \
   1000 /* up to this many unknowns a matrix that only has products is read by multiplying unit vectors */
@@ -133,9 +136,9 @@ static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *read
   PetscCall(PCGetType(pc, reader));
   *instead = ", or choose -tao_ipfilter_pc_type none, jacobi, shell or a type of your own";
   PetscCall(MatrixIsOneOf((PetscObject)pc, reading_pcs, needed));
-  if (ip->opt.direct_always || (ip->me && ip->opt.equality != IP_EQUALITY_CONDENSED)) {
+  if (ip->opt->direct_always || (ip->me && ip->opt->equality != IP_EQUALITY_CONDENSED)) {
     *needed  = PETSC_TRUE;
-    *reader  = ip->opt.direct_always ? "-tao_ipfilter_direct" : "the augmented system of equality constraints";
+    *reader  = ip->opt->direct_always ? "-tao_ipfilter_direct" : "the augmented system of equality constraints";
     *instead = "";
   }
   PetscFunctionReturn(0);
@@ -187,7 +190,7 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscFunctionBegin;
   PetscCall(CheckVector(tao, tao->solution, "solution"));
   if (ip->mi) PetscCall(CheckJacobian(tao, tao->jacobian_inequality, "inequality"));
-  if (ip->me > ip->sides.nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
+  if (ip->me > ip->sides->nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
   PetscCall(MatrixHasEntries(tao->hessian, &has));
   PetscCall(HessianReader(tao, &needed, &reader, &instead));
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
@@ -196,7 +199,7 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
     "A Hessian of type %s has products but no entries, and %s reads entries only for up to %d unknowns, not "
     "%" PetscInt_FMT ": give it as AIJ%s",
     type, reader, IP_COLUMNS_MAX, n, instead);
-  *changed          = (PetscBool)(ip->hess.products != (PetscBool)(!has && !needed));
-  ip->hess.products = (PetscBool)(!has && !needed);
+  *changed           = (PetscBool)(ip->hess->products != (PetscBool)(!has && !needed));
+  ip->hess->products = (PetscBool)(!has && !needed);
   PetscFunctionReturn(0);
 }

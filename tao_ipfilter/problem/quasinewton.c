@@ -5,6 +5,9 @@
    history's length; this costs a Krylov method a few more iterations.
 */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/rows.h"
 
 PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *qn)
 {
@@ -27,13 +30,13 @@ PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
   Vec           free, Bx;
 
   PetscFunctionBegin;
-  if (!ip->qn.npairs) PetscFunctionReturn(0);
+  if (!ip->qn->npairs) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &free));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Bx));
   PetscCall(VecCopy(x, free));
   PetscCall(IPFixedZero(tao, free));
-  PetscCall(MatMult(ip->qn.B, free, Bx));
-  PetscCall(VecAXPY(Bx, -ip->qn.sigma, free));
+  PetscCall(MatMult(ip->qn->B, free, Bx));
+  PetscCall(VecAXPY(Bx, -ip->qn->sigma, free));
   PetscCall(IPFixedZero(tao, Bx));
   PetscCall(VecAXPY(y, 1.0, Bx));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Bx));
@@ -48,7 +51,7 @@ static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
 
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(A, &tao));
-  PetscCall(MatMult(((TAO_IPFILTER *)tao->data)->cond.A, x, y));
+  PetscCall(MatMult(((TAO_IPFILTER *)tao->data)->cond->A, x, y));
   PetscCall(IPQuasiNewtonAdd(tao, x, y));
   PetscFunctionReturn(0);
 }
@@ -56,7 +59,7 @@ static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
 /* The operator of the Krylov method: the condensed matrix, or a shell that adds the low-rank part */
 Mat IPQuasiNewtonOperator(const TAO_IPFILTER *ip)
 {
-  return ip->qn.npairs ? ip->qn.A : ip->cond.A;
+  return ip->qn->npairs ? ip->qn->A : ip->cond->A;
 }
 
 /* g += sign J^T force */
@@ -96,14 +99,14 @@ static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *o
 static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
 {
   TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
-  IPQuasiNewton *qn = &ip->qn;
+  IPQuasiNewton *qn = ip->qn;
 
   PetscFunctionBegin;
   if (s) PetscCall(VecWAXPY(s, -1.0, qn->x, tao->solution));
   if (y) PetscCall(VecWAXPY(y, -1.0, qn->gradient, tao->gradient));
   if (ip->mi)
     PetscCall(AddJacobianChange(tao->jacobian_inequality, -1.0, tao->DI, &qn->inequality, &qn->inequality_state, y));
-  if (ip->me > ip->sides.nall)
+  if (ip->me > ip->sides->nall)
     PetscCall(AddJacobianChange(tao->jacobian_equality, 1.0, tao->DE, &qn->equality, &qn->equality_state, y));
   if (y) PetscCall(IPFixedZero(tao, y));
   PetscCall(VecCopy(tao->solution, qn->x));
@@ -114,7 +117,7 @@ static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
 /* Sets the multiple of the identity in B and in H */
 static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
 {
-  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+  IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
 
   PetscFunctionBegin;
   qn->sigma = sigma;
@@ -127,7 +130,7 @@ static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
 /* Initial sigma: the curvature of the objective along its gradient, by a difference; 1 if that is not positive */
 static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
 {
-  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+  IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
   PetscReal      size, norm, step;
   PetscScalar    curvature = 0.0;
   Vec            near, g;
@@ -184,7 +187,7 @@ static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
 /* Hessian routine: B at x, updated with the steps of this solve */
 static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *ctx)
 {
-  IPQuasiNewton *qn = &((TAO_IPFILTER *)tao->data)->qn;
+  IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
   PetscReal      step, sy = 0.0;
   Vec            s, y;
 
@@ -221,7 +224,7 @@ void IPQuasiNewtonReset(IPQuasiNewton *qn)
 /* Used without TaoSetHessian() for large problems: a diagonal matrix as tao->hessian, and B */
 PetscErrorCode IPQuasiNewtonSetUp(Tao tao)
 {
-  IPQuasiNewton *qn   = &((TAO_IPFILTER *)tao->data)->qn;
+  IPQuasiNewton *qn   = ((TAO_IPFILTER *)tao->data)->qn;
   MPI_Comm       comm = PetscObjectComm((PetscObject)tao);
   Vec            x    = tao->solution;
   PetscInt       n, N, rstart, rend;

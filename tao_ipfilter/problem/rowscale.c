@@ -4,6 +4,10 @@
    unscaled in any units. The iteration uses scaled rows; multipliers and slacks are scaled back at the end.
 */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/rows.h"
 
 #define IP_LEAST_SCALE 1e-20
 
@@ -55,10 +59,10 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
-  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
-  if (ip->mi) PetscCall(RowScale(ip->jac.inequality, ip->at.c, &ip->opt, &ip->rows.inequality));
-  if (ip->me) PetscCall(RowScale(ip->jac.equality, ip->at.ce, &ip->opt, &ip->rows.equality));
-  *scaled = (PetscBool)(ip->rows.inequality || ip->rows.equality);
+  if (ip->opt->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  if (ip->mi) PetscCall(RowScale(ip->jac->inequality, ip->at.c, ip->opt, &ip->rows->inequality));
+  if (ip->me) PetscCall(RowScale(ip->jac->equality, ip->at.ce, ip->opt, &ip->rows->equality));
+  *scaled = (PetscBool)(ip->rows->inequality || ip->rows->equality);
   PetscFunctionReturn(0);
 }
 
@@ -68,9 +72,9 @@ PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  *changed = (PetscBool)(ip->rows.inequality || ip->rows.equality);
-  PetscCall(VecDestroy(&ip->rows.inequality));
-  PetscCall(VecDestroy(&ip->rows.equality));
+  *changed = (PetscBool)(ip->rows->inequality || ip->rows->equality);
+  PetscCall(VecDestroy(&ip->rows->inequality));
+  PetscCall(VecDestroy(&ip->rows->equality));
   PetscFunctionReturn(0);
 }
 
@@ -80,13 +84,13 @@ PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (!ip->rows.inequality) PetscFunctionReturn(0);
+  if (!ip->rows->inequality) PetscFunctionReturn(0);
   if (back) {
-    PetscCall(VecPointwiseDivide(s, s, ip->rows.inequality));
-    PetscCall(VecPointwiseMult(z, z, ip->rows.inequality));
+    PetscCall(VecPointwiseDivide(s, s, ip->rows->inequality));
+    PetscCall(VecPointwiseMult(z, z, ip->rows->inequality));
   } else {
-    PetscCall(VecPointwiseMult(s, s, ip->rows.inequality));
-    PetscCall(VecPointwiseDivide(z, z, ip->rows.inequality));
+    PetscCall(VecPointwiseMult(s, s, ip->rows->inequality));
+    PetscCall(VecPointwiseDivide(z, z, ip->rows->inequality));
   }
   PetscFunctionReturn(0);
 }
@@ -95,7 +99,7 @@ PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
 PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  Vec           scale = space == IP_INEQUALITIES ? ip->rows.inequality : ip->rows.equality, unscaled = NULL;
+  Vec           scale = space == IP_INEQUALITIES ? ip->rows->inequality : ip->rows->equality, unscaled = NULL;
 
   PetscFunctionBegin;
   if (scale) {

@@ -9,6 +9,10 @@
    Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
 */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/rows.h"
 
 PetscErrorCode IPSidesDestroy(IPSides *sides)
 {
@@ -111,7 +115,7 @@ static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
 /* Classifies every row by its present bounds */
 PetscErrorCode IPSidesSetUp(Tao tao)
 {
-  IPSides *sides     = &((TAO_IPFILTER *)tao->data)->sides;
+  IPSides *sides     = ((TAO_IPFILTER *)tao->data)->sides;
   PetscInt counts[3] = {0, 0, 0};
   Vec      c         = tao->constraints_inequality;
 
@@ -138,11 +142,11 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   PetscInt           n;
 
   PetscFunctionBegin;
-  if (!ip->sides.range) PetscCall(IPPairDestroy(ceiling));
-  if (!ip->sides.range) PetscFunctionReturn(0);
-  if (!ceiling->t) PetscCall(IPPairCreate(tao->constraints_inequality, ip->given.slack_mass, -1.0, ceiling));
+  if (!ip->sides->range) PetscCall(IPPairDestroy(ceiling));
+  if (!ip->sides->range) PetscFunctionReturn(0);
+  if (!ceiling->t) PetscCall(IPPairCreate(tao->constraints_inequality, ip->given->slack_mass, -1.0, ceiling));
   PetscCall(VecGetLocalSize(ceiling->t, &n));
-  PetscCall(VecGetArrayRead(ip->sides.range, &range));
+  PetscCall(VecGetArrayRead(ip->sides->range, &range));
   PetscCall(VecGetArrayRead(ceiling->w, &w));
   for (PetscInt i = 0; i < n; i++) {
     if (!Finite(PetscRealPart(range[i]))) continue;
@@ -150,7 +154,7 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
     sum[1] += PetscRealPart(w[i]);
   }
   PetscCall(VecRestoreArrayRead(ceiling->w, &w));
-  PetscCall(VecRestoreArrayRead(ip->sides.range, &range));
+  PetscCall(VecRestoreArrayRead(ip->sides->range, &range));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
   ceiling->n      = (PetscInt)sum[0];
   ceiling->weight = sum[1];
@@ -161,7 +165,7 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
 PetscErrorCode IPSidesUpdateWidth(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  IPSides           *sides = &ip->sides;
+  IPSides           *sides = ip->sides;
   const PetscScalar *range;
   PetscScalar       *width;
   PetscInt           n;
@@ -169,13 +173,13 @@ PetscErrorCode IPSidesUpdateWidth(Tao tao)
   PetscFunctionBegin;
   if (!sides->range) PetscFunctionReturn(0);
   if (!sides->width) PetscCall(VecDuplicate(sides->range, &sides->width));
-  if (ip->rows.inequality) PetscCall(VecPointwiseMult(sides->width, sides->range, ip->rows.inequality));
+  if (ip->rows->inequality) PetscCall(VecPointwiseMult(sides->width, sides->range, ip->rows->inequality));
   else PetscCall(VecCopy(sides->range, sides->width));
   PetscCall(VecGetLocalSize(sides->range, &n));
   PetscCall(VecGetArrayRead(sides->range, &range));
   PetscCall(VecGetArray(sides->width, &width));
   for (PetscInt i = 0; i < n; i++)
-    width[i] = Finite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax.by : PETSC_INFINITY;
+    width[i] = Finite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax->by : PETSC_INFINITY;
   PetscCall(VecRestoreArray(sides->width, &width));
   PetscCall(VecRestoreArrayRead(sides->range, &range));
   PetscFunctionReturn(0);
@@ -224,7 +228,7 @@ static PetscErrorCode FillVoidRows(IPSides *sides, Vec c)
    none */
 PetscErrorCode IPSidesConstraints(Tao tao, Vec c, Vec ce)
 {
-  IPSides *sides = &((TAO_IPFILTER *)tao->data)->sides;
+  IPSides *sides = ((TAO_IPFILTER *)tao->data)->sides;
 
   PetscFunctionBegin;
   if (!sides->base) {
@@ -259,7 +263,7 @@ PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
    among them, in the caller's units */
 PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
 {
-  const IPSides     *sides = &((TAO_IPFILTER *)tao->data)->sides;
+  const IPSides     *sides = ((TAO_IPFILTER *)tao->data)->sides;
   const PetscScalar *e;
   PetscScalar       *d;
   PetscInt           n;
@@ -281,7 +285,7 @@ PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
 PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  const IPSides     *sides = &ip->sides;
+  const IPSides     *sides = ip->sides;
   const PetscScalar *za, *w;
   PetscScalar       *ya;
   PetscInt           n;
@@ -303,7 +307,7 @@ PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
 PetscErrorCode IPSidesTakePairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  const IPSides     *sides = &ip->sides;
+  const IPSides     *sides = ip->sides;
   IPPair            *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
   PetscReal          sum[2] = {0.0, 0.0}, mu;
   const PetscScalar *sign   = NULL, *w;
@@ -350,7 +354,7 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
 PetscErrorCode IPSidesReturnPairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  const IPSides     *sides = &ip->sides;
+  const IPSides     *sides = ip->sides;
   const PetscScalar *sign = NULL, *range = NULL, *DI, *w;
   PetscScalar       *s, *z;
   PetscInt           n;

@@ -1,5 +1,7 @@
 /* The slacks of c_I, 0 <= s or 0 <= s <= width: combined operations on their one or two pairs. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* D = w z/s, plus the same of the upper sides */
 PetscErrorCode IPSlackSigma(Tao tao, Vec D)
@@ -74,7 +76,7 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
   PetscFunctionBegin;
   if (!ceiling->n) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(s, &n));
-  PetscCall(VecGetArrayRead(ip->sides.width, &width));
+  PetscCall(VecGetArrayRead(ip->sides->width, &width));
   PetscCall(VecGetArrayRead(s, &slack));
   PetscCall(VecGetArrayWrite(trial ? ceiling->trial : ceiling->t, &t));
   for (PetscInt i = 0; i < n; i++)
@@ -83,7 +85,7 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
              : PETSC_INFINITY;
   PetscCall(VecRestoreArrayWrite(trial ? ceiling->trial : ceiling->t, &t));
   PetscCall(VecRestoreArrayRead(s, &slack));
-  PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
+  PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
   PetscFunctionReturn(0);
 }
 
@@ -99,15 +101,15 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
   if (c != v) PetscCall(VecCopy(c, v));
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(VecGetArray(v, &out));
-  if (ip->sides.width) PetscCall(VecGetArrayRead(ip->sides.width, &width));
+  if (ip->sides->width) PetscCall(VecGetArrayRead(ip->sides->width, &width));
   for (PetscInt i = 0; i < n; i++) {
     PetscReal above = 0.0;
 
-    if (ip->sides.width && PetscRealPart(width[i]) < PETSC_INFINITY)
+    if (ip->sides->width && PetscRealPart(width[i]) < PETSC_INFINITY)
       above = PetscMax(PetscRealPart(out[i] - width[i]), 0.0);
     out[i] = PetscMin(PetscRealPart(out[i]), 0.0) + above;
   }
-  if (ip->sides.width) PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
+  if (ip->sides->width) PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
   PetscCall(VecRestoreArray(v, &out));
   PetscFunctionReturn(0);
 }
@@ -138,12 +140,12 @@ PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(IPCentralPair(q, ip->stiff.rho, mu, s, z));
-  if (!ip->sides.width) PetscFunctionReturn(0);
+  PetscCall(IPCentralPair(q, ip->stiff->rho, mu, s, z));
+  if (!ip->sides->width) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(s, &n));
   PetscCall(VecGetArrayRead(q, &qa));
-  PetscCall(VecGetArrayRead(ip->stiff.rho, &rho));
-  PetscCall(VecGetArrayRead(ip->sides.width, &width));
+  PetscCall(VecGetArrayRead(ip->stiff->rho, &rho));
+  PetscCall(VecGetArrayRead(ip->sides->width, &width));
   PetscCall(VecGetArray(s, &sa));
   PetscCall(VecGetArray(z, &za));
   for (PetscInt i = 0; i < n; i++) {
@@ -153,8 +155,8 @@ PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
   }
   PetscCall(VecRestoreArray(z, &za));
   PetscCall(VecRestoreArray(s, &sa));
-  PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
-  PetscCall(VecRestoreArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
+  PetscCall(VecRestoreArrayRead(ip->stiff->rho, &rho));
   PetscCall(VecRestoreArrayRead(q, &qa));
   PetscFunctionReturn(0);
 }
@@ -168,15 +170,15 @@ PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
   PetscInt           n;
 
   PetscFunctionBegin;
-  if (!ip->sides.width) PetscFunctionReturn(0);
+  if (!ip->sides->width) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(s, &n));
-  PetscCall(VecGetArrayRead(ip->sides.width, &width));
+  PetscCall(VecGetArrayRead(ip->sides->width, &width));
   PetscCall(VecGetArray(s, &sa));
   for (PetscInt i = 0; i < n; i++)
     if (PetscRealPart(width[i]) < PETSC_INFINITY)
       sa[i] = PetscMin(PetscRealPart(sa[i]), (1.0 - fraction) * PetscRealPart(width[i]));
   PetscCall(VecRestoreArray(s, &sa));
-  PetscCall(VecRestoreArrayRead(ip->sides.width, &width));
+  PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
   PetscFunctionReturn(0);
 }
 

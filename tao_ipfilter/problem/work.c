@@ -1,5 +1,6 @@
 /* Work vectors: a function takes one and returns it before it ends. They are created on demand. */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/work.h"
 
 static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
 {
@@ -10,7 +11,7 @@ static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
 PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  IPWork       *work   = &ip->work;
+  IPWork       *work   = ip->work;
   Vec           layout = WorkLayout(ip, space);
   PetscInt      k      = 0;
 
@@ -28,7 +29,7 @@ PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
 
 PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
 {
-  IPWork  *work = &((TAO_IPFILTER *)tao->data)->work;
+  IPWork  *work = ((TAO_IPFILTER *)tao->data)->work;
   PetscInt k    = 0;
 
   PetscFunctionBegin;

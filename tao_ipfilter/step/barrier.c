@@ -1,5 +1,10 @@
 /* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 /* Weighted mean of t z over all pairs */
 PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
@@ -23,9 +28,9 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
    balance only to the few per cent at which the linear solves aim, because mu affects the pairs, not the forces */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
-  const IPKKT    *k       = &ip->kkt;
+  const IPKKT    *k       = ip->kkt;
   const PetscReal limit   = IP_KAPPA_EPSILON * mu,
-                  balance = ip->opt.measure == IP_KKT_MASS ? limit : PetscMax(limit, IP_KAPPA_DUAL);
+                  balance = ip->opt->measure == IP_KKT_MASS ? limit : PetscMax(limit, IP_KAPPA_DUAL);
 
   return (PetscBool)(k->centrality <= limit && k->primal <= PetscMax(limit, ip->tol) && k->dual <= balance);
 }
@@ -34,17 +39,17 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscInt limit = tao->niter ? IP_MU_REDUCTIONS : ip->opt.max_mu_first;
+  const PetscInt limit = tao->niter ? IP_MU_REDUCTIONS : ip->opt->max_mu_first;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
-    const PetscReal unit = ip->scale.product, mu = ip->mu / unit;
+    const PetscReal unit = ip->scale->product, mu = ip->mu / unit;
     const PetscReal next =
       PetscMax(IPErrorBoundLeastMu(ip) / unit, PetscMin(IP_KAPPA_MU * mu, PetscPowReal(mu, IP_THETA_MU)));
 
     if (!BarrierSolved(ip, mu) || next >= mu) break;
     ip->mu = next * unit;
-    PetscCall(IPFilterSetReset(&ip->filter));
+    PetscCall(IPFilterSetReset(ip->filter));
     PetscCall(IPComputeKKT(tao));
   }
   PetscFunctionReturn(0);
@@ -67,13 +72,13 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
     before += now;
     after += next;
   }
-  ip->bar.corrector_max = 0.0;
+  ip->bar->corrector_max = 0.0;
   if (!(before > 0.0)) PetscFunctionReturn(0);
   sigma = PetscMin(PetscPowReal(PetscMax(after, 0.0) / before, 3.0), 1.0);
   PetscCall(IPBarrierAverage(tao, &before));
-  ip->bar.corrector_max = 100.0 * before;
-  ip->mu                = PetscMax(sigma * before, IPErrorBoundLeastMu(ip));
-  PetscCall(IPFilterSetReset(&ip->filter));
+  ip->bar->corrector_max = 100.0 * before;
+  ip->mu                 = PetscMax(sigma * before, IPErrorBoundLeastMu(ip));
+  PetscCall(IPFilterSetReset(ip->filter));
   PetscFunctionReturn(0);
 }
 
@@ -81,12 +86,12 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
    Waechter and Waltz 2009, section 4) */
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
-  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar.errors);
+  const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar->errors);
   PetscReal      worst  = 0.0;
 
-  for (PetscInt k = 0; k < PetscMin(ip->bar.nerrors, length); k++) worst = PetscMax(worst, ip->bar.errors[k]);
-  if (ip->bar.nerrors >= length && ip->kkt.error > IP_KAPPA_PROGRESS * worst) return PETSC_FALSE;
-  ip->bar.errors[ip->bar.nerrors++ % length] = ip->kkt.error;
+  for (PetscInt k = 0; k < PetscMin(ip->bar->nerrors, length); k++) worst = PetscMax(worst, ip->bar->errors[k]);
+  if (ip->bar->nerrors >= length && ip->kkt->error > IP_KAPPA_PROGRESS * worst) return PETSC_FALSE;
+  ip->bar->errors[ip->bar->nerrors++ % length] = ip->kkt->error;
   return PETSC_TRUE;
 }
 
@@ -98,10 +103,10 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   const PetscReal growth = 3.0;
 
   PetscFunctionBegin;
-  ip->bar.free = PETSC_FALSE;
+  ip->bar->free = PETSC_FALSE;
   PetscCall(IPBarrierAverage(tao, &ip->mu));
-  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar.first), IPErrorBoundLeastMu(ip));
-  PetscCall(IPFilterSetReset(&ip->filter));
+  ip->mu = PetscMax(PetscMin(0.8 * ip->mu, growth * ip->bar->first), IPErrorBoundLeastMu(ip));
+  PetscCall(IPFilterSetReset(ip->filter));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);
 }
@@ -110,7 +115,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
 PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 {
   PetscFunctionBegin;
-  ((TAO_IPFILTER *)tao->data)->bar.hold = iterations;
+  ((TAO_IPFILTER *)tao->data)->bar->hold = iterations;
   PetscCall(BarrierTurnMonotone(tao));
   PetscFunctionReturn(0);
 }
@@ -126,14 +131,14 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
   PetscBool     was_free;
 
   PetscFunctionBegin;
-  if (ip->opt.barrier == IP_BARRIER_MONOTONE) {
+  if (ip->opt->barrier == IP_BARRIER_MONOTONE) {
     PetscCall(BarrierMonotone(tao));
     PetscFunctionReturn(0);
   }
-  was_free     = ip->bar.free;
-  ip->bar.free = (PetscBool)(BarrierProgresses(ip) && ip->bar.hold == 0 && !ip->bar.curved);
-  if (ip->bar.hold > 0) ip->bar.hold--;
-  if (ip->bar.free) PetscFunctionReturn(0);
+  was_free      = ip->bar->free;
+  ip->bar->free = (PetscBool)(BarrierProgresses(ip) && ip->bar->hold == 0 && !ip->bar->curved);
+  if (ip->bar->hold > 0) ip->bar->hold--;
+  if (ip->bar->free) PetscFunctionReturn(0);
   if (was_free) PetscCall(BarrierTurnMonotone(tao));
   else PetscCall(BarrierMonotone(tao));
   PetscFunctionReturn(0);

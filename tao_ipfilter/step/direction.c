@@ -1,6 +1,16 @@
 /* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough
    curvature. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Square to which the curvature of d is compared: d^T d in the unit of H. With scale-free constants at most d^T
    |diag(H)| d, so that unknowns of different units count equally */
@@ -13,12 +23,12 @@ static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
   PetscFunctionBegin;
   PetscCall(VecDot(d, d, &dd));
   *square = PetscRealPart(dd);
-  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  if (ip->opt->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hd));
-  PetscCall(VecPointwiseMult(hd, ip->stiff.hdiag, d));
+  PetscCall(VecPointwiseMult(hd, ip->stiff->hdiag, d));
   PetscCall(VecDot(hd, d, &dhd));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &hd));
-  *square = PetscMin(ip->stiff.hscale * *square, PetscRealPart(dhd));
+  *square = PetscMin(ip->stiff->hscale * *square, PetscRealPart(dhd));
   PetscFunctionReturn(0);
 }
 
@@ -31,11 +41,11 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
-  PetscCall(MatMult(ip->hess.H, d, Wd));
+  PetscCall(MatMult(ip->hess->H, d, Wd));
   PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
-  if (ip->cond.shifted) {
-    PetscCall(VecPointwiseMult(Wd, ip->cond.shift, d));
+  if (ip->cond->shifted) {
+    PetscCall(VecPointwiseMult(Wd, ip->cond->shift, d));
     PetscCall(VecDot(d, Wd, &dSd));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Wd));
@@ -65,7 +75,7 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ds2));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   *curvature += PetscRealPart(sDs) + PetscMax(PetscRealPart(force), 0.0);
-  if (ip->opt.scaling == IP_SCALING_NONE) *square += PetscRealPart(ss);
+  if (ip->opt->scaling == IP_SCALING_NONE) *square += PetscRealPart(ss);
   PetscFunctionReturn(0);
 }
 
@@ -127,7 +137,7 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
     largest = PetscMax(largest, product);
     total += sum;
   }
-  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale.product &&
+  *finish = (PetscBool)(primal == 1.0 && dual == 1.0 && largest <= ip->tol * ip->scale->product &&
                         IPErrorBoundWithin(ip, total));
   PetscFunctionReturn(0);
 }
@@ -137,7 +147,7 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
    the start */
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
-  PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale.dual, IP_FORCING_REDUCE * ip->kkt.dual_norm);
+  PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale->dual, IP_FORCING_REDUCE * ip->kkt->dual_norm);
 
   if (!ip->mi && !ip->me) loose = PetscMin(loose, IP_FORCING_MAX * rhs);
   return PetscMax(loose, last);
@@ -158,7 +168,7 @@ static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool
 /* Whether the system of the last direction was the condensed one */
 static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->me || ip->prox.condensed);
+  return (PetscBool)(!ip->me || ip->prox->condensed);
 }
 
 /* Computes the direction for the residuals rc and ce and the pairs' targets, from the guess in dx. While mu falls,
@@ -182,7 +192,7 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
     PetscCall(IPErrorBoundForceUnitAfter(tao, ip->dir.x, &last));
     last *= factor;
   }
-  if (*usable && DirectionIsCondensed(ip) && ip->opt.forcing == IP_FORCING_ADAPTIVE && ip->lin.norm > last)
+  if (*usable && DirectionIsCondensed(ip) && ip->opt->forcing == IP_FORCING_ADAPTIVE && ip->lin->norm > last)
     PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {
     PetscCall(DirectionSolveUnknowns(tao, rhs, ce, PETSC_FALSE, last, usable));
@@ -250,14 +260,14 @@ static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
   PetscFunctionBegin;
   PetscCall(VecSet(ip->dir.x, 0.0));
   if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
-  if (ip->bar.free && DirectionHasPairs(ip)) {
+  if (ip->bar->free && DirectionHasPairs(ip)) {
     PetscCall(DirectionSetTargets(tao, 0.0, 0.0));
     PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, PETSC_TRUE, usable));
     if (!*usable) PetscFunctionReturn(0);
     PetscCall(IPBarrierFromAffine(tao));
     matrix = PETSC_FALSE;
   }
-  PetscCall(DirectionSetTargets(tao, ip->mu, ip->bar.free ? ip->bar.corrector_max : 0.0));
+  PetscCall(DirectionSetTargets(tao, ip->mu, ip->bar->free ? ip->bar->corrector_max : 0.0));
   PetscCall(DirectionSolve(tao, ip->rc, ip->at.ce, matrix, usable));
   PetscFunctionReturn(0);
 }
@@ -279,7 +289,7 @@ static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
 
   PetscFunctionBegin;
   *descends = PETSC_TRUE;
-  if (ip->mi || ip->me || ip->kkt.dual_norm == 0.0) PetscFunctionReturn(0);
+  if (ip->mi || ip->me || ip->kkt->dual_norm == 0.0) PetscFunctionReturn(0);
   PetscCall(IPMeritSlope(tao, &slope));
   *descends = (PetscBool)(slope <= 0.0);
   PetscFunctionReturn(0);
@@ -301,8 +311,8 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->aug.delta    = 0.0;
-  ip->aug.centered = PETSC_FALSE;
+  ip->aug->delta    = 0.0;
+  ip->aug->centered = PETSC_FALSE;
   PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
   if (*ok) IPRegularized(ip);
   PetscFunctionReturn(0);
@@ -345,12 +355,12 @@ PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
   PetscReal       first, norm;
 
   PetscFunctionBegin;
-  *found          = PETSC_FALSE;
-  ip->shift.delta = 0.0;
+  *found           = PETSC_FALSE;
+  ip->shift->delta = 0.0;
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(DirectionAssemble(tao));
   for (PetscInt k = 0; k < 4; k++) PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v[k]));
-  PetscCall(DirectionProbe(ip->cond.A, v[3], v[0]));
+  PetscCall(DirectionProbe(ip->cond->A, v[3], v[0]));
   PetscCall(IPFixedZero(tao, v[0]));
   PetscCall(VecPointwiseDivide(v[1], v[0], v[3]));
   PetscCall(VecCopy(v[1], p));
@@ -358,7 +368,7 @@ PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
   PetscCall(VecNorm(v[0], NORM_2, &first));
   norm = first;
   for (PetscInt k = 0; k < most && norm > rounding * first && !*found; k++) {
-    PetscCall(MatMult(ip->cond.A, p, v[2]));
+    PetscCall(MatMult(ip->cond->A, p, v[2]));
     PetscCall(VecDot(p, v[2], &pAp));
     PetscCall(VecPointwiseMult(v[1], v[3], p));
     PetscCall(VecDot(p, v[1], &pMp));

@@ -1,6 +1,7 @@
 /* The filter: pairs (theta, phi) of violation and barrier function. Later iterates must improve on each pair in one
    of the two. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/search.h"
 
 PetscErrorCode IPFilterSetReset(IPFilterSet *f)
 {

@@ -1,5 +1,10 @@
 /* A step of the problem without its bounds, used to predict a start between them. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Computes the step to a tenth of its residual. usable: false if the Hessian is not convex along it, or has no
    positive diagonal, without which no AMG can be built */
@@ -13,12 +18,12 @@ static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &rhs));
-  ip->shift.delta = ip->given.primal_mass ? 0.0 : singular * ip->stiff.hscale;
+  ip->shift->delta = ip->given->primal_mass ? 0.0 : singular * ip->stiff->hscale;
   PetscCall(IPCondenseMatrix(tao, NULL));
-  ip->shift.delta = 0.0;
-  PetscCall(MatGetDiagonal(ip->cond.A, rhs));
+  ip->shift->delta = 0.0;
+  PetscCall(MatGetDiagonal(ip->cond->A, rhs));
   PetscCall(VecMin(rhs, NULL, &least));
-  if (!(least > 10.0 * singular * ip->stiff.hscale)) {
+  if (!(least > 10.0 * singular * ip->stiff->hscale)) {
     PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
     PetscFunctionReturn(0);
   }
@@ -65,7 +70,7 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 /* Measures sizes at the point after the step. They replace those of the start, which may be far off */
 static PetscErrorCode FreeMeasure(Tao tao)
 {
-  IPFirst *first = &((TAO_IPFILTER *)tao->data)->first;
+  IPFirst *first = ((TAO_IPFILTER *)tao->data)->first;
 
   PetscFunctionBegin;
   first->f = ((TAO_IPFILTER *)tao->data)->at.f;

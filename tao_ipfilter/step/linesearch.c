@@ -3,6 +3,14 @@
    condition, Armijo, and second-order correction.
 */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Computes theta and phi at x + alpha dx, s + alpha ds. *finite: false if the callbacks returned no number; nothing
    else is evaluated then */
@@ -30,25 +38,25 @@ static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, Pe
 static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
 {
   if (slope >= 0.0) return PETSC_FALSE;
-  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search.phi_ref, IP_S_PHI) >
-                     IP_DELTA_SWITCH * PetscPowReal(ip->search.theta / ip->search.theta_ref, IP_S_THETA));
+  return (PetscBool)(alpha * PetscPowReal(-slope / ip->search->phi_ref, IP_S_PHI) >
+                     IP_DELTA_SWITCH * PetscPowReal(ip->search->theta / ip->search->theta_ref, IP_S_THETA));
 }
 
 /* The violation to which theta's limits are relative */
 static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 {
-  return PetscMax(ip->opt.scaling == IP_SCALING_NONE ? 1.0 : ip->search.theta_ref, ip->search.theta0);
+  return PetscMax(ip->opt->scaling == IP_SCALING_NONE ? 1.0 : ip->search->theta_ref, ip->search->theta0);
 }
 
 /* Largest allowed increase of the objective for a smaller violation: little if hardly any violation is left */
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
-  const IPSearch *search = &ip->search;
+  const IPSearch *search = ip->search;
   const PetscReal trace = 1e-10, reduced = 1e-2,
                   factor = search->theta <= trace * SearchFirstViolation(ip) ? reduced : IP_OBJ_MAX_INC;
 
-  return ip->opt.scaling == IP_SCALING_NONE ? PETSC_INFINITY
-                                            : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
+  return ip->opt->scaling == IP_SCALING_NONE ? PETSC_INFINITY
+                                             : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
 }
 
 /* accepted: whether (theta, phi) at step alpha is acceptable. *objective: whether it is accepted for its objective,
@@ -58,8 +66,8 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscBool *accepted, PetscBool *objective)
 {
   TAO_IPFILTER    *ip     = (TAO_IPFILTER *)tao->data;
-  IPSearch        *search = &ip->search;
-  const IPOptions *opt    = &ip->opt;
+  IPSearch        *search = ip->search;
+  const IPOptions *opt    = ip->opt;
   const PetscReal  first = SearchFirstViolation(ip), change = phi - search->phi;
   const PetscBool  alone    = (PetscBool)(search->theta <= search->theta_rounding);
   const PetscBool  switches = SearchSwitches(ip, alpha, slope);
@@ -75,7 +83,7 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
       (PetscBool)(theta <= (1.0 - IP_GAMMA_THETA) * search->theta ||
                   change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
   descends = *accepted;
-  if (descends) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi - search->rounding, accepted));
+  if (descends) PetscCall(IPFilterSetAccepts(ip->filter, theta, phi - search->rounding, accepted));
   if (!*accepted) search->blocked = descends;
   PetscFunctionReturn(0);
 }
@@ -83,11 +91,11 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
 /* Smallest step worth trying (equation (23) there) */
 static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
 {
-  const PetscReal theta = ip->search.theta / ip->search.theta_ref, descent = -slope / ip->search.phi_ref;
+  const PetscReal theta = ip->search->theta / ip->search->theta_ref, descent = -slope / ip->search->phi_ref;
   PetscReal       least = IP_GAMMA_THETA;
 
-  if (descent > 0.0) least = PetscMin(least, ip->opt.gamma_phi * theta / descent);
-  if (descent > 0.0 && ip->search.theta <= IP_THETA_MIN_FACT * SearchFirstViolation(ip))
+  if (descent > 0.0) least = PetscMin(least, ip->opt->gamma_phi * theta / descent);
+  if (descent > 0.0 && ip->search->theta <= IP_THETA_MIN_FACT * SearchFirstViolation(ip))
     least = PetscMin(least, IP_DELTA_SWITCH * PetscPowReal(theta, IP_S_THETA) / PetscPowReal(descent, IP_S_PHI));
   return PetscMax(IP_GAMMA_ALPHA * least, 1e-12);
 }
@@ -108,23 +116,23 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
     PetscCall(VecAXPY(p->z, dual, p->dz));
     PetscCall(IPPairSafeguard(p, ip->mu, IP_KAPPA_SIGMA));
   }
-  ip->relax.least_bound = PETSC_INFINITY;
+  ip->relax->least_bound = PETSC_INFINITY;
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     PetscReal least;
 
     if (!ip->pair[b].n) continue;
     PetscCall(VecMin(ip->pair[b].t, NULL, &least));
-    ip->relax.least_bound = PetscMin(ip->relax.least_bound, least);
+    ip->relax->least_bound = PetscMin(ip->relax->least_bound, least);
   }
   if (ip->mi) {
     PetscCall(VecAXPY(ip->at.lambda, alpha, ip->dir.lambda));
-    PetscCall(VecMin(ip->at.s, NULL, &ip->relax.least_slack));
-    if (ip->opt.scaling == IP_SCALING_PROBLEM)
-      PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiff.rho, ip->scale.length, IP_LEAST_SLACK));
+    PetscCall(VecMin(ip->at.s, NULL, &ip->relax->least_slack));
+    if (ip->opt->scaling == IP_SCALING_PROBLEM)
+      PetscCall(IPPairLift(&ip->pair[IP_SLACK], ip->stiff->rho, ip->scale->length, IP_LEAST_SLACK));
   }
   if (ip->me) PetscCall(VecAXPY(ip->at.y, alpha, ip->dir.y));
-  ip->search.alpha      = alpha;
-  ip->search.alpha_dual = dual;
+  ip->search->alpha      = alpha;
+  ip->search->alpha_dual = dual;
   PetscFunctionReturn(0);
 }
 
@@ -139,7 +147,7 @@ static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
   Vec             r;
 
   PetscFunctionBegin;
-  if (ip->bar.curved) PetscFunctionReturn(0);
+  if (ip->bar->curved) PetscFunctionReturn(0);
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
     PetscCall(VecWAXPY(r, -1.0, ip->trial.s, ip->trial.c));
@@ -147,14 +155,14 @@ static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
     PetscCall(VecNorm(r, NORM_INFINITY, &error));
     PetscCall(VecNorm(slack->dt, NORM_INFINITY, &change));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
-    ip->bar.curved = (PetscBool)(error > linear * alpha * change);
+    ip->bar->curved = (PetscBool)(error > linear * alpha * change);
   }
   if (ip->me) {
     PetscCall(IPGetWork(tao, IP_EQUALITIES, &r));
     PetscCall(VecWAXPY(r, alpha - 1.0, ip->at.ce, ip->trial.ce));
     PetscCall(VecNorm(r, NORM_INFINITY, &error));
     PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &r));
-    ip->bar.curved = (PetscBool)(ip->bar.curved || error > linear * ip->scale.equality);
+    ip->bar->curved = (PetscBool)(ip->bar->curved || error > linear * ip->scale->equality);
   }
   PetscFunctionReturn(0);
 }
@@ -166,7 +174,7 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
 
   PetscFunctionBegin;
   if (!objective) PetscCall(IPMeritFilterAdd(tao));
-  ip->search.tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
+  ip->search->tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
   PetscCall(SearchTakeStep(tao, alpha, dual));
   PetscFunctionReturn(0);
 }
@@ -180,7 +188,7 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
   PetscReal     step = alpha, last = theta;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < ip->opt.max_soc && !*ok; k++) {
+  for (PetscInt k = 0; k < ip->opt->max_soc && !*ok; k++) {
     PetscReal phi = 0.0, dual = 1.0;
     PetscBool usable = PETSC_FALSE, finite = PETSC_FALSE, objective = PETSC_FALSE;
 
@@ -195,7 +203,7 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
     step = 1.0;
     PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &step, &dual));
     PetscCall(SearchTrial(tao, step, &theta, &phi, &finite));
-    ip->search.ntrials++;
+    ip->search->ntrials++;
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
     if (*ok) PetscCall(SearchAccept(tao, step, dual, objective, PETSC_TRUE));
     else if (!finite || theta > IP_KAPPA_SOC * last) break;
@@ -215,7 +223,7 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
 
   PetscFunctionBegin;
   *ok = PETSC_FALSE;
-  if (theta < ip->search.theta || !ip->opt.max_soc) PetscFunctionReturn(0);
+  if (theta < ip->search->theta || !ip->opt->max_soc) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &first.x));
   PetscCall(IPGetWork(tao, IP_EQUALITIES, &first.y));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &rc));
@@ -242,11 +250,11 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
   const PetscInt patience = 5, limit = 5;
 
   PetscFunctionBegin;
-  ip->search.nblocked = ip->search.blocked ? ip->search.nblocked + 1 : 0;
-  if (ip->search.nblocked < patience || ip->search.nunblocked >= limit) PetscFunctionReturn(0);
-  ip->search.nblocked = 0;
-  ip->search.nunblocked++;
-  PetscCall(IPFilterSetReset(&ip->filter));
+  ip->search->nblocked = ip->search->blocked ? ip->search->nblocked + 1 : 0;
+  if (ip->search->nblocked < patience || ip->search->nunblocked >= limit) PetscFunctionReturn(0);
+  ip->search->nblocked = 0;
+  ip->search->nunblocked++;
+  PetscCall(IPFilterSetReset(ip->filter));
   PetscFunctionReturn(0);
 }
 
@@ -254,29 +262,29 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal tau   = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale.product);
+  const PetscReal tau   = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale->product);
   PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
 
   PetscFunctionBegin;
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPMeritSlope(tao, &slope));
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
-  ip->search.before = ip->dir.norm;
+  ip->search->before = ip->dir.norm;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
-  least              = SearchSmallestStep(ip, slope);
-  ip->search.ntrials = 0;
-  ip->search.blocked = PETSC_FALSE;
-  *ok                = PETSC_FALSE;
+  least               = SearchSmallestStep(ip, slope);
+  ip->search->ntrials = 0;
+  ip->search->blocked = PETSC_FALSE;
+  *ok                 = PETSC_FALSE;
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
 
-    ip->search.ntrials++;
+    ip->search->ntrials++;
     PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
-    if (finite && ip->search.ntrials == 1) PetscCall(SearchTestLinearity(tao, alpha));
+    if (finite && ip->search->ntrials == 1) PetscCall(SearchTestLinearity(tao, alpha));
     if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
-    else if (finite && ip->search.ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
+    else if (finite && ip->search->ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
   if (*ok) PetscCall(SearchUnblock(ip));
   PetscFunctionReturn(0);
@@ -291,10 +299,10 @@ static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
 
   PetscFunctionBegin;
   PetscCall(SearchTakeStep(tao, alpha, 0.0));
-  ip->mu = PetscMax(ip->mu, trace * ip->bar.first);
+  ip->mu = PetscMax(ip->mu, trace * ip->bar->first);
   for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
   if (ip->mi) PetscCall(IPSlackPressure(tao, ip->at.lambda));
-  PetscCall(IPFilterSetReset(&ip->filter));
+  PetscCall(IPFilterSetReset(ip->filter));
   PetscCall(IPEvaluateDerivatives(tao));
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);
@@ -310,7 +318,7 @@ static PetscErrorCode SearchFollow(Tao tao)
   PetscCall(IPBoundsDirection(tao));
   if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
   if (!ip->mi) PetscFunctionReturn(0);
-  PetscCall(MatMult(ip->jac.inequality, ip->dir.x, slack->dt));
+  PetscCall(MatMult(ip->jac->inequality, ip->dir.x, slack->dt));
   if (ip->pair[IP_CEILING].n) PetscCall(VecAXPBY(ip->pair[IP_CEILING].dt, -1.0, 0.0, slack->dt));
   PetscCall(VecSet(ip->dir.lambda, 0.0));
   PetscFunctionReturn(0);
@@ -330,7 +338,7 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
   *left = PETSC_FALSE;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size = PetscMax(size, ip->first.x);
+  size = PetscMax(size, ip->first->x);
   PetscCall(VecScale(ip->dir.x, (size > 0.0 ? part * size : 1.0) / norm));
   PetscCall(SearchFollow(tao));
   PetscCall(IPMeritMeasure(tao));
@@ -345,8 +353,8 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
     PetscBool finite = PETSC_FALSE;
 
     PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    *left =
-      (PetscBool)(finite && phi < ip->search.phi - ip->search.rounding && theta <= IP_LEAVE_MET * ip->search.theta_ref);
+    *left = (PetscBool)(finite && phi < ip->search->phi - ip->search->rounding &&
+                        theta <= IP_LEAVE_MET * ip->search->theta_ref);
     if (*left) PetscCall(SearchStartAgain(tao, alpha));
   }
   PetscFunctionReturn(0);
@@ -357,7 +365,8 @@ static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
 {
   const PetscReal quadratic = 0.2;
 
-  return (PetscBool)(ip->search.alpha == 1.0 && ip->search.tag != 'R' && ip->dir.norm > quadratic * ip->search.before);
+  return (
+    PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
 }
 
 /* Where Newton's steps shrink slowly, the gradient and the curvature vanish together, and the point may be one of
@@ -376,18 +385,18 @@ PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
   PetscCall(SearchFollow(tao));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  most = part * PetscMax(size, ip->first.x) / ip->dir.norm;
+  most = part * PetscMax(size, ip->first->x) / ip->dir.norm;
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
-  last  = ip->search.phi + ip->search.rounding;
+  last  = ip->search->phi + ip->search->rounding;
   falls = (PetscBool)(most >= 1.0);
   for (PetscReal alpha = PetscMin(2.0, most); falls && !*left; alpha = PetscMin(far * alpha, most)) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE;
 
     PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    falls = (PetscBool)(finite && phi <= last && theta <= IP_LEAVE_MET * ip->search.theta_ref);
-    last  = PetscMin(last, phi + ip->search.rounding);
-    *left = (PetscBool)(falls && phi < ip->search.phi - clear * ip->search.rounding);
+    falls = (PetscBool)(finite && phi <= last && theta <= IP_LEAVE_MET * ip->search->theta_ref);
+    last  = PetscMin(last, phi + ip->search->rounding);
+    *left = (PetscBool)(falls && phi < ip->search->phi - clear * ip->search->rounding);
     if (*left) PetscCall(SearchStartAgain(tao, alpha));
     else if (alpha >= most) falls = PETSC_FALSE;
   }

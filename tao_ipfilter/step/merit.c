@@ -1,5 +1,10 @@
 /* The two merit functions of the line search: theta, the constraint violation, and phi, the barrier function. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* theta: weighted norm of c - s, and c_E, each relative to its reference */
 static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *theta)
@@ -16,7 +21,7 @@ static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *th
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
   }
   if (ip->me) PetscCall(VecNorm(it->ce, NORM_2, &equality));
-  *theta = PetscSqrtReal(square + PetscSqr(equality * ip->search.equality_weight));
+  *theta = PetscSqrtReal(square + PetscSqr(equality * ip->search->equality_weight));
   PetscFunctionReturn(0);
 }
 
@@ -47,10 +52,10 @@ static PetscErrorCode MeritRounding(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hx));
-  PetscCall(VecPointwiseMult(hx, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecPointwiseMult(hx, ip->stiff->hdiag, tao->solution));
   PetscCall(VecDot(hx, tao->solution, &terms));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &hx));
-  ip->search.rounding = 10.0 * PETSC_MACHINE_EPSILON * PetscMax(PetscAbsReal(ip->search.phi), PetscRealPart(terms));
+  ip->search->rounding = 10.0 * PETSC_MACHINE_EPSILON * PetscMax(PetscAbsReal(ip->search->phi), PetscRealPart(terms));
   PetscFunctionReturn(0);
 }
 
@@ -70,8 +75,8 @@ static PetscErrorCode MeritViolationRounding(Tao tao)
     PetscCall(IPPairWeightedSquare(tao, near, &square));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
   }
-  if (ip->me) equality = ip->search.equality_weight * ip->scale.equality_terms;
-  ip->search.theta_rounding = rounding * PetscSqrtReal(square + PetscSqr(equality));
+  if (ip->me) equality = ip->search->equality_weight * ip->scale->equality_terms;
+  ip->search->theta_rounding = rounding * PetscSqrtReal(square + PetscSqr(equality));
   PetscFunctionReturn(0);
 }
 
@@ -79,18 +84,18 @@ static PetscErrorCode MeritViolationRounding(Tao tao)
 static PetscErrorCode MeritUnits(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  IPSearch     *search = &ip->search;
+  IPSearch     *search = ip->search;
   PetscReal     weight = 0.0;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
   search->theta_ref = search->equality_weight = 1.0;
-  search->phi_ref                             = ip->first.unit;
-  if (ip->opt.scaling == IP_SCALING_PROBLEM) {
-    search->theta_ref       = ip->mi ? ip->scale.length * PetscSqrtReal(ip->pair[IP_SLACK].weight) : ip->scale.equality;
-    search->equality_weight = search->theta_ref / ip->scale.equality;
-    if (weight > 0.0) search->phi_ref = ip->scale.product * weight;
+  search->phi_ref                             = ip->first->unit;
+  if (ip->opt->scaling == IP_SCALING_PROBLEM) {
+    search->theta_ref = ip->mi ? ip->scale->length * PetscSqrtReal(ip->pair[IP_SLACK].weight) : ip->scale->equality;
+    search->equality_weight = search->theta_ref / ip->scale->equality;
+    if (weight > 0.0) search->phi_ref = ip->scale->product * weight;
   }
   PetscCall(MeritViolation(tao, &ip->at, &search->theta0));
   PetscFunctionReturn(0);
@@ -102,9 +107,9 @@ PetscErrorCode IPMeritMeasure(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->search.theta0 < 0.0) PetscCall(MeritUnits(tao));
-  PetscCall(MeritViolation(tao, &ip->at, &ip->search.theta));
-  PetscCall(MeritBarrier(tao, ip->at.f, PETSC_FALSE, &ip->search.phi));
+  if (ip->search->theta0 < 0.0) PetscCall(MeritUnits(tao));
+  PetscCall(MeritViolation(tao, &ip->at, &ip->search->theta));
+  PetscCall(MeritBarrier(tao, ip->at.f, PETSC_FALSE, &ip->search->phi));
   PetscCall(MeritRounding(tao));
   PetscCall(MeritViolationRounding(tao));
   PetscFunctionReturn(0);
@@ -145,7 +150,7 @@ PetscErrorCode IPMeritFilterAdd(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(IPFilterSetAdd(&ip->filter, (1.0 - IP_GAMMA_THETA) * ip->search.theta,
-    ip->search.phi - ip->opt.gamma_phi * (ip->search.phi_ref / ip->search.theta_ref) * ip->search.theta));
+  PetscCall(IPFilterSetAdd(ip->filter, (1.0 - IP_GAMMA_THETA) * ip->search->theta,
+    ip->search->phi - ip->opt->gamma_phi * (ip->search->phi_ref / ip->search->theta_ref) * ip->search->theta));
   PetscFunctionReturn(0);
 }

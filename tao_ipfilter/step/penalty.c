@@ -1,6 +1,10 @@
 /* A step of the penalized problem f + 1/2 sum m rho v^2, with violations v. Slacks and multipliers are predicted
    from it. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Pressures z = -rho v of a penalty with the constraints' stiffness, for constraint values c */
 PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
@@ -9,7 +13,7 @@ PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
 
   PetscFunctionBegin;
   PetscCall(IPSlackViolation(tao, c, z));
-  PetscCall(VecPointwiseMult(z, z, ip->stiff.rho));
+  PetscCall(VecPointwiseMult(z, z, ip->stiff->rho));
   PetscCall(VecScale(z, -1.0));
   PetscFunctionReturn(0);
 }
@@ -33,9 +37,9 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &transmitted));
-  PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, ip->at.c, c));
+  PetscCall(MatMultAdd(ip->jac->inequality, ip->dir.x, ip->at.c, c));
   PetscCall(PenaltyPairForce(tao, c, force));
-  PetscCall(MatMultTranspose(ip->jac.inequality, force, transmitted));
+  PetscCall(MatMultTranspose(ip->jac->inequality, force, transmitted));
   PetscCall(VecNorm(transmitted, NORM_2, norm));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &transmitted));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -59,7 +63,7 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Ad));
   PetscCall(VecNorm(ip->dir.x, NORM_2, &size));
   PetscCall(IPKrylovIndefinite(tao, &indefinite));
-  *convex = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->stiff.hscale * PetscSqr(size) && !indefinite);
+  *convex = (PetscBool)(PetscRealPart(curvature) > 1e-8 * ip->stiff->hscale * PetscSqr(size) && !indefinite);
   PetscFunctionReturn(0);
 }
 
@@ -71,11 +75,11 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
-  PetscCall(VecPointwiseMult(v, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(VecPointwiseMult(v, ip->stiff->rho, ip->pair[IP_SLACK].w));
   PetscCall(IPCondenseMatrix(tao, v));
   PetscCall(PenaltyPairForce(tao, ip->at.c, v));
   PetscCall(VecAXPBY(rhs, -1.0, 0.0, tao->gradient));
-  PetscCall(MatMultTransposeAdd(ip->jac.inequality, v, rhs, rhs));
+  PetscCall(MatMultTransposeAdd(ip->jac->inequality, v, rhs, rhs));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   PetscFunctionReturn(0);
 }
@@ -100,7 +104,7 @@ static PetscErrorCode PenaltyMinimize(Tao tao, PetscBool *usable)
     target *= IP_PREDICT_FORCING;
     PetscCall(IPLinearSolve(tao, rhs, ip->dir.x, target, usable));
     PetscCall(PenaltyTransmitted(tao, &force));
-    if (ip->lin.norm <= IP_PREDICT_FORCING * force || force == 0.0) break;
+    if (ip->lin->norm <= IP_PREDICT_FORCING * force || force == 0.0) break;
     target = force;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &rhs));
@@ -142,14 +146,14 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hd));
-  PetscCall(MatMult(ip->hess.H, ip->dir.x, Hd));
+  PetscCall(MatMult(ip->hess->H, ip->dir.x, Hd));
   PetscCall(IPQuasiNewtonAdd(tao, ip->dir.x, Hd));
   PetscCall(VecDot(Hd, ip->dir.x, &dHd));
   PetscCall(VecDot(tao->gradient, ip->dir.x, &gd));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hd));
   f = alpha * (PetscRealPart(gd) + 0.5 * alpha * PetscRealPart(dHd));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
-  PetscCall(MatMult(ip->jac.inequality, ip->dir.x, r));
+  PetscCall(MatMult(ip->jac->inequality, ip->dir.x, r));
   PetscCall(VecScale(r, alpha));
   PetscCall(VecNorm(r, NORM_2, &change));
   PetscCall(VecAXPY(r, 1.0, ip->at.c));

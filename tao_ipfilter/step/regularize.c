@@ -3,14 +3,22 @@
    must not meet negative curvature; otherwise a growing delta M_u is added to the Hessian.
 */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Next delta. The first in a step: the last one, reduced. Later ones grow, faster until one has worked */
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
 {
-  if (ip->shift.delta == 0.0)
-    return ip->shift.last > 0.0 ? PetscMax(IP_DELTA_SHRINK * ip->shift.last, PETSC_MACHINE_EPSILON * unit)
-                                : IP_DELTA_FIRST * unit;
-  return (ip->shift.last > 0.0 ? IP_DELTA_GROW : IP_DELTA_GROW_FIRST) * ip->shift.delta;
+  if (ip->shift->delta == 0.0)
+    return ip->shift->last > 0.0 ? PetscMax(IP_DELTA_SHRINK * ip->shift->last, PETSC_MACHINE_EPSILON * unit)
+                                 : IP_DELTA_FIRST * unit;
+  return (ip->shift->last > 0.0 ? IP_DELTA_GROW : IP_DELTA_GROW_FIRST) * ip->shift->delta;
 }
 
 /* Unit of delta: typical diagonal entry of H / typical mass */
@@ -22,12 +30,12 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
 
   PetscFunctionBegin;
   *unit = 1.0;
-  if (ip->opt.scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
-  if (ip->given.primal_mass) {
-    PetscCall(VecSum(ip->given.primal_mass, &mass));
-    PetscCall(VecGetSize(ip->given.primal_mass, &n));
+  if (ip->opt->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
+  if (ip->given->primal_mass) {
+    PetscCall(VecSum(ip->given->primal_mass, &mass));
+    PetscCall(VecGetSize(ip->given->primal_mass, &n));
   }
-  *unit = ip->stiff.hscale / (PetscRealPart(mass) / n);
+  *unit = ip->stiff->hscale / (PetscRealPart(mass) / n);
   PetscFunctionReturn(0);
 }
 
@@ -39,19 +47,19 @@ PetscErrorCode IPRegularizeMore(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
-  ip->shift.delta = NextDelta(ip, unit);
-  ip->rec.nretried++;
+  ip->shift->delta = NextDelta(ip, unit);
+  ip->rec->nretried++;
   PetscFunctionReturn(0);
 }
 
 /* Records that a step was taken with delta */
 void IPRegularized(TAO_IPFILTER *ip)
 {
-  if (ip->shift.delta == 0.0) return;
-  ip->shift.last        = ip->shift.delta;
-  ip->rec.delta_largest = PetscMax(ip->rec.delta_largest, ip->shift.delta);
-  ip->rec.nregularized++;
-  ip->bar.curved = PETSC_TRUE;
+  if (ip->shift->delta == 0.0) return;
+  ip->shift->last        = ip->shift->delta;
+  ip->rec->delta_largest = PetscMax(ip->rec->delta_largest, ip->shift->delta);
+  ip->rec->nregularized++;
+  ip->bar->curved = PETSC_TRUE;
 }
 
 /* least: smallest shift for which all diagonal entries of A are positive; below it A is not positive definite and no
@@ -64,13 +72,13 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &diagonal));
-  PetscCall(MatGetDiagonal(ip->cond.A, diagonal));
+  PetscCall(MatGetDiagonal(ip->cond->A, diagonal));
   PetscCall(VecNorm(diagonal, NORM_2, &size));
   if (PetscIsInfOrNanReal(size)) PetscCall(IPResidualNotANumber(tao));
-  if (ip->given.primal_mass) PetscCall(VecPointwiseDivide(diagonal, diagonal, ip->given.primal_mass));
+  if (ip->given->primal_mass) PetscCall(VecPointwiseDivide(diagonal, diagonal, ip->given->primal_mass));
   PetscCall(VecMin(diagonal, NULL, &smallest));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
-  *least = ip->shift.delta - smallest;
+  *least = ip->shift->delta - smallest;
   PetscFunctionReturn(0);
 }
 
@@ -84,20 +92,20 @@ PetscErrorCode IPRegularize(Tao tao, PetscReal          first, PetscErrorCode (*
 
   PetscFunctionBegin;
   PetscCall(DeltaUnit(tao, &unit));
-  *ok             = PETSC_FALSE;
-  ip->shift.delta = first * unit;
-  ip->lin.failed  = PETSC_FALSE;
-  while (ip->shift.delta <= ip->opt.delta_max * unit) {
+  *ok              = PETSC_FALSE;
+  ip->shift->delta = first * unit;
+  ip->lin->failed  = PETSC_FALSE;
+  while (ip->shift->delta <= ip->opt->delta_max * unit) {
     PetscCall((*assemble)(tao));
-    if (least == PETSC_NINFINITY && (!ip->me || ip->prox.condensed)) PetscCall(LeastDelta(tao, &least));
-    if (ip->lin.failed) break;
-    if (ip->shift.delta > least) {
+    if (least == PETSC_NINFINITY && (!ip->me || ip->prox->condensed)) PetscCall(LeastDelta(tao, &least));
+    if (ip->lin->failed) break;
+    if (ip->shift->delta > least) {
       PetscCall((*solve)(tao, ok));
-      if (*ok || ip->lin.failed) break;
-      ip->rec.nretried++;
+      if (*ok || ip->lin->failed) break;
+      ip->rec->nretried++;
     }
-    do ip->shift.delta = NextDelta(ip, unit);
-    while (ip->shift.delta <= least);
+    do ip->shift->delta = NextDelta(ip, unit);
+    while (ip->shift->delta <= least);
   }
   PetscFunctionReturn(0);
 }

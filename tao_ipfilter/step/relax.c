@@ -5,6 +5,13 @@
    3.5, relax all problems from the start, and by more).
 */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/sizes.h"
 
 #define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier is large if it exceeds the one that balances the gradient by this factor */
@@ -23,7 +30,7 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
     PetscCall(IPSidesUpdateWidth(tao));
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
   }
-  if (ip->relax.unknowns > 0.0) {
+  if (ip->relax->unknowns > 0.0) {
     PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
     PetscCall(IPBoundsCenter(tao));
   }
@@ -33,7 +40,7 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
 /* Multiplier of one constraint that balances the objective's gradient, now or at the start */
 static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
 {
-  return PetscMax(ip->scale.balance, ip->first.pressure);
+  return PetscMax(ip->scale->balance, ip->first->pressure);
 }
 
 /* Whether the smallest slack is of rounding size and its multiplier is larger than one that balances the gradient */
@@ -41,8 +48,9 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
   const PetscReal larger = 10.0;
 
-  if (!ip->mi || ip->relax.least_slack > IP_LEAST_SLACK * ip->scale.length) return PETSC_FALSE;
-  return (PetscBool)(ip->opt.scaling == IP_SCALING_NONE || ip->mu > larger * ip->relax.least_slack * RelaxBalance(ip));
+  if (!ip->mi || ip->relax->least_slack > IP_LEAST_SLACK * ip->scale->length) return PETSC_FALSE;
+  return (
+    PetscBool)(ip->opt->scaling == IP_SCALING_NONE || ip->mu > larger * ip->relax->least_slack * RelaxBalance(ip));
 }
 
 /* vanished: constraints have no interior. Either a slack is of rounding size (RelaxRounding()). Or mu does not fall,
@@ -58,11 +66,11 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 
   PetscFunctionBegin;
   *vanished = RelaxRounding(ip);
-  if (*vanished || ip->opt.scaling == IP_SCALING_NONE || ip->kkt.primal > met) PetscFunctionReturn(0);
-  if (ip->mi) *vanished = (PetscBool)(ip->mu > IP_RELAX_LARGE * ip->relax.least_slack * RelaxBalance(ip));
+  if (*vanished || ip->opt->scaling == IP_SCALING_NONE || ip->kkt->primal > met) PetscFunctionReturn(0);
+  if (ip->mi) *vanished = (PetscBool)(ip->mu > IP_RELAX_LARGE * ip->relax->least_slack * RelaxBalance(ip));
   if (*vanished || !ip->me) PetscFunctionReturn(0);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  if (!(ip->mu > IP_RELAX_LARGE * ip->relax.least_bound * gradient)) PetscFunctionReturn(0);
+  if (!(ip->mu > IP_RELAX_LARGE * ip->relax->least_bound * gradient)) PetscFunctionReturn(0);
   PetscCall(IPCancellation(tao, &times));
   *vanished = (PetscBool)(times > IP_RELAX_LARGE);
   PetscFunctionReturn(0);
@@ -76,24 +84,24 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   Vec           r;
 
   PetscFunctionBegin;
-  if (ip->mi && !ip->relax.times) {
-    PetscCall(IPOwnActiveSize(tao, &ip->relax.size));
-    ip->relax.size = PetscMax(ip->relax.size, ip->first.length);
-    if (!(ip->relax.size > 0.0)) ip->relax.size = ip->scale.length;
+  if (ip->mi && !ip->relax->times) {
+    PetscCall(IPOwnActiveSize(tao, &ip->relax->size));
+    ip->relax->size = PetscMax(ip->relax->size, ip->first->length);
+    if (!(ip->relax->size > 0.0)) ip->relax->size = ip->scale->length;
   }
-  ip->relax.by = ip->relax.told = fraction * ip->tol * ip->relax.size;
+  ip->relax->by = ip->relax->told = fraction * ip->tol * ip->relax->size;
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
-    PetscCall(VecSet(r, ip->relax.by));
-    PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, r, &ip->relax.told));
+    PetscCall(VecSet(r, ip->relax->by));
+    PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, r, &ip->relax->told));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &r));
   }
   if (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-    ip->relax.unknowns = fraction * ip->tol * size;
-    ip->relax.told     = PetscMax(ip->relax.told, ip->relax.unknowns);
+    ip->relax->unknowns = fraction * ip->tol * size;
+    ip->relax->told     = PetscMax(ip->relax->told, ip->relax->unknowns);
   }
-  ip->relax.times++;
+  ip->relax->times++;
   PetscFunctionReturn(0);
 }
 
@@ -102,21 +110,21 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal before = ip->relax.by;
+  const PetscReal before = ip->relax->by;
   PetscReal       limit  = PETSC_INFINITY, gradient;
 
   PetscFunctionBegin;
   PetscCall(RelaxChoose(tao, fraction));
-  PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax.told));
-  if (ip->mi) limit = ip->relax.by * ip->scale.balance;
-  if (ip->relax.unknowns > 0.0) {
+  PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax->told));
+  if (ip->mi) limit = ip->relax->by * ip->scale->balance;
+  if (ip->relax->unknowns > 0.0) {
     PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-    limit = PetscMin(limit, ip->relax.unknowns * gradient);
+    limit = PetscMin(limit, ip->relax->unknowns * gradient);
   }
   ip->mu = PetscMax(IPErrorBoundLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * limit));
-  PetscCall(RelaxCenter(tao, ip->relax.by - before));
-  PetscCall(IPFilterSetReset(&ip->filter));
-  ip->rec.best_error = ip->rec.best_violation = PETSC_INFINITY;
+  PetscCall(RelaxCenter(tao, ip->relax->by - before));
+  PetscCall(IPFilterSetReset(ip->filter));
+  ip->rec->best_error = ip->rec->best_violation = PETSC_INFINITY;
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);
 }
@@ -135,10 +143,10 @@ PetscErrorCode IPRelax(Tao tao)
   PetscBool      vanished;
 
   PetscFunctionBegin;
-  if (!RelaxApplies(ip) || ip->relax.times || ip->bar.free) PetscFunctionReturn(0);
+  if (!RelaxApplies(ip) || ip->relax->times || ip->bar->free) PetscFunctionReturn(0);
   PetscCall(RelaxVanished(tao, &vanished));
-  ip->relax.nvanished = vanished ? ip->relax.nvanished + 1 : 0;
-  if (ip->relax.nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
+  ip->relax->nvanished = vanished ? ip->relax->nvanished + 1 : 0;
+  if (ip->relax->nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }
 
@@ -149,7 +157,7 @@ PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 
   PetscFunctionBegin;
   *relaxed = PETSC_FALSE;
-  if (RelaxApplies(ip) && ip->relax.times < 2) PetscCall(RelaxVanished(tao, relaxed));
-  if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax.times ? 1.0 : IP_RELAX_FIRST));
+  if (RelaxApplies(ip) && ip->relax->times < 2) PetscCall(RelaxVanished(tao, relaxed));
+  if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax->times ? 1.0 : IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }

@@ -8,6 +8,15 @@
    the violated rows, and the augmented one with delta = zeta/w^2, so that the same solvers can be used.
 */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 #define IP_RESTORE_MAX    200  /* steps */
 #define IP_RESTORE_METRIC 0.1  /* smallest delta in the metric, in its unit, for Hessians without curvature */
@@ -31,7 +40,7 @@ static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
   }
   if (ip->me) PetscCall(VecNorm(it->ce, NORM_2, &equality));
-  *psi = 0.5 * (square + PetscSqr(ip->search.equality_weight * equality));
+  *psi = 0.5 * (square + PetscSqr(ip->search->equality_weight * equality));
   PetscFunctionReturn(0);
 }
 
@@ -47,13 +56,13 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(IPSlackViolation(tao, ip->at.c, force));
     PetscCall(VecPointwiseMult(force, force, ip->pair[IP_SLACK].w));
-    PetscCall(MatMultTranspose(ip->jac.inequality, force, g));
+    PetscCall(MatMultTranspose(ip->jac->inequality, force, g));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
   if (ip->me) {
     PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
-    PetscCall(VecAXPBY(force, PetscSqr(ip->search.equality_weight), 0.0, ip->at.ce));
-    PetscCall(MatMultTransposeAdd(ip->jac.equality, force, g, g));
+    PetscCall(VecAXPBY(force, PetscSqr(ip->search->equality_weight), 0.0, ip->at.ce));
+    PetscCall(MatMultTransposeAdd(ip->jac->equality, force, g, g));
     PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &force));
   }
   PetscFunctionReturn(0);
@@ -63,14 +72,14 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
 static PetscErrorCode RestoreAssemble(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
-  Vec                D  = ip->restore.D, violation;
+  Vec                D  = ip->restore->D, violation;
   const PetscScalar *v;
   PetscScalar       *d;
   PetscInt           n;
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(VecAXPBY(D, 1.0 / ip->restore.zeta, 0.0, ip->pair[IP_SLACK].w));
+    PetscCall(VecAXPBY(D, 1.0 / ip->restore->zeta, 0.0, ip->pair[IP_SLACK].w));
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
     PetscCall(IPSlackViolation(tao, ip->at.c, violation));
     PetscCall(VecGetLocalSize(violation, &n));
@@ -82,8 +91,8 @@ static PetscErrorCode RestoreAssemble(Tao tao)
     PetscCall(VecRestoreArrayRead(violation, &v));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
   }
-  ip->aug.delta    = ip->me ? ip->restore.zeta / PetscSqr(ip->search.equality_weight) : 0.0;
-  ip->aug.centered = PETSC_FALSE;
+  ip->aug->delta    = ip->me ? ip->restore->zeta / PetscSqr(ip->search->equality_weight) : 0.0;
+  ip->aug->centered = PETSC_FALSE;
   PetscCall(IPCondenseMatrix(tao, D));
   PetscFunctionReturn(0);
 }
@@ -99,9 +108,9 @@ static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
     PetscCall(IPSlackViolation(tao, ip->at.c, force));
-    PetscCall(VecPointwiseMult(force, ip->restore.D, force));
+    PetscCall(VecPointwiseMult(force, ip->restore->D, force));
     PetscCall(VecScale(force, -1.0));
-    PetscCall(MatMultTranspose(ip->jac.inequality, force, rhs));
+    PetscCall(MatMultTranspose(ip->jac->inequality, force, rhs));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   }
   PetscCall(IPBoundsAddForces(tao, rhs));
@@ -153,9 +162,9 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(RestoreViolation(tao, &ip->trial, &trial));
     if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
-    if (k > max_halvings_of_a_fair_model) ip->restore.zeta *= 10.0;
-    else if (k == 1) ip->restore.zeta *= 3.0;
-    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope - rounding) ip->restore.zeta *= 0.1;
+    if (k > max_halvings_of_a_fair_model) ip->restore->zeta *= 10.0;
+    else if (k == 1) ip->restore->zeta *= 3.0;
+    else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope - rounding) ip->restore->zeta *= 0.1;
     *psi = trial;
     PetscFunctionReturn(0);
   }
@@ -192,7 +201,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
-  PetscCall(VecGetArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecGetArrayRead(ip->stiff->rho, &rho));
   PetscCall(VecGetArray(ip->trial.s, &s));
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal central = PetscMin(limit, PetscSqrtReal(ip->mu / PetscRealPart(rho[i])));
@@ -201,7 +210,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
     else s[i] = PetscMin(PetscRealPart(s[i]), central);
   }
   PetscCall(VecRestoreArray(ip->trial.s, &s));
-  PetscCall(VecRestoreArrayRead(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArrayRead(ip->stiff->rho, &rho));
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscFunctionReturn(0);
 }
@@ -223,7 +232,7 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_TRUE));
   PetscCall(IPMeritMeasureTrial(tao, &theta, &phi));
   *accepted = (PetscBool)(theta <= reduction * theta0);
-  if (*accepted) PetscCall(IPFilterSetAccepts(&ip->filter, theta, phi, accepted));
+  if (*accepted) PetscCall(IPFilterSetAccepts(ip->filter, theta, phi, accepted));
   PetscFunctionReturn(0);
 }
 
@@ -239,8 +248,8 @@ static PetscErrorCode RestoreLeave(Tao tao)
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
   }
   if (ip->me) PetscCall(IPEqualityMultipliers(tao));
-  ip->bar.nerrors       = 0;
-  ip->relax.least_slack = ip->relax.least_bound = PETSC_INFINITY;
+  ip->bar->nerrors       = 0;
+  ip->relax->least_slack = ip->relax->least_bound = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -258,7 +267,7 @@ static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
   PetscCall(VecNorm(diagonal, NORM_1, &size));
   PetscCall(VecGetSize(diagonal, &n));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
-  *growth = PetscMax(size / n / ip->stiff.hscale, 1.0);
+  *growth = PetscMax(size / n / ip->stiff->hscale, 1.0);
   PetscFunctionReturn(0);
 }
 
@@ -283,15 +292,15 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
 
   PetscFunctionBegin;
   if (ip->mi) {
-    PetscCall(VecMax(ip->stiff.rho, NULL, &rho));
-    ip->restore.zeta = 1.0 / rho;
-  } else ip->restore.zeta = PetscSqr(ip->search.equality_weight * ip->scale.equality) / ip->scale.product;
+    PetscCall(VecMax(ip->stiff->rho, NULL, &rho));
+    ip->restore->zeta = 1.0 / rho;
+  } else ip->restore->zeta = PetscSqr(ip->search->equality_weight * ip->scale->equality) / ip->scale->product;
   PetscCall(RestoreMetricGrowth(tao, &growth));
   if (growth > IP_RESTORE_DROWNED) {
     PetscCall(RestoreForgetMultipliers(tao));
     PetscCall(RestoreMetricGrowth(tao, &growth));
   }
-  ip->restore.zeta /= growth;
+  ip->restore->zeta /= growth;
   PetscFunctionReturn(0);
 }
 
@@ -344,14 +353,14 @@ static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
   PetscFunctionBegin;
   if (ip->mi) {
     PetscCall(VecMax(ip->pair[IP_SLACK].w, NULL, &w));
-    PetscCall(MatNorm(ip->jac.inequality, NORM_FROBENIUS, &j));
-    j = PetscMax(j, ip->first.jacobian);
+    PetscCall(MatNorm(ip->jac->inequality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first->jacobian);
   }
   *size = PetscSqrtReal(w) * j;
   if (ip->me) {
-    PetscCall(MatNorm(ip->jac.equality, NORM_FROBENIUS, &j));
-    j = PetscMax(j, ip->first.equality_jacobian);
-    *size += ip->search.equality_weight * j;
+    PetscCall(MatNorm(ip->jac->equality, NORM_FROBENIUS, &j));
+    j = PetscMax(j, ip->first->equality_jacobian);
+    *size += ip->search->equality_weight * j;
   }
   PetscFunctionReturn(0);
 }
@@ -416,7 +425,7 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 
     PetscCall(RestoreStep(tao, size, psi, &alpha, &gradient, &descent));
     PetscCall(PetscInfo(tao, "Restoration %" PetscInt_FMT ": violation %g, gradient %g, step %g, zeta %g\n", k,
-      (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore.zeta));
+      (double)PetscSqrtReal(2.0 * *psi), (double)gradient, (double)alpha, (double)ip->restore->zeta));
     falls = (PetscBool)(*psi < (1.0 - no_change) * before);
     if (falls) {
       idle   = 0;
@@ -424,7 +433,7 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
     } else if (gradient <= IP_RESTORE_LEAST) idle = patience;
     else if (gradient <= IP_RESTORE_SMALL || gradient > falling * *least) idle++;
     *least = PetscMin(*least, gradient);
-    if (alpha == 0.0) ip->restore.zeta *= descent ? 10.0 : 0.1;
+    if (alpha == 0.0) ip->restore->zeta *= descent ? 10.0 : 0.1;
     if (alpha == 0.0) continue;
     PetscCall(RestoreTakeTrial(tao));
     PetscCall(RestoreAccepts(tao, theta0, ok));
@@ -440,21 +449,21 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  PetscReal     theta0 = ip->search.theta, psi, least = 0.0;
+  PetscReal     theta0 = ip->search->theta, psi, least = 0.0;
   PetscBool     stuck = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPMeritFilterAdd(tao));
   *ok = PETSC_FALSE;
-  ip->rec.nrestored++;
+  ip->rec->nrestored++;
   PetscCall(RestoreFirstZeta(tao));
   PetscCall(RestoreViolation(tao, &ip->at, &psi));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore->D));
   PetscCall(RestoreAccepts(tao, theta0, ok)); /* possibly only the slacks are far from the constraints' values */
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore.D));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore->D));
   *infeasible =
-    (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search.theta_ref);
+    (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search->theta_ref);
   PetscCall(IPBoundsCenter(tao));
   if (*ok) PetscCall(RestoreLeave(tao));
   PetscFunctionReturn(0);

@@ -1,5 +1,12 @@
 /* Initial values of slacks and multipliers. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 #define IP_LEAST_START 1e-10 /* initial gap of the pairs, relative to the terms of the objective */
 
@@ -9,10 +16,10 @@ static PetscErrorCode StartCold(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->mu = ip->opt.mu0 * ip->first.unit;
+  ip->mu = ip->opt->mu0 * ip->first->unit;
   if (ip->mi) {
-    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt.s0));
-    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt.z0 * ip->first.unit));
+    PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt->s0));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt->z0 * ip->first->unit));
     PetscCall(IPSlackKeepInside(tao, ip->at.s, 0.5));
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
     PetscCall(VecSet(ip->at.lambda, 0.0));
@@ -32,7 +39,7 @@ static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &weight));
   PetscCall(IPValuesWithinReach(tao, q, q2));
   PetscCall(VecPointwiseMult(q2, q2, q2));
-  PetscCall(VecPointwiseMult(weight, ip->stiff.rho, ip->pair[IP_SLACK].w));
+  PetscCall(VecPointwiseMult(weight, ip->stiff->rho, ip->pair[IP_SLACK].w));
   PetscCall(VecDot(q2, weight, &sum));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &weight));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &q2));
@@ -80,7 +87,7 @@ static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &terms));
   PetscCall(VecCopy(tao->gradient, size));
   PetscCall(VecAbs(size));
-  PetscCall(IPOwnTerms(ip->jac.inequality, size, terms, NULL));
+  PetscCall(IPOwnTerms(ip->jac->inequality, size, terms, NULL));
   PetscCall(VecDot(terms, ip->pair[IP_SLACK].w, &balanced));
   PetscCall(VecDot(size, size, &gradient));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &terms));
@@ -100,12 +107,12 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
   PetscFunctionBegin;
   if (!(*length > 0.0)) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &terms));
-    PetscCall(IPOwnTerms(ip->jac.inequality, tao->solution, terms, NULL));
+    PetscCall(IPOwnTerms(ip->jac->inequality, tao->solution, terms, NULL));
     PetscCall(MeanMagnitude(tao, terms, length));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &terms));
     *length *= part;
   }
-  if (ip->first.pressure > 0.0 && *length > 0.0) PetscCall(VecSet(ip->stiff.rho, ip->first.pressure / *length));
+  if (ip->first->pressure > 0.0 && *length > 0.0) PetscCall(VecSet(ip->stiff->rho, ip->first->pressure / *length));
   PetscFunctionReturn(0);
 }
 
@@ -123,7 +130,7 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(tao->solution, &n));
   PetscCall(VecGetArrayRead(tao->gradient, &g));
-  PetscCall(VecGetArrayRead(ip->stiff.hdiag, &h));
+  PetscCall(VecGetArrayRead(ip->stiff->hdiag, &h));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecGetArrayRead(ip->pair[b].t, &t));
@@ -137,7 +144,7 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
     }
     PetscCall(VecRestoreArrayRead(ip->pair[b].t, &t));
   }
-  PetscCall(VecRestoreArrayRead(ip->stiff.hdiag, &h));
+  PetscCall(VecRestoreArrayRead(ip->stiff->hdiag, &h));
   PetscCall(VecRestoreArrayRead(tao->gradient, &g));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
   *bound = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
@@ -149,15 +156,15 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
 static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal size = PetscMax(length, ip->first.length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
+  const PetscReal size = PetscMax(length, ip->first->length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
   PetscScalar    *rho;
   PetscInt        n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(ip->stiff.rho, &n));
-  PetscCall(VecGetArray(ip->stiff.rho, &rho));
+  PetscCall(VecGetLocalSize(ip->stiff->rho, &n));
+  PetscCall(VecGetArray(ip->stiff->rho, &rho));
   for (PetscInt i = 0; i < n; i++) rho[i] = PetscMax(PetscRealPart(rho[i]), least);
-  PetscCall(VecRestoreArray(ip->stiff.rho, &rho));
+  PetscCall(VecRestoreArray(ip->stiff->rho, &rho));
   PetscFunctionReturn(0);
 }
 
@@ -172,9 +179,9 @@ static PetscErrorCode StartPredicted(Tao tao)
   Vec           z;
 
   PetscFunctionBegin;
-  if (!ip->stiff.flat) PetscCall(IPPenaltyStep(tao, &moved));
+  if (!ip->stiff->flat) PetscCall(IPPenaltyStep(tao, &moved));
   PetscCall(MeanLength(tao, &length));
-  PetscCall(GradientPressure(tao, &ip->first.pressure));
+  PetscCall(GradientPressure(tao, &ip->first->pressure));
   if (moved) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));
     PetscCall(IPPenaltyPressure(tao, ip->at.c, z));
@@ -182,7 +189,7 @@ static PetscErrorCode StartPredicted(Tao tao)
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &z));
   } else {
     PetscCall(GradientStiffness(tao, &length));
-    pressure = ip->first.pressure;
+    pressure = ip->first->pressure;
   }
   PetscCall(MeanProduct(tao, ip->at.c, &mean));
   ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
@@ -193,7 +200,7 @@ static PetscErrorCode StartPredicted(Tao tao)
     ip->mu = IP_PREDICT_MU * bound;
     PetscCall(StiffenForBarrier(tao, length));
   }
-  if (!(ip->mu > 0.0)) ip->mu = ip->opt.mu0;
+  if (!(ip->mu > 0.0)) ip->mu = ip->opt->mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
   PetscFunctionReturn(0);
@@ -238,7 +245,7 @@ static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
   if (!(PetscMin(PetscMin(least_s, least_upper), least_z) > 0.0)) PetscFunctionReturn(0);
   PetscCall(IPBarrierAverage(tao, &ip->mu));
   PetscCall(IPComputeKKT(tao));
-  *solves = (PetscBool)(ip->kkt.error <= nearly * ip->tol);
+  *solves = (PetscBool)(ip->kkt->error <= nearly * ip->tol);
   PetscFunctionReturn(0);
 }
 
@@ -253,8 +260,8 @@ static PetscErrorCode StartWarm(Tao tao)
   Vec           q;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(ip->given.warm_s, slack->t));
-  PetscCall(VecCopy(ip->given.warm_z, slack->z));
+  PetscCall(VecCopy(ip->given->warm_s, slack->t));
+  PetscCall(VecCopy(ip->given->warm_z, slack->z));
   PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
   PetscCall(IPSidesTakePairs(tao));
   if (IPWarmBounds(ip)) PetscCall(IPWarmSetBounds(tao));
@@ -264,7 +271,7 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q));
-  PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff.rho));
+  PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff->rho));
   PetscCall(VecAYPX(q, -1.0, slack->t));
   PetscCall(MeanProduct(tao, q, &mean));
   ip->mu = PetscMax(average, mismatch * IP_WARM_MU * (mean > 0.0 ? mean : 1.0));
@@ -297,13 +304,13 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt.start != IP_START_COLD)
+  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt->start != IP_START_COLD)
     PetscCall(IPFreeStep(tao, &moved, &mean));
   if (moved) ip->mu = IP_PREDICT_MU * mean;
-  else if (!ip->mi && ip->opt.scaling == IP_SCALING_PROBLEM && ip->opt.start != IP_START_COLD) {
+  else if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
-    ip->mu = IP_PREDICT_MU * (mean > 0.0 && !ip->stiff.flat ? mean : ip->stiff.hscale * (x > 0.0 ? x * x : 1.0));
+    ip->mu = IP_PREDICT_MU * (mean > 0.0 && !ip->stiff->flat ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);
@@ -317,13 +324,13 @@ static PetscErrorCode StartCurvature(Tao tao)
   PetscInt      n;
 
   PetscFunctionBegin;
-  if (!ip->stiff.flat || (!ip->mi && !ip->me)) PetscFunctionReturn(0);
+  if (!ip->stiff->flat || (!ip->mi && !ip->me)) PetscFunctionReturn(0);
   PetscCall(IPSetMultipliers(tao));
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPStiffnessUpdate(tao));
-  PetscCall(VecSum(ip->stiff.hdiag, &sum));
-  PetscCall(VecGetSize(ip->stiff.hdiag, &n));
-  if (PetscRealPart(sum) > 0.0) ip->stiff.hscale = PetscRealPart(sum) / n;
+  PetscCall(VecSum(ip->stiff->hdiag, &sum));
+  PetscCall(VecGetSize(ip->stiff->hdiag, &n));
+  if (PetscRealPart(sum) > 0.0) ip->stiff->hscale = PetscRealPart(sum) / n;
   PetscFunctionReturn(0);
 }
 
@@ -338,15 +345,15 @@ PetscErrorCode IPStartPoint(Tao tao)
     if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
   if (IPWarmEquality(ip)) PetscCall(IPWarmSetEquality(tao));
   if (!ip->mi && IPWarmBounds(ip)) PetscCall(StartWarmBounds(tao));
-  else if (ip->opt.start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
-  else if (ip->opt.start == IP_START_WARM && ip->given.warm_s) PetscCall(StartWarm(tao));
+  else if (ip->opt->start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
+  else if (ip->opt->start == IP_START_WARM && ip->given->warm_s) PetscCall(StartWarm(tao));
   else PetscCall(StartPredicted(tao));
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
   if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
   PetscCall(StartCurvature(tao));
-  PetscCall(IPBarrierAverage(tao, &ip->bar.first));
-  ip->bar.first = PetscMax(ip->bar.first, ip->mu);
+  PetscCall(IPBarrierAverage(tao, &ip->bar->first));
+  ip->bar->first = PetscMax(ip->bar->first, ip->mu);
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,9 @@
 /* Warm start from the caller's multipliers of bounds and equality constraints, so that a solved problem ends at
    once. */
 #include "stepimpl.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* Copies the multipliers of the bounds into the pairs, divided by the weights */
 PetscErrorCode IPWarmSetBounds(Tao tao)
@@ -10,7 +13,7 @@ PetscErrorCode IPWarmSetBounds(Tao tao)
   PetscFunctionBegin;
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     IPPair *p     = &ip->pair[b];
-    Vec     given = b == IP_LOWER ? ip->given.warm_lower : ip->given.warm_upper;
+    Vec     given = b == IP_LOWER ? ip->given->warm_lower : ip->given->warm_upper;
 
     if (!p->n || !given) continue;
     PetscCall(VecPointwiseDivide(p->z, given, p->w));
@@ -22,10 +25,10 @@ PetscErrorCode IPWarmSetBounds(Tao tao)
 /* Whether multipliers of all equality constraints are given, including rows with equal bounds */
 PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
 {
-  const PetscBool own = (PetscBool)(ip->me > ip->sides.nall);
+  const PetscBool own = (PetscBool)(ip->me > ip->sides->nall);
 
-  return (PetscBool)(ip->me && ip->opt.start == IP_START_WARM && (!own || ip->given.warm_y) &&
-                     (!ip->sides.nall || ip->given.warm_s));
+  return (PetscBool)(ip->me && ip->opt->start == IP_START_WARM && (!own || ip->given->warm_y) &&
+                     (!ip->sides->nall || ip->given->warm_s));
 }
 
 /* Those multipliers */
@@ -34,9 +37,9 @@ PetscErrorCode IPWarmSetEquality(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->me > ip->sides.nall) PetscCall(IPSidesEquality(ip->given.warm_y, ip->at.y, PETSC_FALSE));
-  if (ip->sides.nall) PetscCall(IPSidesTakeEquality(tao, ip->given.warm_z, ip->at.y));
-  if (ip->rows.equality) PetscCall(VecPointwiseDivide(ip->at.y, ip->at.y, ip->rows.equality));
+  if (ip->me > ip->sides->nall) PetscCall(IPSidesEquality(ip->given->warm_y, ip->at.y, PETSC_FALSE));
+  if (ip->sides->nall) PetscCall(IPSidesTakeEquality(tao, ip->given->warm_z, ip->at.y));
+  if (ip->rows->equality) PetscCall(VecPointwiseDivide(ip->at.y, ip->at.y, ip->rows->equality));
   PetscFunctionReturn(0);
 }
 
@@ -81,7 +84,7 @@ static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBoo
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(p->t, &n));
-  PetscCall(VecGetArrayRead(((TAO_IPFILTER *)tao->data)->stiff.hdiag, &rho));
+  PetscCall(VecGetArrayRead(((TAO_IPFILTER *)tao->data)->stiff->hdiag, &rho));
   PetscCall(VecGetArrayRead(p->w, &w));
   PetscCall(VecGetArray(tao->solution, &x));
   PetscCall(VecGetArray(p->t, &t));
@@ -101,7 +104,7 @@ static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBoo
   PetscCall(VecRestoreArray(p->t, &t));
   PetscCall(VecRestoreArray(tao->solution, &x));
   PetscCall(VecRestoreArrayRead(p->w, &w));
-  PetscCall(VecRestoreArrayRead(((TAO_IPFILTER *)tao->data)->stiff.hdiag, &rho));
+  PetscCall(VecRestoreArrayRead(((TAO_IPFILTER *)tao->data)->stiff->hdiag, &rho));
   PetscFunctionReturn(0);
 }
 

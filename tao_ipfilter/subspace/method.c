@@ -12,6 +12,15 @@
    nothing. P is reused in later solves with the same K, for any constraints and loads.
 */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Whether the Krylov method's preconditioner is one for K alone: AMG without filter, or a factorization that serves
    all solves */
@@ -31,19 +40,19 @@ static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *facto
 static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
-  const IPOptions *opt = &ip->opt;
+  const IPOptions *opt = ip->opt;
   IPFiltered      *f   = IPFilteredOf(tao);
   PetscBool        amg, factored;
 
   PetscFunctionBegin;
-  f->newton = (PetscBool)(ip->method.linear && !ip->method.constant);
+  f->newton = (PetscBool)(ip->method->linear && !ip->method->constant);
   *applies =
-    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms.n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
-                !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn.B && !ip->hess.products);
-  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms.n) PetscFunctionReturn(0);
+    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms->n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
+                !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B && !ip->hess->products);
+  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n) PetscFunctionReturn(0);
   PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
-  if (!ip->method.linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
+  if (!ip->method->linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
     *applies = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -54,13 +63,13 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const IS      filter = ip->cond.filter;
+  const IS      filter = ip->cond->filter;
   PetscBool     same   = PETSC_FALSE;
   PetscInt      n      = 1;
   IS            rest, all;
 
   PetscFunctionBegin;
-  if (!IPFilteredOf(tao)->newton && !ip->terms.n) PetscCall(IPReducedIsOf(before, ip->hess.H, &same));
+  if (!IPFilteredOf(tao)->newton && !ip->terms->n) PetscCall(IPReducedIsOf(before, ip->hess->H, &same));
   if (same) {
     PetscCall(ISDifference(filter, before->W, &rest));
     PetscCall(ISGetSize(rest, &n));
@@ -71,9 +80,9 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
     *W = before->W;
     PetscFunctionReturn(0);
   }
-  PetscCall(IPSubspaceGrow(tao, ip->hess.H, filter, W));
+  PetscCall(IPSubspaceGrow(tao, ip->hess->H, filter, W));
   PetscCall(ISGetSize(*W, &n));
-  if (n > most || IPFilteredOf(tao)->newton || ip->terms.n) {
+  if (n > most || IPFilteredOf(tao)->newton || ip->terms->n) {
     PetscCall(ISDestroy(W));
     PetscCall(PetscObjectReference((PetscObject)filter));
     *W = filter;
@@ -99,10 +108,11 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *t
   PetscCall(IPRowsTake(tao));
   PetscCall(IPSubspaceUpdate(tao));
   PetscCall(VecGetSize(tao->solution, &n));
-  PetscCall(ISGetSize(ip->cond.filter, &touched));
-  *thin = (PetscBool)(touched > 0 && (ip->opt.subspace == IP_SUBSPACE_TRUE || ip->terms.n || touched <= fraction * n));
+  PetscCall(ISGetSize(ip->cond->filter, &touched));
+  *thin =
+    (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  if (*thin && ip->terms.n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
+  if (*thin && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
   else if (*thin) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
@@ -131,7 +141,7 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
-  PetscCall(VecPointwiseMult(Hx, ip->stiff.hdiag, tao->solution));
+  PetscCall(VecPointwiseMult(Hx, ip->stiff->hdiag, tao->solution));
   PetscCall(VecDot(Hx, tao->solution, &terms));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
   *rounding = eps * (PetscRealPart(terms) + PetscAbsReal(ip->at.f));
@@ -146,7 +156,7 @@ static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
   PetscReal       row, size;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(((TAO_IPFILTER *)tao->data)->jac.inequality, NORM_INFINITY, &row));
+  PetscCall(MatNorm(((TAO_IPFILTER *)tao->data)->jac->inequality, NORM_INFINITY, &row));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
   *rounding = eps * row * size;
   PetscFunctionReturn(0);
@@ -168,7 +178,7 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   error      = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
   *quadratic = (PetscBool)(error <= tolerance * (PetscAbsScalar(work[0]) + PetscAbsScalar(work[1])) + rounding);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &expected));
-  PetscCall(MatMultAdd(ip->jac.inequality, v, c_centre, expected));
+  PetscCall(MatMultAdd(ip->jac->inequality, v, c_centre, expected));
   PetscCall(VecNorm(expected, NORM_INFINITY, &size[0]));
   PetscCall(VecNorm(c_centre, NORM_INFINITY, &size[1]));
   PetscCall(VecAXPY(expected, -1.0, ip->at.c));
@@ -267,7 +277,7 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
                        (!IPFilteredOf(tao)->reduced->met ||
-                         PetscMax(ip->kkt.primal, ip->kkt.complementarity) <= PetscMax(ip->tol, ip->kkt.dual)));
+                         PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
   if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -280,7 +290,7 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
-  const PetscInt  n = ip->rec.napplications, every = 8;
+  const PetscInt  n = ip->rec->napplications, every = 8;
   const PetscReal error = IPBothErrors(ip), least = 1.0;
   PetscReal       gained, left;
 
@@ -309,15 +319,15 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   Vec              r;
 
   PetscFunctionBegin;
-  tao->ksp_its        = 0;
-  ip->rec.nacceptable = ip->rec.ntiny = 0; /* many small steps are normal here */
+  tao->ksp_its         = 0;
+  ip->rec->nacceptable = ip->rec->ntiny = 0; /* many small steps are normal here */
   PetscCall(IPFilteredAllows(tao, done));
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
   if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
-  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms.n ? &exact : done));
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms->n ? &exact : done));
   f->ncentred = exact || (kept->whole && !f->nfutile) ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
   if (*done && !exact) PetscCall(FilteredCentreHere(tao, &kept->basis));
@@ -325,7 +335,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   if (*done) PetscCall(FilteredSolveReduced(tao, kept, done));
   if (*done) {
     tao->niter++;
-    ip->rec.ndirections++;
+    ip->rec->ndirections++;
   } else PetscCall(IPSubspaceStateReset(kept));
   PetscFunctionReturn(0);
 }
@@ -378,12 +388,12 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
   if (*begun) PetscCall(IPFilteredSetUp(tao, kept, begun));
   if (*begun) PetscCall(FilteredFirst(tao, kept, begun));
-  ip->method.multipliers = (PetscBool)!f->newton;
+  ip->method->multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));
   else {
     PetscCall(IPSubspaceStateReset(kept));
     PetscCall(IPFilteredDestroy(f));
-    ip->rec.fallbacks.subspaces++;
+    ip->rec->fallbacks.subspaces++;
   }
   PetscFunctionReturn(0);
 }
@@ -396,9 +406,9 @@ static PetscErrorCode FilteredEnd(Tao tao)
   IPSubspaceState *kept;
 
   PetscFunctionBegin;
-  if (ip->method.on) {
+  if (ip->method->on) {
     PetscCall(IPSubspaceStateGet(tao, &kept));
-    kept->napplications = ip->rec.napplications;
+    kept->napplications = ip->rec->napplications;
   }
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscFunctionReturn(0);
@@ -410,7 +420,7 @@ static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   if (IPFilteredOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
   else PetscCall(FilteredStep(tao, done));
-  if (*done) ((TAO_IPFILTER *)tao->data)->method.multipliers = PETSC_TRUE;
+  if (*done) ((TAO_IPFILTER *)tao->data)->method->multipliers = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -420,7 +430,7 @@ static PetscErrorCode FilteredCreateData(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&f));
-  ((TAO_IPFILTER *)tao->data)->method.data = f;
+  ((TAO_IPFILTER *)tao->data)->method->data = f;
   PetscFunctionReturn(0);
 }
 
@@ -429,7 +439,7 @@ static PetscErrorCode FilteredDestroyData(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscCall(PetscContainerDestroy(&IPFilteredOf(tao)->kept));
-  PetscCall(PetscFree(((TAO_IPFILTER *)tao->data)->method.data));
+  PetscCall(PetscFree(((TAO_IPFILTER *)tao->data)->method->data));
   PetscFunctionReturn(0);
 }
 

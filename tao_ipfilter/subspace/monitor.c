@@ -1,5 +1,7 @@
 /* Monitor of the filtered subspace method: one line per iteration. */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/record.h"
 
 /* Prints a line per reduced problem: iteration, objective, infeasibilities, ||d||, applications of the preconditioner
    so far, directions, active sets tried, active constraints. Newton's method prints the columns of the driver. */
@@ -18,8 +20,8 @@ PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
   PetscCall(PetscPrintf(comm,
     "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT
     " %6" PetscInt_FMT "  %8.2e\n",
-    tao->niter, (double)ip->at.f, (double)ip->kkt.inf_pr, (double)ip->kkt.inf_du, (double)ip->dir.norm,
-    ip->rec.napplications, f->reduced->system.k - f->reduced->companions.n, f->reduced->nsteps, f->reduced->nactive,
-    (double)ip->kkt.error));
+    tao->niter, (double)ip->at.f, (double)ip->kkt->inf_pr, (double)ip->kkt->inf_du, (double)ip->dir.norm,
+    ip->rec->napplications, f->reduced->system.k - f->reduced->companions.n, f->reduced->nsteps, f->reduced->nactive,
+    (double)ip->kkt->error));
   PetscFunctionReturn(0);
 }

@@ -11,6 +11,13 @@
    recomputed.
 */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/search.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Residual of the model r = J^T force - grad f - H d, set to zero on W where it is rounding; norm: its norm */
 static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, PetscReal *norm)
@@ -18,10 +25,10 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(MatMultAdd(ip->hess.H, d, tao->gradient, r));
+  PetscCall(MatMultAdd(ip->hess->H, d, tao->gradient, r));
   PetscCall(IPTermsSubtractForces(tao, r));
   PetscCall(VecScale(r, -1.0));
-  PetscCall(MatMultTransposeAdd(ip->jac.inequality, force, r, r));
+  PetscCall(MatMultTransposeAdd(ip->jac->inequality, force, r, r));
   PetscCall(IPFixedZero(tao, r));
   PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, norm));
@@ -36,12 +43,12 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
-  if (ip->terms.n) PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
+  if (ip->terms->n) PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
-  PetscCall(MatMultAdd(ip->hess.H, d, tao->gradient, gradient));
+  PetscCall(MatMultAdd(ip->hess->H, d, tao->gradient, gradient));
   PetscCall(IPFixedZero(tao, gradient));
-  PetscCall(MatMultAdd(ip->jac.inequality, d, ip->at.c, c));
+  PetscCall(MatMultAdd(ip->jac->inequality, d, ip->at.c, c));
   PetscCall(IPFilteredCentre(tao, basis, x, d, gradient, c));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
@@ -78,7 +85,7 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, 
 static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal target, Vec d, Vec force,
   PetscBool *solved)
 {
-  const PetscReal enough = 0.5 * ((TAO_IPFILTER *)tao->data)->kkt.dual_norm;
+  const PetscReal enough = 0.5 * ((TAO_IPFILTER *)tao->data)->kkt->dual_norm;
   PetscReal       norm;
   PetscBool       added;
   Vec             r;
@@ -152,7 +159,7 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
-  PetscCall(MatMultAdd(ip->jac.inequality, d, ip->at.c, c));
+  PetscCall(MatMultAdd(ip->jac->inequality, d, ip->at.c, c));
   PetscCall(NewtonViolation(tao, c, left));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscFunctionReturn(0);
@@ -162,7 +169,7 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
    b |v| */
 static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal *slack)
 {
-  IPTerms    *terms = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms    *terms = ((TAO_IPFILTER *)tao->data)->terms;
   PetscScalar work;
   Vec         v;
 
@@ -198,14 +205,14 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
   PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
   PetscCall(NewtonModelSlack(tao, ip->trial.x, terms[1], &slack));
-  slope              = PetscRealPart(gd) - nu * violation + terms[1] - terms[0] - slack;
-  ip->search.ntrials = 0;
-  *ok                = PETSC_FALSE;
+  slope               = PetscRealPart(gd) - nu * violation + terms[1] - terms[0] - slack;
+  ip->search->ntrials = 0;
+  *ok                 = PETSC_FALSE;
   for (alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal rest;
 
-    ip->search.ntrials++;
-    ip->search.alpha = ip->search.alpha_dual = alpha;
+    ip->search->ntrials++;
+    ip->search->alpha = ip->search->alpha_dual = alpha;
     PetscCall(VecWAXPY(ip->trial.x, alpha, d, tao->solution));
     PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
     if (IPUndefined(ip->trial.f)) continue;
@@ -227,13 +234,13 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &old));
   PetscCall(VecPointwiseMult(old, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
-  PetscCall(VecAXPBY(force, 1.0 - ip->search.alpha, ip->search.alpha, old));
+  PetscCall(VecAXPBY(force, 1.0 - ip->search->alpha, ip->search->alpha, old));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &old));
-  if (ip->terms.n) PetscCall(VecAXPBY(ip->terms.force, 1.0 - ip->search.alpha, ip->search.alpha, ip->terms.last));
+  if (ip->terms->n) PetscCall(VecAXPBY(ip->terms->force, 1.0 - ip->search->alpha, ip->search->alpha, ip->terms->last));
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPFilteredSetPairs(tao, force));
   PetscCall(VecNorm(d, NORM_INFINITY, &ip->dir.norm));
-  ip->search.tag = 'f';
+  ip->search->tag = 'f';
   PetscCall(IPEvaluateDerivatives(tao));
   PetscFunctionReturn(0);
 }
@@ -245,7 +252,7 @@ static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
   const PetscReal largest = 0.1, smallest = 1e-3;
   const PetscReal fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
 
-  return PetscMax(fraction * ip->kkt.dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
+  return PetscMax(fraction * ip->kkt->dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
 }
 
 /* Evaluates the Hessian at the present point and adds delta M_u */
@@ -257,12 +264,12 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
   PetscFunctionBegin;
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPStiffnessUpdate(tao));
-  if (ip->shift.delta == 0.0) PetscFunctionReturn(0);
+  if (ip->shift->delta == 0.0) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &shift));
-  if (ip->given.primal_mass) PetscCall(VecCopy(ip->given.primal_mass, shift));
+  if (ip->given->primal_mass) PetscCall(VecCopy(ip->given->primal_mass, shift));
   else PetscCall(VecSet(shift, 1.0));
-  PetscCall(VecScale(shift, ip->shift.delta));
-  PetscCall(MatDiagonalSet(ip->hess.H, shift, ADD_VALUES));
+  PetscCall(VecScale(shift, ip->shift->delta));
+  PetscCall(MatDiagonalSet(ip->hess->H, shift, ADD_VALUES));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &shift));
   PetscFunctionReturn(0);
 }
@@ -276,9 +283,9 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
   const PetscReal target = NewtonTarget(ip);
 
   PetscFunctionBegin;
-  *found          = PETSC_TRUE;
-  ip->shift.delta = 0.0;
-  if (ip->terms.n) PetscCall(VecCopy(ip->terms.force, ip->terms.last));
+  *found           = PETSC_TRUE;
+  ip->shift->delta = 0.0;
+  if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->last));
   for (PetscInt k = 0; k <= shifts; k++) {
     if (k) PetscCall(IPRegularizeMore(tao));
     if (k || tao->niter) {

@@ -7,6 +7,7 @@
    once as long as W and K stay, with companions where it is singular. Each norm term adds two rows.
 */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/terms.h"
 #include <petscblaslapack.h>
 
 /* Collects selected rows of A on the first rank, with the columns of W. half: A stores its upper triangle only */

@@ -1,6 +1,13 @@
 /* Data of the filtered subspace method that are kept between solves, of one Tao or of several: the preconditioner
    and the directions of K. */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
 
 /* Destroys the kept data. PCAMGF chooses between AMG and factorization again at its next set-up. */
 PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
@@ -68,8 +75,8 @@ static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
   const PetscReal later    = 0.7,
                   factored = 10.0; /* later: applications of a later solve, relative to this one; factored: those of a
                                       factorization in a solve */
-  const PetscReal n        = ip->rec.napplications + left,
-                  solves   = kept->changing ? 0.0 : PetscMax(ip->given.solves_to_come - 1, 0);
+  const PetscReal n        = ip->rec->napplications + left,
+                  solves   = kept->changing ? 0.0 : PetscMax(ip->given->solves_to_come - 1, 0);
 
   PetscFunctionBegin;
   PetscCall(
@@ -86,7 +93,7 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored, &why));
-  if (!ip->opt.monitor || !why[0] || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift.delta > 0.0)))
+  if (!ip->opt->monitor || !why[0] || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
     PetscFunctionReturn(0);
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
     factored ? "direct (MUMPS)" : "CG with AMG", why));
@@ -153,14 +160,14 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscCall(PCAMGFGetFactored(kept->pc, &after, NULL));
   if (after != before)
     PetscCall(
-      KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess.H, ((TAO_IPFILTER *)tao->data)->hess.H, possible));
+      KeptSetUpPC(tao, kept, ((TAO_IPFILTER *)tao->data)->hess->H, ((TAO_IPFILTER *)tao->data)->hess->H, possible));
   PetscFunctionReturn(0);
 }
 
 /* D of the norm terms' rows: what resists the terms that can carry a force; 0 for the others */
 static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
 {
-  IPTerms           *terms   = &((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   const Vec          most[2] = {terms->limit, terms->coefficient};
   const PetscScalar *rho;
   PetscScalar       *d;
@@ -189,19 +196,19 @@ static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
 PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
 {
   TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscInt systems = ip->rec.nsystems, filtered = ip->rec.nfiltered;
+  const PetscInt systems = ip->rec->nsystems, filtered = ip->rec->nfiltered;
   Mat            DT, TtDT;
 
   PetscFunctionBegin;
   PetscCall(IPCondenseMatrix(tao, D));
-  ip->rec.nsystems  = systems; /* restores the count: these are not Newton systems */
-  ip->rec.nfiltered = filtered;
-  *A                = ip->cond.A;
-  ip->cond.A        = NULL;
+  ip->rec->nsystems  = systems; /* restores the count: these are not Newton systems */
+  ip->rec->nfiltered = filtered;
+  *A                 = ip->cond->A;
+  ip->cond->A        = NULL;
   if (!Dt) PetscFunctionReturn(0);
-  PetscCall(MatDuplicate(ip->terms.T, MAT_COPY_VALUES, &DT));
+  PetscCall(MatDuplicate(ip->terms->T, MAT_COPY_VALUES, &DT));
   PetscCall(MatDiagonalScale(DT, Dt, NULL));
-  PetscCall(MatTransposeMatMult(ip->terms.T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
+  PetscCall(MatTransposeMatMult(ip->terms->T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
   PetscCall(MatAXPY(*A, 1.0, TtDT, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&TtDT));
   PetscCall(MatDestroy(&DT));
@@ -220,13 +227,13 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   PetscCall(
     PetscInfo(tao, "The Hessian is singular: its preconditioner is built from the Hessian and the constraints\n"));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
-  PetscCall(VecPointwiseMult(D, ip->stiff.rho, ip->pair[IP_SLACK].w));
-  if (ip->terms.n) PetscCall(VecDuplicate(ip->terms.t, &Dt));
-  if (ip->terms.n) PetscCall(KeptStiffnessOfTerms(tao, Dt));
+  PetscCall(VecPointwiseMult(D, ip->stiff->rho, ip->pair[IP_SLACK].w));
+  if (ip->terms->n) PetscCall(VecDuplicate(ip->terms->t, &Dt));
+  if (ip->terms->n) PetscCall(KeptStiffnessOfTerms(tao, Dt));
   PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
   PetscCall(VecDestroy(&Dt));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
-  PetscCall(KeptSetUpPC(tao, kept, A, ip->hess.H, possible));
+  PetscCall(KeptSetUpPC(tao, kept, A, ip->hess->H, possible));
   PetscCall(MatDestroy(&A));
   kept->held = PETSC_TRUE;
   PetscFunctionReturn(0);
@@ -247,7 +254,7 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
   PetscInt        n;
 
   PetscFunctionBegin;
-  *max = ip->opt.subspace_max;
+  *max = ip->opt->subspace_max;
   if (!*max && IPFilteredOf(tao)->newton) *max = newton;
   if (*max) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
@@ -260,7 +267,7 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
-  Mat              K  = ip->hess.H;
+  Mat              K  = ip->hess->H;
   PC               pc;
   PetscObjectState state;
   PetscInt         max;
@@ -333,7 +340,7 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   PetscFunctionBegin;
   PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
     "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
-  ((TAO_IPFILTER *)tao->data)->given.solves_to_come = n;
+  ((TAO_IPFILTER *)tao->data)->given->solves_to_come = n;
   PetscFunctionReturn(0);
 }
 

@@ -4,6 +4,12 @@
    V leaves.
 */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
 
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
@@ -25,15 +31,15 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   IPPair       *slack = &ip->pair[IP_SLACK];
 
   PetscFunctionBegin;
-  if (ip->given.warm_s) {
-    PetscCall(VecCopy(ip->given.warm_s, slack->t));
-    PetscCall(VecCopy(ip->given.warm_z, slack->z));
+  if (ip->given->warm_s) {
+    PetscCall(VecCopy(ip->given->warm_s, slack->t));
+    PetscCall(VecCopy(ip->given->warm_z, slack->z));
     PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
   } else {
     PetscCall(VecSet(slack->t, 0.0));
     PetscCall(VecPointwiseMax(slack->t, slack->t, ip->at.c));
     PetscCall(VecWAXPY(slack->z, -1.0, ip->at.c, slack->t));
-    PetscCall(VecPointwiseMult(slack->z, slack->z, ip->stiff.rho));
+    PetscCall(VecPointwiseMult(slack->z, slack->z, ip->stiff->rho));
   }
   PetscFunctionReturn(0);
 }
@@ -49,9 +55,9 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecPointwiseMult(force, slack->z, slack->w));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
-  PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff.rho));
+  PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, &ip->terms));
+  PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, ip->terms));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
@@ -66,8 +72,8 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   Vec           value = NULL;
 
   PetscFunctionBegin;
-  if (ip->terms.n) PetscCall(VecDuplicate(ip->terms.t, &value));
-  if (ip->terms.n) PetscCall(IPTermsValue(tao, x, value));
+  if (ip->terms->n) PetscCall(VecDuplicate(ip->terms->t, &value));
+  if (ip->terms->n) PetscCall(IPTermsValue(tao, x, value));
   PetscCall(VecCopy(centre, f->centre));
   PetscCall(VecCopy(gradient, f->gradient));
   PetscCall(VecCopy(c, f->c));
@@ -90,7 +96,7 @@ static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
   PetscFunctionBegin;
   PetscCall(IPSubspaceStateGet(tao, &kept));
   PetscCall(VecGetSize(tao->solution, &n));
-  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms.n && !IPFilteredOf(tao)->newton && !kept->whole && n <= most);
+  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms->n && !IPFilteredOf(tao)->newton && !kept->whole && n <= most);
   PetscFunctionReturn(0);
 }
 
@@ -104,11 +110,11 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms.n ? ip->terms.force : NULL, solved));
+  PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms->n ? ip->terms->force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
-  ip->rec.nreduced++;
-  ip->rec.npivots += f->reduced->nsteps;
+  ip->rec->nreduced++;
+  ip->rec->npivots += f->reduced->nsteps;
   if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
   PetscFunctionReturn(0);
 }
@@ -150,8 +156,8 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
   PetscCall(IPFixedZero(tao, d));
   PetscCall(VecDot(r, d, &rd));
   *definite = (PetscBool)(PetscRealPart(rd) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(rd)));
-  ip->rec.napplications++;
-  ip->rec.ksp_iterations[ip->rec.nksp - 1]++;
+  ip->rec->napplications++;
+  ip->rec->ksp_iterations[ip->rec->nksp - 1]++;
   tao->ksp_its++;
   tao->ksp_tot_its++;
   PetscFunctionReturn(0);
@@ -191,14 +197,14 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, Pe
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
-  PetscCall(MatMult(ip->hess.H, d, Kd));
+  PetscCall(MatMult(ip->hess->H, d, Kd));
   PetscCall(VecDot(d, Kd, &energy));
-  PetscCall(VecPointwiseMult(Kd, d, ip->stiff.hdiag));
+  PetscCall(VecPointwiseMult(Kd, d, ip->stiff->hdiag));
   PetscCall(VecDot(d, Kd, &size));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
   *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
-  if (*negative && IPFilteredOf(tao)->newton && !ip->terms.n) *singular = PETSC_FALSE;
+  if (*negative && IPFilteredOf(tao)->newton && !ip->terms->n) *singular = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -211,7 +217,7 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r
 
   PetscFunctionBegin;
   PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
-  if (kept->held || (*definite && ip->rec.napplications > 1)) PetscFunctionReturn(0);
+  if (kept->held || (*definite && ip->rec->napplications > 1)) PetscFunctionReturn(0);
   PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
   if (!singular) PetscFunctionReturn(0);
   PetscCall(IPSubspaceStateHold(tao, kept, definite));
@@ -238,7 +244,7 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 
   PetscFunctionBegin;
   PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, NULL, &limit));
-  *allows = (PetscBool)(((TAO_IPFILTER *)tao->data)->rec.napplications < limit);
+  *allows = (PetscBool)(((TAO_IPFILTER *)tao->data)->rec->napplications < limit);
   PetscFunctionReturn(0);
 }
 
@@ -256,7 +262,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, d, NULL, NULL));
-    PetscCall(IPBasisAppend(basis, ip->hess.H, d, extended));
+    PetscCall(IPBasisAppend(basis, ip->hess->H, d, extended));
     PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, d, NULL, NULL));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
@@ -289,9 +295,9 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(f->reduced, ip->laws, K, ip->jac.inequality, &ip->terms, f->W, tao->solution, ip->at.c,
+  PetscCall(IPReducedSetUp(f->reduced, ip->laws, K, ip->jac->inequality, ip->terms, f->W, tao->solution, ip->at.c,
     basis, possible));
-  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, &ip->terms, ip->rows.inequality));
+  if (*possible) PetscCall(IPReducedSetTerms(f->reduced, ip->terms, ip->rows->inequality));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -316,12 +322,12 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecPointwiseMult(force, slack->z, slack->w));
-  PetscCall(VecDuplicate(ip->terms.t, &Dt));
+  PetscCall(VecDuplicate(ip->terms->t, &Dt));
   PetscCall(IPTermsStiffness(tao, force, Dt));
   PetscCall(VecScale(Dt, stiffer));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
-  PetscCall(VecPointwiseMult(D, ip->stiff.rho, slack->w));
+  PetscCall(VecPointwiseMult(D, ip->stiff->rho, slack->w));
   PetscCall(VecGetLocalSize(D, &n));
   PetscCall(VecGetArray(D, &d));
   PetscCall(VecGetArrayRead(slack->z, &z));
@@ -348,8 +354,8 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
   PetscFunctionBegin;
   if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
   f->reduced = &kept->reduced;
-  PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess.H, possible));
-  if (!*possible && f->newton && ip->terms.n) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
+  PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess->H, possible));
+  if (!*possible && f->newton && ip->terms->n) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);
 }

@@ -6,6 +6,7 @@
 #define IPFILTER_SUBSPACEIMPL_H
 
 #include "tao_ipfilter/step/stepimpl.h"
+#include "tao_ipfilter/solver/method.h"
 
 /* Directions P of the filtered subspace, oldest first; zero on the constraints' unknowns W */
 typedef struct {
@@ -129,7 +130,7 @@ typedef struct {
   PetscReal      begin;               /* KKT error after the first reduced problem */
 } IPFiltered;
 
-#define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method.data)
+#define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)
 
 /* basis.c */
 PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);

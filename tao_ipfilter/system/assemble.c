@@ -6,6 +6,8 @@
    once.
 */
 #include "systemimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/matrices.h"
 
 /* Sorted union of the block columns of block row ib in H and in J^T D J, and the diagonal; upper: from the diagonal
    on */
@@ -276,16 +278,16 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
 /* Writes H into A: all of it for a new pattern or new values; otherwise only the entries that J^T D J changed */
 PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
 {
-  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
+  IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess->H;
   MatNullSpace near;
   PetscBool    unfolds = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(HessianUnfolds(tao, H, &unfolds));
   if (unfolds && values) {
-    PetscCall(MatConvert(((TAO_IPFILTER *)tao->data)->hess.H, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
-    PetscCall(MatGetNearNullSpace(((TAO_IPFILTER *)tao->data)->hess.H, &near));
+    PetscCall(MatConvert(((TAO_IPFILTER *)tao->data)->hess->H, MATSEQBAIJ, MAT_INITIAL_MATRIX, &H));
+    PetscCall(MatGetNearNullSpace(((TAO_IPFILTER *)tao->data)->hess->H, &near));
     if (near) PetscCall(MatSetNearNullSpace(H, near));
   } else PetscCall(PetscObjectReference((PetscObject)H));
   if (pattern) {

@@ -7,6 +7,12 @@
    assemble.c assembles A.
 */
 #include "systemimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 
 PetscErrorCode IPCondensedDestroy(IPCondensed *c)
 {
@@ -87,7 +93,7 @@ static PetscErrorCode DropProduct(IPCondensed *cond)
 static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed  *cond = &ip->cond;
+  IPCondensed  *cond = ip->cond;
   Vec           sigma;
 
   PetscFunctionBegin;
@@ -95,7 +101,7 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
     PetscCall(VecDuplicate(tao->solution, &cond->shift));
     PetscCall(VecDuplicate(tao->solution, &cond->hdiag));
   }
-  *shifted = (PetscBool)(ip->shift.delta > 0.0);
+  *shifted = (PetscBool)(ip->shift->delta > 0.0);
   PetscCall(VecSet(cond->shift, 0.0));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &sigma));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
@@ -105,9 +111,9 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
     *shifted = PETSC_TRUE;
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &sigma));
-  if (ip->shift.delta > 0.0 && ip->given.primal_mass)
-    PetscCall(VecAXPY(cond->shift, ip->shift.delta, ip->given.primal_mass));
-  else if (ip->shift.delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift.delta));
+  if (ip->shift->delta > 0.0 && ip->given->primal_mass)
+    PetscCall(VecAXPY(cond->shift, ip->shift->delta, ip->given->primal_mass));
+  else if (ip->shift->delta > 0.0) PetscCall(VecShift(cond->shift, ip->shift->delta));
   PetscFunctionReturn(0);
 }
 
@@ -115,14 +121,14 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
 static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed       *cond = &ip->cond;
+  IPCondensed       *cond = ip->cond;
   const PetscScalar *d;
   PetscInt           rstart, rend;
 
   PetscFunctionBegin;
   if (!shifted && !cond->shifted) PetscFunctionReturn(0);
   cond->shifted = shifted;
-  PetscCall(MatGetDiagonal(ip->hess.H, cond->hdiag));
+  PetscCall(MatGetDiagonal(ip->hess->H, cond->hdiag));
   PetscCall(VecAXPY(cond->hdiag, 1.0, cond->shift));
   PetscCall(MatGetOwnershipRange(cond->A, &rstart, &rend));
   PetscCall(VecGetArrayRead(cond->hdiag, &d));
@@ -134,15 +140,15 @@ static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
 /* Whether nothing is ever added to H, so that A = H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(!ip->mi && !ip->prox.condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n &&
-                     ip->shift.delta == 0.0);
+  return (PetscBool)(!ip->mi && !ip->prox->condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n &&
+                     ip->shift->delta == 0.0);
 }
 
 /* A = H, without a copy */
 static PetscErrorCode TakeHessian(Tao tao)
 {
-  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
-  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess.H;
+  IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
+  Mat          H    = ((TAO_IPFILTER *)tao->data)->hess->H;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectReference((PetscObject)H));
@@ -156,8 +162,8 @@ static PetscErrorCode TakeHessian(Tao tao)
 static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed     *cond = &ip->cond;
-  Mat              H    = ip->hess.H;
+  IPCondensed     *cond = ip->cond;
+  Mat              H    = ip->hess->H;
   PetscObjectState state, nonzero;
   PetscBool        pattern = PETSC_FALSE, values, shifted;
 
@@ -189,7 +195,7 @@ static PetscErrorCode WriteSum(Tao tao)
 /* Updates A for a Hessian that only has products */
 static PetscErrorCode WriteOperator(Tao tao)
 {
-  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
 
   PetscFunctionBegin;
   PetscCall(UpdateShift(tao, &cond->shifted));
@@ -205,14 +211,14 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
-  ip->rec.nsystems++;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess->H, NULL, NULL));
+  ip->rec->nsystems++;
   PetscCall(IPRowsUpdate(tao, D));
-  if (!ip->cond.rows.J) PetscCall(DropProduct(&ip->cond));
-  if (ip->hess.products) PetscCall(WriteOperator(tao));
+  if (!ip->cond->rows.J) PetscCall(DropProduct(ip->cond));
+  if (ip->hess->products) PetscCall(WriteOperator(tao));
   else if (Unconstrained(ip)) PetscCall(TakeHessian(tao));
   else PetscCall(WriteSum(tao));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess.H, NULL, NULL));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterCondense, tao, ((TAO_IPFILTER *)tao->data)->hess->H, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -232,7 +238,7 @@ PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
     PetscCall(VecPointwiseMult(pressure, pressure, rc));
     PetscCall(IPSlackForce(tao, force));
     PetscCall(VecAYPX(pressure, -1.0, force));
-    PetscCall(MatMultTransposeAdd(ip->jac.inequality, pressure, b, b));
+    PetscCall(MatMultTransposeAdd(ip->jac->inequality, pressure, b, b));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &pressure));
   }
@@ -247,7 +253,7 @@ PetscErrorCode IPBackSubstitute(Tao tao, Vec rc)
   IPPair       *slack = &ip->pair[IP_SLACK];
 
   PetscFunctionBegin;
-  if (ip->mi) PetscCall(MatMultAdd(ip->jac.inequality, ip->dir.x, rc, slack->dt));
+  if (ip->mi) PetscCall(MatMultAdd(ip->jac->inequality, ip->dir.x, rc, slack->dt));
   if (ip->mi) PetscCall(IPSlackDirection(tao));
   PetscCall(IPBoundsDirection(tao));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) PetscCall(IPPairDualDirection(&ip->pair[b]));

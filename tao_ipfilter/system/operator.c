@@ -1,11 +1,14 @@
 /* The condensed matrix for a Hessian that only has products: H + Sigma + J^T D J + delta M_u as a MATSHELL, with its
    diagonal. */
 #include "systemimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /* y = J^T D J x + y */
 static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)
 {
-  IPRows *rows = &((TAO_IPFILTER *)tao->data)->cond.rows;
+  IPRows *rows = &((TAO_IPFILTER *)tao->data)->cond->rows;
   Vec     force;
 
   PetscFunctionBegin;
@@ -31,16 +34,16 @@ static PetscErrorCode OperatorMult(Mat A, Vec x, Vec y)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &part));
   PetscCall(VecCopy(x, part));
   PetscCall(IPFixedZero(tao, part));
-  PetscCall(MatMult(ip->hess.H, part, y));
+  PetscCall(MatMult(ip->hess->H, part, y));
   PetscCall(OperatorAddRows(tao, part, y));
-  PetscCall(VecPointwiseMult(part, part, ip->cond.shift));
+  PetscCall(VecPointwiseMult(part, part, ip->cond->shift));
   PetscCall(VecAXPY(y, 1.0, part));
   if (ip->fixed) {
     PetscCall(IPFixedZero(tao, y));
     PetscCall(VecCopy(x, part));
     PetscCall(IPFixedZero(tao, part));
     PetscCall(VecAYPX(part, -1.0, x));
-    PetscCall(VecAXPY(y, ip->stiff.hscale, part));
+    PetscCall(VecAXPY(y, ip->stiff->hscale, part));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &part));
   PetscFunctionReturn(0);
@@ -79,9 +82,9 @@ static PetscErrorCode OperatorGetDiagonal(Mat A, Vec d)
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(A, &tao));
   ip = (TAO_IPFILTER *)tao->data;
-  PetscCall(VecCopy(ip->cond.hdiag, d));
-  PetscCall(OperatorAddRowsDiagonal(&ip->cond.rows, d));
-  if (ip->fixed) PetscCall(VecISSet(d, ip->fixed, ip->stiff.hscale));
+  PetscCall(VecCopy(ip->cond->hdiag, d));
+  PetscCall(OperatorAddRowsDiagonal(&ip->cond->rows, d));
+  if (ip->fixed) PetscCall(VecISSet(d, ip->fixed, ip->stiff->hscale));
   PetscFunctionReturn(0);
 }
 
@@ -89,7 +92,7 @@ static PetscErrorCode OperatorGetDiagonal(Mat A, Vec d)
    notify the preconditioner. */
 PetscErrorCode IPOperatorUpdate(Tao tao)
 {
-  IPCondensed *cond = &((TAO_IPFILTER *)tao->data)->cond;
+  IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
   PetscInt     n, N;
 
   PetscFunctionBegin;

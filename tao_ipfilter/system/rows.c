@@ -5,6 +5,11 @@
    which is equivalent to the augmented system.
 */
 #include "systemimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/terms.h"
 
 PetscErrorCode IPRowsDestroy(IPRows *rows)
 {
@@ -74,8 +79,8 @@ static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
 static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
-  IPRows           *rows = &ip->cond.rows;
-  const IPJacobian *jac  = &ip->jac;
+  IPRows           *rows = &ip->cond->rows;
+  const IPJacobian *jac  = ip->jac;
   PetscInt          rstart, m;
 
   PetscFunctionBegin;
@@ -115,26 +120,26 @@ static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
 /* The matrix below the rows of c_I: condensed equality constraints, norm terms, or NULL */
 static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 {
-  if (ip->me && ip->prox.condensed) {
-    *stamp = &ip->jac.equality_stamp;
-    return ip->jac.equality;
+  if (ip->me && ip->prox->condensed) {
+    *stamp = &ip->jac->equality_stamp;
+    return ip->jac->equality;
   }
-  *stamp = &ip->terms.stamp;
-  return ip->terms.n ? ip->terms.T : NULL;
+  *stamp = &ip->terms->stamp;
+  return ip->terms->n ? ip->terms->T : NULL;
 }
 
 /* Weights of the lower rows. A row with very small entries is limited to 100 times the mean stiffness. */
 static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal multiple = ip->terms.n ? 1.0 : ip->opt.proximal;
+  const PetscReal multiple = ip->terms->n ? 1.0 : ip->opt->proximal;
   PetscScalar    *w, sum;
   PetscReal       mean;
   PetscInt        n;
 
   PetscFunctionBegin;
-  if (ip->aug.delta > 0.0) {
-    PetscCall(VecSet(weights, 1.0 / ip->aug.delta));
+  if (ip->aug->delta > 0.0) {
+    PetscCall(VecSet(weights, 1.0 / ip->aug->delta));
     PetscFunctionReturn(0);
   }
   PetscCall(IPCompliances(tao, J, weights));
@@ -179,7 +184,7 @@ static PetscErrorCode RowsKeep(Vec v, Vec *copy)
 static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPRows       *rows  = &ip->cond.rows;
+  IPRows       *rows  = &ip->cond->rows;
   PetscInt      first = 0;
 
   PetscFunctionBegin;
@@ -197,14 +202,14 @@ static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 PetscErrorCode IPRowsTake(Tao tao)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
-  IPRows        *rows = &ip->cond.rows;
+  IPRows        *rows = &ip->cond->rows;
   const IPStamp *stamp;
   const Mat      below = RowsBelow(ip, &stamp);
 
   PetscFunctionBegin;
   if (ip->mi && below) PetscCall(RowsStack(tao, below, stamp));
   else if (below) PetscCall(RowsTakeOne(below, stamp, rows));
-  else PetscCall(RowsTakeOne(ip->mi ? ip->jac.inequality : NULL, &ip->jac.inequality_stamp, rows));
+  else PetscCall(RowsTakeOne(ip->mi ? ip->jac->inequality : NULL, &ip->jac->inequality_stamp, rows));
   PetscFunctionReturn(0);
 }
 
@@ -212,7 +217,7 @@ PetscErrorCode IPRowsTake(Tao tao)
 PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
-  IPRows        *rows = &ip->cond.rows;
+  IPRows        *rows = &ip->cond->rows;
   const IPStamp *stamp;
   const Mat      below = RowsBelow(ip, &stamp);
 

@@ -1,6 +1,13 @@
 /* Chooses the unknowns that PCAMGF filters (those that the constraints involve), and whether the constraints are
    stiff enough to need the filter. */
 #include "systemimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
+#include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/linear.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 
 /* Local unknowns with a column of J that is not negligible: |J_ij| > threshold max|J| for some i */
 PetscErrorCode IPSubspaceOf(Mat J, IS *is)
@@ -52,7 +59,7 @@ PetscErrorCode IPSubspaceOf(Mat J, IS *is)
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed  *cond = &ip->cond;
+  IPCondensed  *cond = ip->cond;
   const IPRows *rows = &cond->rows;
   PetscBool     same = PETSC_FALSE;
   IS            filter;
@@ -127,7 +134,7 @@ PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
 static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  IPCondensed       *cond = &ip->cond;
+  IPCondensed       *cond = ip->cond;
   const PetscScalar *h, *c;
   PetscReal          local = 0.0;
   PetscInt           rstart;
@@ -136,7 +143,7 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &hessian));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &product));
-  PetscCall(MatGetDiagonal(ip->hess.H, hessian));
+  PetscCall(MatGetDiagonal(ip->hess->H, hessian));
   PetscCall(MatGetDiagonal(cond->JtDJ, product));
   PetscCall(VecGetOwnershipRange(hessian, &rstart, NULL));
   PetscCall(VecGetArrayRead(hessian, &h));
@@ -166,12 +173,12 @@ PetscErrorCode IPSubspaceSwitch(Tao tao)
   PetscFunctionBegin;
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
-  if (!amgf || (ip->me && !ip->prox.condensed)) PetscFunctionReturn(0);
-  if (ip->opt.filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
-  ip->lin.filtered = (PetscBool)(ip->lin.filter_forced || ratio > ip->opt.filter_switch);
-  ip->rec.nfiltered += ip->lin.filtered;
-  PetscCall(PCAMGFSetFilterActive(pc, ip->lin.filtered));
+  if (!amgf || (ip->me && !ip->prox->condensed)) PetscFunctionReturn(0);
+  if (ip->opt->filter_switch > 0.0) PetscCall(Stiffening(tao, &ratio));
+  ip->lin->filtered = (PetscBool)(ip->lin->filter_forced || ratio > ip->opt->filter_switch);
+  ip->rec->nfiltered += ip->lin->filtered;
+  PetscCall(PCAMGFSetFilterActive(pc, ip->lin->filtered));
   PetscCall(PetscInfo(tao, "Constraints stiffen an unknown by up to %g times the Hessian: filter %s\n", (double)ratio,
-    ip->lin.filtered ? "on" : "off"));
+    ip->lin->filtered ? "on" : "off"));
   PetscFunctionReturn(0);
 }

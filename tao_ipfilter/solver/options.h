@@ -1,0 +1,44 @@
+#ifndef IPFILTER_OPTIONS_H
+#define IPFILTER_OPTIONS_H
+
+#include "tao_ipfilter/solver/solverimpl.h"
+
+typedef enum { IP_START_COLD, IP_START_PREDICT, IP_START_WARM } IPStart;
+typedef enum { IP_BARRIER_MONOTONE, IP_BARRIER_MEHROTRA } IPBarrierRule;
+typedef enum { IP_KKT_RELATIVE, IP_KKT_MASS } IPKKTMeasure;
+typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
+typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
+typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
+
+typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
+
+/* Parameters that the user may set; opts.c has the options of the same names */
+struct _n_IPOptions {
+  IPStart          start;
+  IPBarrierRule    barrier;
+  IPKKTMeasure     measure;
+  IPForcing        forcing;
+  IPScaling        scaling;
+  PetscBool        monitor;
+  PetscReal        mu0, s0, z0;
+  PetscInt         max_mu_first, max_soc;
+  PetscReal        gamma_phi, eta_phi, delta_max, filter_switch;
+  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: default of the chosen scaling */
+  PetscReal        direct_memory;
+  PetscBool        direct_always;
+  IPSubspaceUse    subspace;
+  PetscInt         subspace_max;
+  IPEqualityMethod equality;
+  PetscReal        proximal;
+};
+
+/* Set by the caller through TaoIPFilterSet...(); NULL: not set */
+struct _n_IPGiven {
+  Vec      slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
+  Vec      warm_s, warm_z;          /* initial slacks and multipliers, */
+  Vec      warm_y;                  /* initial multipliers of the equality constraints, */
+  Vec      warm_lower, warm_upper;  /* initial multipliers of the bounds */
+  PetscInt solves_to_come;          /* number of solves with the same Hessian, including the next; 0: unknown */
+};
+
+#endif
