@@ -51,15 +51,15 @@ static PetscErrorCode DestroyType(Tao tao)
 }
 
 /* The parts of the solver: type, and member of the solver */
+/* clang-format off */
 #define SOLVER_PARTS \
-  PART(IPOptions, opt) \
-  PART(IPGiven, given) \
-  PART(IPWork, work) PART(IPSides, sides) PART(IPRowScale, rows) PART(IPJacobian, jac) PART(IPHessian, hess) \
-    PART(IPQuasiNewton, qn) PART(IPFirst, first) PART(IPScale, scale) PART(IPStiffness, stiff) PART(IPTerms, terms) \
-      PART(IPKKT, kkt) PART(IPCondensed, cond) PART(IPLinear, lin) PART(IPDirect, direct) PART(IPAugmented, aug) \
-        PART(IPProximal, prox) PART(IPBarrier, bar) PART(IPShift, shift) PART(IPFilterSet, filter) \
-          PART(IPSearch, search) PART(IPRelaxation, relax) PART(IPRestoration, restore) PART(IPMethod, method) \
-            PART(IPRecord, rec)
+  PART(IPOptions, opt) PART(IPGiven, given) PART(IPWork, work) PART(IPSides, sides) PART(IPRowScale, rows) \
+  PART(IPJacobian, jac) PART(IPHessian, hess) PART(IPQuasiNewton, qn) PART(IPFirst, first) PART(IPScale, scale) \
+  PART(IPStiffness, stiff) PART(IPTerms, terms) PART(IPKKT, kkt) PART(IPCondensed, cond) PART(IPLinear, lin) \
+  PART(IPDirect, direct) PART(IPAugmented, aug) PART(IPProximal, prox) PART(IPBarrier, bar) PART(IPShift, shift) \
+  PART(IPFilterSet, filter) PART(IPSearch, search) PART(IPRelaxation, relax) PART(IPRestoration, restore) \
+  PART(IPMethod, method) PART(IPRecord, rec)
+/* clang-format on */
 
 /* The solver and its parts in one piece of memory; DestroyType() frees it */
 typedef struct {

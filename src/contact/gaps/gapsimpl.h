@@ -9,7 +9,8 @@
 /*
    mortar.c, node.c: formulations of the gap.
 
-   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in src/model/formulation_names.c.
+   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in
+   src/model/formulation_names.c.
 */
 typedef struct {
   /* Enlarges the box to contain everything that may face this rank's part of pair p */
