@@ -187,7 +187,8 @@ static PetscErrorCode RulesDestroy(Scene scene)
   From five points of each facet at refinement level 0 a ray goes along the normal. The first facet that it hits, of
   another body and with an opposing normal, makes a pair of the two surfaces if it is within the distance. The distance
   of a rigid surface without facets is that from the start of the ray. This is done for the undeformed bodies, and for
-  up to 32 states of the load program with the bodies moved as prescribed. Bodies in between hide what is behind them. The cost is O(N log N) in the number of facets, divided by the number of ranks.
+  up to 32 states of the load program with the bodies moved as prescribed. Bodies in between hide what is behind them.
+  The cost is O(N log N) in the number of facets, divided by the number of ranks.
 
   It is an error if no surfaces face each other, and the scene lists no pairs either.
 
