@@ -1,6 +1,9 @@
 /* The state of a simulation for a restart: displacements and contact history. */
 #include "checkpointimpl.h"
 #include "src/measure/measureimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 /* Adds a field from a global vector; NULL: zeros */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
@@ -53,21 +56,21 @@ static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
   PetscCall(CheckpointGetVec(checkpoint, "velocity", d->velocity));
   PetscCall(CheckpointGetVec(checkpoint, "acceleration", d->acceleration));
   PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
-  PetscCall(TemperaturesApply(&sim->temperatures, sim->path.time));
-  PetscCall(DynamicsSetRest(&constraints, &sim->loads, sim->path.time, sim->path.u, d));
+  PetscCall(TemperaturesApply(&sim->temperatures, sim->path->time));
+  PetscCall(DynamicsSetRest(&constraints, &sim->loads, sim->path->time, sim->path->u, d));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
 {
-  const PetscInt   nvertices                      = sim->history.nowned;
+  const PetscInt   nvertices                      = sim->history->nowned;
   PetscReal *const memory[CHECKPOINT_PAIR_FIELDS] = {
-    [CHECKPOINT_PRESSURE]   = sim->history.pressure,
-    [CHECKPOINT_SLACK]      = sim->history.slack,
-    [CHECKPOINT_SHEAR]      = sim->history.settled,
-    [CHECKPOINT_FRICTION]   = sim->history.friction,
-    [CHECKPOINT_SLIP_PATH]  = sim->history.slip_path,
-    [CHECKPOINT_DISSIPATED] = sim->history.dissipated,
+    [CHECKPOINT_PRESSURE]   = sim->history->pressure,
+    [CHECKPOINT_SLACK]      = sim->history->slack,
+    [CHECKPOINT_SHEAR]      = sim->history->settled,
+    [CHECKPOINT_FRICTION]   = sim->history->friction,
+    [CHECKPOINT_SLIP_PATH]  = sim->history->slip_path,
+    [CHECKPOINT_DISSIPATED] = sim->history->dissipated,
   };
 
   PetscFunctionBegin;
@@ -109,7 +112,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
 @*/
 PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 {
-  const LoadPath *path = &sim->path;
+  const LoadPath *path = sim->path;
   PetscInt        n;
 
   PetscFunctionBegin;
@@ -117,7 +120,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->step              = (PetscInt)PetscFloorReal(path->time);
   (*checkpoint)->time              = path->time;
   (*checkpoint)->previous_time     = path->previous_time;
-  (*checkpoint)->increment         = sim->increment;
+  (*checkpoint)->increment         = sim->control->increment;
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
@@ -125,7 +128,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
-  if (sim->history.shear || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   if (SimulationIsDynamic(sim)) {
     (*checkpoint)->damping_work = sim->dynamics.damped;
@@ -160,7 +163,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 @*/
 PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
 {
-  LoadPath *path = &sim->path;
+  LoadPath *path = sim->path;
 
   PetscFunctionBegin;
   PetscCall(CheckpointCheck(sim->comm, checkpoint));
@@ -168,17 +171,17 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
     "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
     ": the analysis is already complete",
     (double)checkpoint->time, sim->scene->nsteps);
-  *step = sim->first_step = checkpoint->step;
-  sim->increment          = checkpoint->increment;
-  path->time              = checkpoint->time;
-  path->previous_time     = checkpoint->previous_time;
-  path->largest_increment = checkpoint->largest_increment;
-  path->work              = checkpoint->work;
-  path->contact_work      = checkpoint->contact_work;
+  *step = sim->control->first_step = checkpoint->step;
+  sim->control->increment          = checkpoint->increment;
+  path->time                       = checkpoint->time;
+  path->previous_time              = checkpoint->previous_time;
+  path->largest_increment          = checkpoint->largest_increment;
+  path->work                       = checkpoint->work;
+  path->contact_work               = checkpoint->contact_work;
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
-  if (sim->history.shear || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));

@@ -1,5 +1,8 @@
 /* Pressure, gap and status at the vertices of both sides of every contact pair. */
 #include "pair_rows.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 /* Values at the mesh's vertices that belong to the pair. carried: [area, force, gap x area]; sides: [1 mortar, -1
    nonmortar side; area with pressure; -]; closing: [closed area; facet length x area; force of slipping rows];
@@ -17,13 +20,13 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
   Vec                weighted;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->linearization->mass, &weighted));
-  PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
+  PetscCall(VecDuplicate(sim->solved->linearization->mass, &weighted));
+  PetscCall(VecGetArrayRead(sim->solved->linearization->mass, &mass));
   PetscCall(VecGetArrayWrite(weighted, &y));
-  for (PetscInt r = 0; r < rows->n; ++r) y[r] = rows->area[r] > 0.0 ? mass[r] * sim->pressure[r] : 0.0;
+  for (PetscInt r = 0; r < rows->n; ++r) y[r] = rows->area[r] > 0.0 ? mass[r] * sim->solved->pressure[r] : 0.0;
   PetscCall(VecRestoreArrayWrite(weighted, &y));
-  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
-  PetscCall(MatMultTranspose(sim->linearization->J, weighted, force));
+  PetscCall(VecRestoreArrayRead(sim->solved->linearization->mass, &mass));
+  PetscCall(MatMultTranspose(sim->solved->linearization->J, weighted, force));
   PetscCall(VecDestroy(&weighted));
   PetscFunctionReturn(0);
 }
@@ -37,8 +40,8 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
   Vec          force;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path.u, &vertices->shear));
-  PetscCall(VecDuplicate(sim->path.u, &vertices->slid));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->shear));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->slid));
   PetscCall(VecZeroEntries(vertices->shear));
   PetscCall(VecZeroEntries(vertices->slid));
   PetscCall(PetscMalloc1(rows->n, &slipping));
@@ -49,11 +52,11 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
     PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
     PetscCall(PairSpread(sim, rows, rows->slid + c * rows->n, vertices->sides, c, vertices->slid));
   }
-  PetscCall(MatCreateVecs(sim->linearization->slip, NULL, &force));
+  PetscCall(MatCreateVecs(sim->solved->linearization->slip, NULL, &force));
   PetscCall(VecGetArrayWrite(force, &f));
-  for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->shear[k];
+  for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->solved->shear[k];
   PetscCall(VecRestoreArrayWrite(force, &f));
-  PetscCall(FrictionAddForces(sim->linearization, force, pair, vertices->force));
+  PetscCall(FrictionAddForces(sim->solved->linearization, force, pair, vertices->force));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
@@ -63,10 +66,10 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
 {
   PetscFunctionBegin;
   vertices->shear = vertices->slid = NULL;
-  PetscCall(VecDuplicate(sim->path.u, &vertices->carried));
-  PetscCall(VecDuplicate(sim->path.u, &vertices->sides));
-  PetscCall(VecDuplicate(sim->path.u, &vertices->closing));
-  PetscCall(VecDuplicate(sim->path.u, &vertices->force));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->carried));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->sides));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->closing));
+  PetscCall(VecDuplicate(sim->path->u, &vertices->force));
   PetscCall(VecZeroEntries(vertices->carried));
   PetscCall(VecZeroEntries(vertices->closing));
   PetscCall(PairMarkSides(sim, pair, vertices->sides));
@@ -117,8 +120,8 @@ static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt fi
   PetscCall(VecRestoreArray(carried, &carry));
   PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[pair], carried));
   PetscCall(VecGetArrayRead(carried, &a));
-  for (PetscInt k = first; k < sim->npoints; ++k) {
-    ContactPoint *point = &sim->points[k];
+  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
+    ContactPoint *point = &sim->solved->points[k];
     PetscInt      i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
@@ -137,7 +140,7 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
   Vec alone)
 {
   PetscSection          global;
-  const ContactHistory *m = &sim->history;
+  const ContactHistory *m = sim->history;
   const PetscScalar    *area, *side, *closing, *slid;
   PetscInt              rstart;
 
@@ -149,8 +152,8 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
   PetscCall(VecGetArrayRead(vertices->sides, &side));
   PetscCall(VecGetArrayRead(vertices->closing, &closing));
   PetscCall(VecGetArrayRead(vertices->slid, &slid));
-  for (PetscInt k = first; k < sim->npoints; ++k) {
-    ContactPoint *point = &sim->points[k];
+  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
+    ContactPoint *point = &sim->solved->points[k];
     PetscInt      i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
@@ -194,7 +197,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecGetArrayRead(vertices->closing, &s));
   PetscCall(VecGetArrayRead(vertices->force, &f));
   for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
-  PetscCall(PetscRealloc((sim->npoints + npoints) * sizeof(ContactPoint), &sim->points));
+  PetscCall(PetscRealloc((sim->solved->npoints + npoints) * sizeof(ContactPoint), &sim->solved->points));
   for (PetscInt v = pstart; v < pend; ++v) {
     ContactPoint *point;
     PetscInt      i, ndofs;
@@ -203,7 +206,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
     PetscCall(PetscSectionGetOffset(global, v, &i));
     i -= rstart;
     if (ndofs <= 0 || i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
-    point = &sim->points[sim->npoints++];
+    point = &sim->solved->points[sim->solved->npoints++];
     *point =
       (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
     if (point->area > 0.0) {
@@ -237,8 +240,8 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(VecGetOwnershipRange(sides, &rstart, NULL));
   PetscCall(VecGetArrayRead(sides, &side));
-  for (PetscInt k = first; k < sim->npoints; ++k) {
-    const ContactPoint *point = &sim->points[k];
+  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
+    const ContactPoint *point = &sim->solved->points[k];
     PetscInt            i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
@@ -262,10 +265,10 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  sim->npoints = 0;
-  PetscCall(PetscFree(sim->points));
-  for (PetscInt p = 0; sim->linearization && p < report->npairs; ++p) {
-    const PetscInt first = sim->npoints;
+  sim->solved->npoints = 0;
+  PetscCall(PetscFree(sim->solved->points));
+  for (PetscInt p = 0; sim->solved->linearization && p < report->npairs; ++p) {
+    const PetscInt first = sim->solved->npoints;
     PairRows       rows;
     PairVertices   vertices;
     Vec            alone;

@@ -7,6 +7,7 @@
    equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
+#include "src/state/path.h"
 
 #define EQUILIBRIUM_ROWS 3 /* linearizations */
 
@@ -305,11 +306,11 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
 
   PetscFunctionBegin;
   PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
-  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[0]));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[0]));
   PetscCall(ContactSetDual(sim->contact, PETSC_TRUE));
-  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[1]));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[1]));
   PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
-  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lins[2]));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[2]));
   PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
   PetscCall(ContactSetDual(sim->contact, PETSC_FALSE));
   PetscFunctionReturn(0);
@@ -343,7 +344,7 @@ static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec lo
 
   PetscFunctionBegin;
   PetscCall(RigidTurnLoads(&constraints, -1.0, time, load));
-  PetscCall(TiesTurn(&constraints, time, sim->path.u, sim->path.u, &anew));
+  PetscCall(TiesTurn(&constraints, time, sim->path->u, sim->path->u, &anew));
   PetscCall(RigidTurnLoads(&constraints, 1.0, time, load));
   PetscFunctionReturn(0);
 }

@@ -2,6 +2,7 @@
 #include "measureimpl.h"
 #include <vector3.h>
 #include <string.h>
+#include "src/state/contact_state.h"
 
 /* A force and its moment about the origin [force], [force length] */
 typedef struct {
@@ -129,13 +130,13 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(VecDuplicate(weighted, &own));
   PetscCall(VecCopy(weighted, own));
   PetscCall(VecGetArray(own, &w));
-  for (PetscInt r = 0; r < sim->linearization->nlocal; ++r) {
-    if (sim->linearization->pair[r] != pair) w[r] = 0.0;
+  for (PetscInt r = 0; r < sim->solved->linearization->nlocal; ++r) {
+    if (sim->solved->linearization->pair[r] != pair) w[r] = 0.0;
   }
   PetscCall(VecRestoreArray(own, &w));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(MatMultTranspose(sim->linearization->J, own, force));
-  PetscCall(FrictionAddForces(sim->linearization, shear, pair, force));
+  PetscCall(MatMultTranspose(sim->solved->linearization->J, own, force));
+  PetscCall(FrictionAddForces(sim->solved->linearization, shear, pair, force));
   PetscCall(ForceFieldGet(sim, u, force, &field));
   PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].nonmortar, all, NULL, &sides[0]));
   PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].mortar, all, NULL, &sides[1]));
@@ -145,7 +146,7 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscFunctionReturn(0);
 }
 
-/* weighted: mass x pressure, one per row of sim->linearization; shear: friction forces, or NULL */
+/* weighted: mass x pressure, one per row of sim->solved->linearization; shear: friction forces, or NULL */
 PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
 {
   ForceSum *sides;

@@ -1,6 +1,7 @@
 /* The rigid motions of the bodies that are resisted by contact only, not by prescribed displacements, springs or
    ties. */
 #include "measureimpl.h"
+#include "src/state/path.h"
 
 /* Where bodies are: those of small strain as their energy has them, undeformed, but beside rigid ones that turn */
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
@@ -11,7 +12,7 @@ static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(VecDuplicate(sim->places.x, x));
   PetscCall(VecCopy(sim->places.x, *x));
-  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(*x, 1.0, sim->path.u));
+  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(*x, 1.0, sim->path->u));
   PetscFunctionReturn(0);
 }
 

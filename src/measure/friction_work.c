@@ -1,6 +1,9 @@
 /* Work dissipated by friction: the work of the friction forces on the vertices. Vertex forces are used because
    covered areas and rows change between load steps. */
 #include "measureimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 /* Friction coefficient of a pair at this time: 0 without friction, PETSC_INFINITY if pressure does not limit it */
 PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt which, PetscReal *coefficient)
@@ -24,13 +27,13 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])
 {
-  const ContactHistory *m      = &sim->history;
+  const ContactHistory *m      = sim->history;
   const PetscReal      *before = &m->friction[3 * pair * m->nowned];
   const PetscScalar    *now, *a, *b;
 
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(force));
-  PetscCall(FrictionAddForces(sim->linearization, sol->shear, pair, force));
+  PetscCall(FrictionAddForces(sim->solved->linearization, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
   PetscCall(VecGetArrayRead(increment[0], &a));
   PetscCall(VecGetArrayRead(increment[1], &b));
@@ -66,7 +69,7 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
 PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
 {
   const Bodies          bodies = SimulationBodies(sim);
-  const ContactHistory *m      = &sim->history;
+  const ContactHistory *m      = sim->history;
   PetscReal            *sums, *work;
   Vec                   force, increment[2];
 
@@ -74,7 +77,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   report->dissipated = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetIncrements(&bodies, sim->path.u, u, increment));
+  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
   PetscCall(PetscCalloc1(2 * m->npairs, &sums));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
@@ -82,7 +85,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
     PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
     for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
   }
-  PetscCall(FrictionAddSizes(sim->linearization, sol, sums));
+  PetscCall(FrictionAddSizes(sim->solved->linearization, sol, sums));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     report->pairs[p].dissipated  = sums[2 * p];
@@ -100,14 +103,14 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
 static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
 {
   const Bodies       bodies = SimulationBodies(sim);
-  ContactHistory    *m      = &sim->history;
+  ContactHistory    *m      = sim->history;
   const PetscScalar *now;
   PetscReal         *work;
   Vec                force, increment[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetIncrements(&bodies, sim->path.u, u, increment));
+  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
   PetscCall(PetscMalloc1(m->nowned, &work));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) continue;
@@ -127,24 +130,24 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
    counted from here */
 PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
 {
-  ContactLinearization lin = sim->linearization;
-  ContactHistory      *m   = &sim->history;
+  ContactLinearization lin = sim->solved->linearization;
+  ContactHistory      *m   = sim->history;
   const PetscScalar   *f, *s;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree2(sim->shear, sim->slip));
+  PetscCall(PetscFree2(sim->solved->shear, sim->solved->slip));
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(FrictionSettleForces(sim, u, sol));
-  PetscCall(PetscMalloc2(2 * lin->nlocal, &sim->shear, 2 * lin->nlocal, &sim->slip));
+  PetscCall(PetscMalloc2(2 * lin->nlocal, &sim->solved->shear, 2 * lin->nlocal, &sim->solved->slip));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (sim->pressure[r] > 0.0)
+    if (sim->solved->pressure[r] > 0.0)
       m->slip_path[ContactHistoryIndex(m, lin, r)] +=
         PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
     for (PetscInt a = 0; a < 2; ++a) {
-      sim->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
-      sim->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);
+      sim->solved->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
+      sim->solved->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);
     }
   }
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
@@ -156,7 +159,7 @@ PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
 /* After a state was restored: its friction forces become those of the last solve */
 PetscErrorCode FrictionRecall(Simulation sim)
 {
-  ContactHistory *m = &sim->history;
+  ContactHistory *m = sim->history;
 
   PetscFunctionBegin;
   if (m->settled) PetscCall(PetscArraycpy(m->shear, m->settled, 3 * m->npairs * m->nowned));

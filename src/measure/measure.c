@@ -2,6 +2,10 @@
 #include "measureimpl.h"
 #include <vector3.h>
 #include <math.h>
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/results.h"
+#include "src/state/run.h"
 
 /* With q = J_full^T M z: the relative sum of the contact forces on both sides */
 static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
@@ -50,8 +54,9 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  if (!sim->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &sim->adapt.errors, cend - cstart, &sim->adapt.marked));
-  for (PetscInt c = 0; c < cend - cstart; ++c) sim->adapt.errors[c] += cells[c];
+  if (!sim->run->adapt.errors)
+    PetscCall(PetscCalloc2(cend - cstart, &sim->run->adapt.errors, cend - cstart, &sim->run->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->run->adapt.errors[c] += cells[c];
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(0);
 }
@@ -66,8 +71,8 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
   PetscFunctionBegin;
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
-  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->marks ? &cells : NULL));
-  if (sim->marks) PetscCall(MeasureAddErrors(sim, cells));
+  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->run->marks ? &cells : NULL));
+  if (sim->run->marks) PetscCall(MeasureAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
@@ -168,15 +173,15 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
     PetscCall(MeasureGap(sol, report));
     PetscCall(VecDuplicate(sol->pressure, &weighted));
     PetscCall(VecDuplicate(u, &contact));
-    PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->linearization->mass));
-    PetscCall(MatMultTranspose(sim->linearization->J, weighted, contact));
-    PetscCall(FrictionAddForces(sim->linearization, sol->shear, PETSC_DECIDE, contact));
+    PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->solved->linearization->mass));
+    PetscCall(MatMultTranspose(sim->solved->linearization->J, weighted, contact));
+    PetscCall(FrictionAddForces(sim->solved->linearization, sol->shear, PETSC_DECIDE, contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
     PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
-    if (!sim->history.shear && !inertia) PetscCall(VecDestroy(&contact));
+    if (!sim->history->shear && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
@@ -192,6 +197,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(MeasureAlgebraicError(u, force, sol, weighted, moves, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
-  if (sim->estimate && time == (PetscReal)report->step) PetscCall(MeasureDiscretization(sim, u, moves, report));
+  if (sim->results->estimate && time == (PetscReal)report->step)
+    PetscCall(MeasureDiscretization(sim, u, moves, report));
   PetscFunctionReturn(0);
 }

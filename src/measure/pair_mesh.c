@@ -1,5 +1,7 @@
 /* Warnings about contact meshes that are too coarse. */
 #include "pair_rows.h"
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 #define PAIR_COARSE 2.0 /* warn if the nonmortar facets are larger than the mortar facets by this factor */
 #define PAIR_SWING  0.1 /* relative change of the force between load steps that counts as a swing */
@@ -71,18 +73,18 @@ static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, Petsc
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecDuplicate(sim->path.u, &closed));
-  PetscCall(VecDuplicate(sim->path.u, &count));
+  PetscCall(VecDuplicate(sim->path->u, &closed));
+  PetscCall(VecDuplicate(sim->path->u, &count));
   PetscCall(VecZeroEntries(closed));
   PetscCall(VecZeroEntries(count));
   PetscCall(VecGetOwnershipRange(closed, &rstart, &n));
   n -= rstart;
   PetscCall(VecGetArray(closed, &c));
-  for (PetscInt k = first; k < sim->npoints; ++k) {
+  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
     PetscInt i;
 
-    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &i));
-    c[i - rstart] = sim->points[k].closed ? 1.0 : 0.0;
+    PetscCall(PetscSectionGetOffset(global, sim->solved->points[k].vertex, &i));
+    c[i - rstart] = sim->solved->points[k].closed ? 1.0 : 0.0;
   }
   PetscCall(VecRestoreArray(closed, &c));
   for (PetscInt i = 0; i < 2; ++i) PetscCall(DMGetLocalVector(sim->dm, &local[i]));

@@ -6,6 +6,7 @@
    values over the shared area), interpolated back to the rows. The sum of value x area over the rows is preserved.
 */
 #include "pair_rows.h"
+#include "src/state/contact_state.h"
 
 static const PetscReal resolve_enclosed = 0.4; /* about 0.57 at a straight border of contact, about 0.2 between
                                                   strips of contact */
@@ -89,7 +90,7 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
   for (PetscInt r = 0; r < n; ++r) {
     PetscInt i;
 
-    PetscCall(PetscSectionGetOffset(global, sim->linearization->vertex[r], &i));
+    PetscCall(PetscSectionGetOffset(global, sim->solved->linearization->vertex[r], &i));
     for (PetscInt c = 0; c < 3; ++c) {
       place[c * n + r] = PetscRealPart(x[i - rstart + c]);
       sum[c] += rows->area[r] * place[c * n + r];

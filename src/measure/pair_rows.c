@@ -1,16 +1,18 @@
 /* Rows of one contact pair: area, normal, pressure, gap, friction and status. */
 #include "pair_rows.h"
 #include <vector3.h>
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 /* vector = mass_A x sum of A_AB over the vertices B of the mortar side */
 static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
 {
-  ContactLinearization lin = sim->linearization;
+  ContactLinearization lin = sim->solved->linearization;
   Vec                  mark, sum;
   const PetscScalar   *s;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path.u, &mark));
+  PetscCall(VecDuplicate(sim->path->u, &mark));
   PetscCall(VecDuplicate(lin->mass, &sum));
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecZeroEntries(mark));
@@ -39,14 +41,14 @@ PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, Petsc
 static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;
-  ContactLinearization lin      = sim->linearization;
+  ContactLinearization lin      = sim->solved->linearization;
   PetscReal            size;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &size));
+  PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &size));
   PetscCall(PetscCalloc3(rows->n, &rows->slips, 3 * rows->n, &rows->shear, 3 * rows->n, &rows->slid));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    const PetscReal *s = &sim->slip[2 * r], *f = &sim->shear[2 * r], *t = &lin->tangent[6 * r];
+    const PetscReal *s = &sim->solved->slip[2 * r], *f = &sim->solved->shear[2 * r], *t = &lin->tangent[6 * r];
 
     if (lin->pair[r] != pair || !(rows->area[r] > 0.0)) continue;
     rows->slips[r] = rows->closed[r] > 0.0 && PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size) ? 1.0 : 0.0;
@@ -62,37 +64,38 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
 PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 {
   const SceneContactPair *faces = &sim->scene->pairs[pair];
-  const PetscInt          n     = sim->linearization->nlocal;
+  const PetscInt          n     = sim->solved->linearization->nlocal;
   const PetscScalar      *mass;
   PetscReal              *force;
 
   PetscFunctionBegin;
-  *rows = (PairRows){.n = n, .frictional = (PetscBool)(sim->linearization->slip && SceneContactPairHasFriction(faces))};
+  *rows       = (PairRows){.n = n,
+          .frictional         = (PetscBool)(sim->solved->linearization->slip && SceneContactPairHasFriction(faces))};
   rows->young = PetscMin(SceneFaceMaterial(sim->scene, faces->mortar)->young,
     SceneFaceMaterial(sim->scene, faces->nonmortar)->young);
   PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
     &rows->closed, n, &rows->length));
   PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
   PetscCall(PetscMalloc1(3 * n, &force));
-  PetscCall(PairRowsSum(sim, pair, PairCover(sim->linearization), n, rows->normal));
-  PetscCall(PairRowsSum(sim, pair, sim->linearization->J, n, force));
-  PetscCall(VecGetArrayRead(sim->linearization->mass, &mass));
+  PetscCall(PairRowsSum(sim, pair, PairCover(sim->solved->linearization), n, rows->normal));
+  PetscCall(PairRowsSum(sim, pair, sim->solved->linearization->J, n, force));
+  PetscCall(VecGetArrayRead(sim->solved->linearization->mass, &mass));
   for (PetscInt r = 0; r < n; ++r) {
     PetscReal *normal = &rows->normal[3 * r], size = VectorNorm(normal);
 
     if (!(size > 0.0)) continue;
     rows->area[r]     = VectorNorm(&force[3 * r]);
     rows->share[r]    = rows->area[r] / size;
-    rows->pressure[r] = sim->pressure[r];
+    rows->pressure[r] = sim->solved->pressure[r];
     rows->length[r] = rows->own[r] = PetscSqrtReal(PetscRealPart(mass[r]));
-    rows->gap[r]                   = sim->gap[r] * PetscRealPart(mass[r]) / size;
+    rows->gap[r]                   = sim->solved->gap[r] * PetscRealPart(mass[r]) / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
     if (rows->area[r] > 0.0 && PairIsClosed(rows->pressure[r], rows->gap[r], rows->young, rows->length[r]))
       rows->closed[r] = rows->presses[r] = 1.0;
   }
   PetscCall(PetscFree(force));
   if (rows->frictional) PetscCall(PairRowsSetFriction(sim, pair, mass, rows));
-  PetscCall(VecRestoreArrayRead(sim->linearization->mass, &mass));
+  PetscCall(VecRestoreArrayRead(sim->solved->linearization->mass, &mass));
   PetscFunctionReturn(0);
 }
 

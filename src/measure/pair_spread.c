@@ -1,6 +1,7 @@
 /* Transfers values of a contact pair's rows to the vertices of both sides, and from the mortar vertices back to the
    rows. */
 #include "pair_rows.h"
+#include "src/state/contact_state.h"
 
 /* Sets v[to] to 1 at the rows of a component of a face */
 PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscInt to, Vec v)
@@ -47,7 +48,7 @@ Mat PairCover(ContactLinearization lin)
 */
 PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
 {
-  ContactLinearization lin = sim->linearization;
+  ContactLinearization lin = sim->solved->linearization;
   const PetscScalar   *t, *side, *mass;
   PetscScalar         *y, *a;
   PetscInt             n;
@@ -106,7 +107,7 @@ static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from
    a mortar field over the row; 0 in rows of other pairs */
 PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v, PetscInt from, PetscReal value[])
 {
-  ContactLinearization lin = sim->linearization;
+  ContactLinearization lin = sim->solved->linearization;
   const PetscScalar   *s, *mass;
   Vec                  along, sum;
 

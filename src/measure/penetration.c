@@ -1,5 +1,7 @@
 /* Penetration of vertices of one face of a pair below the other; gaps of mortar pairs are means. */
 #include "measureimpl.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 #define PENETRATION_SHARE 0.01 /* warn above this fraction of the largest displacement of the run */
 
@@ -11,8 +13,8 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   PetscFunctionBegin;
   if (!report->npairs) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(report->npairs, &depth, report->npairs, &rounding));
-  PetscCall(ContactGetPenetration(sim->contact, sim->path.u, depth, rounding));
-  PetscCall(VecNorm(sim->path.u, NORM_INFINITY, &report->motion));
+  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, depth, rounding));
+  PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &report->motion));
   for (PetscInt p = 0; p < report->npairs; ++p) {
     report->pairs[p].penetration          = depth[p];
     report->pairs[p].penetration_rounding = rounding[p];
@@ -34,7 +36,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
   PetscReal        motion = 0.0;
 
   PetscFunctionBegin;
-  if (sim->penalty > 0.0 || sim->scene->contact_updates == 1) PetscFunctionReturn(0);
+  if (sim->control->penalty > 0.0 || sim->scene->contact_updates == 1) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < run->nsteps; ++s) motion = PetscMax(motion, run->steps[s].motion);
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     const SceneContactPair *pair  = &sim->scene->pairs[p];

@@ -1,6 +1,9 @@
 /* Displacement, stress and contact at the scene's points and along its lines. */
 #include "measureimpl.h"
 #include <math.h>
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
 
 /* Contact at the vertices: values: [pressure, gap, 1 closed]; paired: [1 in a pair, -, -] */
 typedef struct {
@@ -33,11 +36,11 @@ static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], Pet
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(sim->path->u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path->u, &rstart, NULL));
   PetscCall(PetscCalloc1(n, &area));
-  for (PetscInt k = 0; k < sim->npoints; ++k) {
-    const ContactPoint *point = &sim->points[k];
+  for (PetscInt k = 0; k < sim->solved->npoints; ++k) {
+    const ContactPoint *point = &sim->solved->points[k];
     PetscInt            i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
@@ -131,7 +134,7 @@ static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const Pro
     node[a] /= 3;
   }
   ProbeInterpolate(place, node, 3, u, report->displacement);
-  ProbeInterpolate(place, node, 6, sim->results.recovered, stress);
+  ProbeInterpolate(place, node, 6, sim->results->recovered, stress);
   PetscCall(ResultsComplete(stress, values));
   PetscCall(PetscArraycpy(&report->stress_xx, values, STRESS_VALUES));
   if (contact) PetscCall(ProbeReadContact(contact, place, node, report));
@@ -153,7 +156,7 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
       reports[k]                  = (ProbeReport){.name = probe->name};
       reports[k].arc              = PetscSqrtReal(length) * (PetscReal)i / (PetscReal)PetscMax(1, probe->n - 1);
       reports[k].contact_pressure = reports[k].contact_gap = reports[k].contact_status = NAN;
-      PetscCall(PetscArraycpy(reports[k].place, sim->probes.points[k], 3));
+      PetscCall(PetscArraycpy(reports[k].place, sim->results->probes.points[k], 3));
     }
   }
   PetscFunctionReturn(0);
@@ -166,12 +169,14 @@ static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
   PetscReal *all;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(values * sim->probes.n, &all));
-  for (PetscInt k = 0; k < sim->probes.n; ++k) {
-    if (sim->probes.places[k].cell >= 0) PetscCall(PetscArraycpy(all + values * k, reports[k].displacement, values));
+  PetscCall(PetscCalloc1(values * sim->results->probes.n, &all));
+  for (PetscInt k = 0; k < sim->results->probes.n; ++k) {
+    if (sim->results->probes.places[k].cell >= 0)
+      PetscCall(PetscArraycpy(all + values * k, reports[k].displacement, values));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * sim->probes.n), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt k = 0; k < sim->probes.n; ++k)
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * sim->results->probes.n), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt k = 0; k < sim->results->probes.n; ++k)
     PetscCall(PetscArraycpy(reports[k].displacement, all + values * k, values));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(0);
@@ -209,17 +214,17 @@ PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
   const PetscScalar *u;
 
   PetscFunctionBegin;
-  if (!sim->probes.n) PetscFunctionReturn(0);
+  if (!sim->results->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  PetscCall(PetscMalloc1(sim->probes.n, &reports));
+  PetscCall(PetscMalloc1(sim->results->probes.n, &reports));
   PetscCall(ProbesBegin(sim, reports));
   if (sim->contact) PetscCall(ProbeContactCreate(sim, &contact));
   PetscCall(DMGetLocalVector(sim->dm, &local));
-  PetscCall(DMGlobalToLocal(sim->dm, sim->path.u, INSERT_VALUES, local));
+  PetscCall(DMGlobalToLocal(sim->dm, sim->path->u, INSERT_VALUES, local));
   PetscCall(VecGetArrayRead(local, &u));
-  for (PetscInt k = 0; k < sim->probes.n; ++k) {
-    if (sim->probes.places[k].cell >= 0)
-      PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->probes.places[k], &reports[k]));
+  for (PetscInt k = 0; k < sim->results->probes.n; ++k) {
+    if (sim->results->probes.places[k].cell >= 0)
+      PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->results->probes.places[k], &reports[k]));
   }
   PetscCall(VecRestoreArrayRead(local, &u));
   PetscCall(DMRestoreLocalVector(sim->dm, &local));

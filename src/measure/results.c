@@ -1,5 +1,7 @@
 /* Fields for probes and files: stress at the nodes and at the quadrature points, strain energy. */
 #include "measureimpl.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
 
 static PetscReal ResultsVonMises(const PetscReal s[6])
 {
@@ -20,13 +22,13 @@ PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRES
 /* Copies the values of the owned nodes, in the order of global vectors */
 static PetscErrorCode ResultsPickOwned(Simulation sim)
 {
-  Results     *results = &sim->results;
+  Results     *results = sim->results;
   PetscSection local, global;
   PetscInt     pstart, pend, rstart, n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path.u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path.u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(sim->path->u, &n));
+  PetscCall(VecGetOwnershipRange(sim->path->u, &rstart, NULL));
   PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3), &results->nodal));
   PetscCall(DMGetLocalSection(sim->dm, &local));
   PetscCall(DMGetGlobalSection(sim->dm, &global));
@@ -47,22 +49,22 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
 /* Computes the requested fields at the last state; others are not computed */
 PetscErrorCode ResultsMeasure(Simulation sim)
 {
-  Results *results = &sim->results;
+  Results *results = sim->results;
 
   PetscFunctionBegin;
   PetscCall(ResultsFree(results));
   PetscCall(ElasticityCellPlastic(sim->elasticity, &results->plastic));
-  if (!results->nodes && !results->points && !sim->probes.n) PetscFunctionReturn(0);
+  if (!results->nodes && !results->points && !sim->results->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  if (results->nodes || sim->probes.n)
-    PetscCall(ElasticityNodalStress(sim->elasticity, sim->path.u, &results->recovered));
+  if (results->nodes || sim->results->probes.n)
+    PetscCall(ElasticityNodalStress(sim->elasticity, sim->path->u, &results->recovered));
   if (results->nodes) {
     PetscCall(ResultsPickOwned(sim));
-    PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path.u, &results->density));
+    PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path->u, &results->density));
   }
   if (results->points)
-    PetscCall(
-      ElasticityPointStress(sim->elasticity, sim->path.u, &results->npoints, &results->places, &results->point_stress));
+    PetscCall(ElasticityPointStress(sim->elasticity, sim->path->u, &results->npoints, &results->places,
+      &results->point_stress));
   PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

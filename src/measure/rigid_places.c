@@ -1,5 +1,6 @@
 /* Positions of rigid bodies, and their rotations since the start. */
 #include "measureimpl.h"
+#include "src/state/path.h"
 
 static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
 {
@@ -37,7 +38,7 @@ PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
   if (!n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(n, &report->rigid_bodies));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &poses));
-  PetscCall(PosesFind(&bodies, NULL, sim->path.u, poses));
+  PetscCall(PosesFind(&bodies, NULL, sim->path->u, poses));
   n = 0;
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     const PetscReal *center = PoseFindCenter(sim->scene, b);

@@ -1,5 +1,7 @@
 /* Warns of bodies with a small-strain law that are strained or rotated far beyond its range. */
 #include "measureimpl.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
 
 #define STRAIN_LIMIT   0.25 /* principal strain, averaged over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
@@ -24,17 +26,17 @@ PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
   PetscReal(*values)[2];
 
   PetscFunctionBegin;
-  if (!sim->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->beyond));
-  if (!StrainMayWarn(scene, sim->beyond)) PetscFunctionReturn(0);
+  if (!sim->results->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->results->beyond));
+  if (!StrainMayWarn(scene, sim->results->beyond)) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
-  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path.u, values));
+  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
-    if (sim->beyond[b] || scene->bodies[b].material.type == MATERIAL_RIGID ||
+    if (sim->results->beyond[b] || scene->bodies[b].material.type == MATERIAL_RIGID ||
         (turned && values[b][1] <= ROTATION_LIMIT))
       continue;
-    sim->beyond[b] = PETSC_TRUE;
+    sim->results->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "body \"%s\" is %s by %.2g %s on average in load step %" PetscInt_FMT
       ", but its material law is for small strains: its forces have an error of about that size; use material: "

@@ -1,5 +1,7 @@
 /* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
 #include "measureimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/path.h"
 
 /* Adds (part x force now + (1 - part) x force before; NULL: zero) . (way of each) to work; `now` becomes
    `before` then */
@@ -47,12 +49,12 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
   const PetscReal allowed = 1e-2;
 
   PetscFunctionBegin;
-  if (sim->path.warned || !(report->imbalance > allowed)) PetscFunctionReturn(0);
-  sim->path.warned = PETSC_TRUE;
+  if (sim->path->warned || !(report->imbalance > allowed)) PetscFunctionReturn(0);
+  sim->path->warned = PETSC_TRUE;
   PetscCall(ReportWarn(sim->comm, &sim->report,
     "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
     "%g); use more load steps",
-    report->step, 100.0 * (double)report->imbalance, (double)sim->path.unbalanced, (double)sim->path.turnover));
+    report->step, 100.0 * (double)report->imbalance, (double)sim->path->unbalanced, (double)sim->path->turnover));
   PetscFunctionReturn(0);
 }
 
@@ -64,7 +66,7 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
   const Bodies    bodies = SimulationBodies(sim);
-  LoadPath       *path   = &sim->path;
+  LoadPath       *path   = sim->path;
   const PetscReal work = path->work, taken = path->contact_work, relative = 1e-12;
   PetscReal       place, way;
   Vec             outside, reaction, increment[2];
@@ -89,7 +91,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history.shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
+  if (sim->history->shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
       report));
   PetscFunctionReturn(0);

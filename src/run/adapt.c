@@ -1,6 +1,7 @@
 /* Chooses the cells to refine for the next mesh: those with the largest errors over all load steps, and those at the
    contact in the last one */
 #include "runimpl.h"
+#include "src/state/run.h"
 
 #define ADAPT_SHARE \
   0.8 /* fraction of the squared error in the refined cells; after refinement about 0.4 of it
@@ -28,7 +29,7 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
     "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
     scene->ties[0].name);
-  sim->marks = marks;
+  sim->run->marks = marks;
   PetscFunctionReturn(0);
 }
 
@@ -37,7 +38,7 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
 {
   PetscFunctionBegin;
   *sum = 0.0;
-  for (PetscInt c = 0; c < n; ++c) *sum += sim->adapt.errors[c] >= threshold ? sim->adapt.errors[c] : 0.0;
+  for (PetscInt c = 0; c < n; ++c) *sum += sim->run->adapt.errors[c] >= threshold ? sim->run->adapt.errors[c] : 0.0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, sim->comm));
   PetscFunctionReturn(0);
 }
@@ -50,7 +51,7 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
   PetscReal       largest = 0.0, threshold, all, sum = 0.0;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, sim->adapt.errors[c]);
+  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, sim->run->adapt.errors[c]);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscCall(AdaptSum(sim, n, 0.0, &all));
   threshold = 1.03 * largest;
@@ -59,7 +60,7 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
     PetscCall(AdaptSum(sim, n, threshold, &sum));
   }
   for (PetscInt c = 0; c < n; ++c)
-    sim->adapt.marked[c] = (PetscBool)(sim->adapt.errors[c] >= threshold && sim->adapt.errors[c] > 0.0);
+    sim->run->adapt.marked[c] = (PetscBool)(sim->run->adapt.errors[c] >= threshold && sim->run->adapt.errors[c] > 0.0);
   PetscFunctionReturn(0);
 }
 
@@ -76,7 +77,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
   PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
   PetscCall(AdaptMarkErrors(sim, cend - cstart));
   PetscCall(AdaptMarkContact(sim));
-  for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->adapt.marked[c];
+  for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->run->adapt.marked[c];
   counts[1] = cend - cstart;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->comm));
   *growth = 1.0 + 7.0 * (PetscReal)counts[0] / (PetscReal)counts[1];
@@ -88,6 +89,6 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
 {
   PetscFunctionBegin;
-  PetscCall(MeshMarksAdd(sim->dm, sim->adapt.marked, marks));
+  PetscCall(MeshMarksAdd(sim->dm, sim->run->adapt.marked, marks));
   PetscFunctionReturn(0);
 }

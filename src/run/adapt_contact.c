@@ -2,6 +2,8 @@
    the edge of contact */
 #include "runimpl.h"
 #include <vector3.h>
+#include "src/state/contact_state.h"
+#include "src/state/run.h"
 
 /* Values at each vertex of a face, in its local vector */
 typedef enum {
@@ -23,11 +25,11 @@ static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(VecGetOwnershipRange(facts, &rstart, NULL));
   PetscCall(VecGetArray(facts, &a));
-  for (PetscInt k = 0; k < sim->npoints; ++k) {
+  for (PetscInt k = 0; k < sim->solved->npoints; ++k) {
     PetscInt offset;
 
-    if (sim->points[k].pair != pair || !sim->points[k].presses) continue;
-    PetscCall(PetscSectionGetOffset(global, sim->points[k].vertex, &offset));
+    if (sim->solved->points[k].pair != pair || !sim->solved->points[k].presses) continue;
+    PetscCall(PetscSectionGetOffset(global, sim->solved->points[k].vertex, &offset));
     a[offset - rstart + VERTEX_CLOSED] = 1.0;
   }
   PetscCall(VecRestoreArray(facts, &a));
@@ -175,7 +177,7 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
     PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
     PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
     if (errs && sim->scene->bodies[body].material.type != MATERIAL_RIGID)
-      sim->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
+      sim->run->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayRead(local, &a));
   PetscCall(ISRestoreIndices(facets, &f));

@@ -1,6 +1,7 @@
 /* Reference cost: the same mesh and the same AMG without contact. */
 #include "runimpl.h"
 #include <petsctime.h>
+#include "src/state/path.h"
 
 /* Solver like the optimizer's, with its options; PCAMGF without a subspace is its AMG alone */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
@@ -36,7 +37,7 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 
   PetscFunctionBegin;
   if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(ContactLinearize(sim->contact, sim->path.u, &lin));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
   PetscCall(TiesGather(&sim->ties, pressure));

@@ -1,6 +1,7 @@
 /* Effects of a scene: which are on, why, and their cost. */
 #include "runimpl.h"
 #include <math.h>
+#include "src/state/results.h"
 
 typedef enum {
   EFFECT_CONTACT,
@@ -142,11 +143,12 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     PetscCall(
       EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
   else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));
-  PetscCall(EffectSet(report, EFFECT_RESULTS, (PetscBool)(sim->probes.n || sim->results.nodes || sim->results.points),
-    "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", sim->probes.n,
-    sim->results.nodes ? "" : "no ", sim->results.points ? "" : "not "));
-  PetscCall(EffectSet(report, EFFECT_ESTIMATE, sim->estimate,
-    sim->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
+  PetscCall(EffectSet(report, EFFECT_RESULTS,
+    (PetscBool)(sim->results->probes.n || sim->results->nodes || sim->results->points),
+    "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", sim->results->probes.n,
+    sim->results->nodes ? "" : "no ", sim->results->points ? "" : "not "));
+  PetscCall(EffectSet(report, EFFECT_ESTIMATE, sim->results->estimate,
+    sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
   PetscFunctionReturn(0);
 }
 

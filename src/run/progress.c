@@ -1,6 +1,9 @@
 /* Prints the progress of a run at intervals: load step, elapsed time, estimated remaining time. */
 #include "runimpl.h"
 #include <petsctime.h>
+#include "src/state/control.h"
+#include "src/state/path.h"
+#include "src/state/run.h"
 
 #define PROGRESS_LENGTH 32
 #define PROGRESS_STEPS  ((PetscInt)PETSC_STATIC_ARRAY_LENGTH(((Progress *)NULL)->last))
@@ -21,9 +24,9 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
 {
   PetscFunctionBegin;
   PetscCall(PetscTime(now));
-  *due = (PetscBool)(sim->monitor && sim->progress.every > 0.0 &&
-                     *now - PetscMax(sim->progress.said, sim->start.total) >= sim->progress.every);
-  if (*due) sim->progress.said = *now;
+  *due = (PetscBool)(sim->control->monitor && sim->run->progress.every > 0.0 &&
+                     *now - PetscMax(sim->run->progress.said, sim->run->start.total) >= sim->run->progress.every);
+  if (*due) sim->run->progress.said = *now;
   PetscFunctionReturn(0);
 }
 
@@ -56,14 +59,15 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
 /* Prints a line. With -accuracy there is no estimate, since a finer mesh may follow */
 static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
-  const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path.time) + 1, nsteps);
+  const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path->time) + 1, nsteps);
   char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
   PetscLogDouble  left;
-  const PetscBool known = (PetscBool)(!sim->forecast.found && ProgressEstimate(&sim->progress,
-                                                                now - sim->progress.begun, nsteps - step, &left));
+  const PetscBool known =
+    (PetscBool)(!sim->control->forecast.found &&
+                ProgressEstimate(&sim->run->progress, now - sim->run->progress.begun, nsteps - step, &left));
 
   PetscFunctionBegin;
-  PetscCall(ProgressDuration(now - sim->start.total, so_far));
+  PetscCall(ProgressDuration(now - sim->run->start.total, so_far));
   if (known) PetscCall(ProgressDuration(left, to_come));
   PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n",
     step, nsteps, inside, so_far, known ? ", about " : "", known ? to_come : "", known ? " left" : ""));
@@ -74,25 +78,25 @@ static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const ch
 static PetscErrorCode ProgressBegin(Simulation sim)
 {
   PetscFunctionBegin;
-  PetscCall(PetscTime(&sim->progress.begun));
-  sim->progress.whole = (PetscBool)(sim->path.time == PetscFloorReal(sim->path.time));
+  PetscCall(PetscTime(&sim->run->progress.begun));
+  sim->run->progress.whole = (PetscBool)(sim->path->time == PetscFloorReal(sim->path->time));
   PetscFunctionReturn(0);
 }
 
 /* Called after each converged attempt */
 static PetscErrorCode ProgressReach(Simulation sim)
 {
-  const PetscBool end        = (PetscBool)(sim->path.time == PetscFloorReal(sim->path.time));
+  const PetscBool end        = (PetscBool)(sim->path->time == PetscFloorReal(sim->path->time));
   char            inside[48] = "";
   PetscBool       due;
   PetscLogDouble  now;
 
   PetscFunctionBegin;
   PetscCall(ProgressIsDue(sim, &now, &due));
-  if (end && sim->progress.whole) ProgressRecord(&sim->progress, now - sim->progress.begun);
-  if (end) sim->progress.begun = now;
-  if (!due || sim->path.time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
-  if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path.time));
+  if (end && sim->run->progress.whole) ProgressRecord(&sim->run->progress, now - sim->run->progress.begun);
+  if (end) sim->run->progress.begun = now;
+  if (!due || sim->path->time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
+  if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path->time));
   PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
@@ -132,16 +136,17 @@ static PetscErrorCode ProgressMonitorLinear(KSP ksp, PetscInt iteration, PetscRe
   PetscReal  goal;
 
   PetscFunctionBegin;
-  if (!iteration) sim->progress.residual = norm;
+  if (!iteration) sim->run->progress.residual = norm;
   PetscCall(KSPGetTolerances(ksp, &goal, NULL, NULL, NULL));
-  PetscCall(ProgressIterate(sim, iteration, norm > 0.0 ? norm / sim->progress.residual : 0.0, goal));
+  PetscCall(ProgressIterate(sim, iteration, norm > 0.0 ? norm / sim->run->progress.residual : 0.0, goal));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode ProgressObserve(Simulation sim)
 {
   PetscFunctionBegin;
-  sim->progress = (Progress){.every = 10.0};
-  sim->observer = (StepObserver){ProgressBegin, ProgressReach, ProgressMonitorOptimizer, ProgressMonitorLinear};
+  sim->run->progress = (Progress){.every = 10.0};
+  sim->control->observer =
+    (StepObserver){ProgressBegin, ProgressReach, ProgressMonitorOptimizer, ProgressMonitorLinear};
   PetscFunctionReturn(0);
 }

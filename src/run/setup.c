@@ -1,5 +1,10 @@
 /* Sets up a scene: mesh, elasticity, loads, contact, report. */
 #include "runimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
+#include "src/state/run.h"
 
 static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
 {
@@ -19,9 +24,9 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
-  PetscCheck(sim->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->comm, PETSC_ERR_SUP,
+  PetscCheck(sim->control->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->comm, PETSC_ERR_SUP,
     "-contact_penalty is not for scheme impact of dynamics: leave the option out, or take generalized_alpha");
-  PetscCheck(sim->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
+  PetscCheck(sim->control->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
     "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
     "quadratic");
   PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
@@ -39,7 +44,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   constraints = SimulationConstraints(sim);
   PetscCall(TiesCreate(&constraints));
   PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->dynamics));
-  if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path.outside));
+  if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path->outside));
   PetscFunctionReturn(0);
 }
 
@@ -52,7 +57,7 @@ static PetscErrorCode SimulationSetUpTangent(Simulation sim)
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(TiesCreateTangent(&constraints, &sim->K));
-  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -68,9 +73,9 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
   for (PetscInt p = 0; p < scene->npairs; ++p)
-    PetscCheck(sim->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
+    PetscCheck(sim->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
       "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
-  PetscCall(ContactHistoryCreate(sim->dm, scene, &sim->history));
+  PetscCall(ContactHistoryCreate(sim->dm, scene, sim->history));
   PetscFunctionReturn(0);
 }
 
@@ -83,7 +88,7 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
   report->ranks = size;
-  PetscCall(VecGetSize(sim->path.u, &report->dofs));
+  PetscCall(VecGetSize(sim->path->u, &report->dofs));
   report->problem   = scene->name;
   report->units     = scene->units ? scene->units : "";
   report->refine    = scene->refine;
@@ -115,19 +120,19 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   Scene scene = sim->scene;
 
   PetscFunctionBegin;
-  PetscCall(StepEventsRead(&sim->start));
+  PetscCall(StepEventsRead(&sim->run->start));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreateScene(sim->comm, scene, sim->marks, &sim->dm));
+  PetscCall(MeshCreateScene(sim->comm, scene, sim->run->marks, &sim->dm));
   PetscCall(MeshCheckScene(sim->dm, scene));
-  PetscCall(ProbesCreate(sim->dm, scene, &sim->probes));
+  PetscCall(ProbesCreate(sim->dm, scene, &sim->results->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path.u));
-  PetscCall(VecSet(sim->path.u, 0.0));
-  PetscCall(VecDuplicate(sim->path.u, &sim->path.previous_u));
-  PetscCall(VecSet(sim->path.previous_u, 0.0));
+  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path->u));
+  PetscCall(VecSet(sim->path->u, 0.0));
+  PetscCall(VecDuplicate(sim->path->u, &sim->path->previous_u));
+  PetscCall(VecSet(sim->path->previous_u, 0.0));
   PetscCall(SimulationSetUpElasticity(sim));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscCall(SimulationSetUpTangent(sim));

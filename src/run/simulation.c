@@ -1,5 +1,22 @@
 /* Creation and destruction of a simulation, and its settings. */
 #include "runimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
+#include "src/state/run.h"
+
+/* The simulation and its parts, in one piece of memory */
+typedef struct {
+  struct _n_Simulation simulation;
+  LoadPath             path;
+  ContactHistory       history;
+  ContactState         solved;
+  Results              results;
+  StepControl          control;
+  RunState             run;
+} SimulationMemory;
 
 /*@C
    SimulationCreate - Prepares to simulate a scene
@@ -20,19 +37,29 @@
 @*/
 PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 {
+  SimulationMemory *memory;
+
   PetscFunctionBegin;
   PetscCall(StepEventsRegister());
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(ContactDetect(comm, scene));
-  PetscCall(PetscNew(sim));
-  (*sim)->comm     = comm;
-  (*sim)->scene    = scene;
-  (*sim)->warm     = PETSC_TRUE;
-  (*sim)->estimate = PETSC_TRUE;
-  (*sim)->maxcuts  = 5;
-  PetscCall(ProgressObserve(*sim));
-  (*sim)->tolerances =
+  PetscCall(PetscNew(&memory));
+  *sim            = &memory->simulation;
+  (*sim)->comm    = comm;
+  (*sim)->scene   = scene;
+  (*sim)->path    = &memory->path;
+  (*sim)->history = &memory->history;
+  (*sim)->solved  = &memory->solved;
+  (*sim)->results = &memory->results;
+  (*sim)->control = &memory->control;
+  (*sim)->run     = &memory->run;
+  /* default values */
+  memory->results.estimate = PETSC_TRUE;
+  memory->control.warm     = PETSC_TRUE;
+  memory->control.maxcuts  = 5;
+  memory->control.tolerances =
     (StepTolerances){.optimizer = PETSC_DEFAULT, .linear = 1e-10, .gap_change = 1e-6, .gap_unconverged = 1e-5};
+  PetscCall(ProgressObserve(*sim));
   PetscFunctionReturn(0);
 }
 
@@ -56,7 +83,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tolerances)
 {
   PetscFunctionBegin;
-  sim->tolerances = *tolerances;
+  sim->control->tolerances = *tolerances;
   PetscFunctionReturn(0);
 }
 
@@ -78,7 +105,7 @@ PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tol
 PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerances)
 {
   PetscFunctionBegin;
-  *tolerances = sim->tolerances;
+  *tolerances = sim->control->tolerances;
   PetscFunctionReturn(0);
 }
 
@@ -97,7 +124,7 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 {
   PetscFunctionBegin;
-  sim->monitor = monitor;
+  sim->control->monitor = monitor;
   PetscFunctionReturn(0);
 }
 
@@ -119,8 +146,8 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool points)
 {
   PetscFunctionBegin;
-  sim->results.nodes  = nodes;
-  sim->results.points = points;
+  sim->results->nodes  = nodes;
+  sim->results->points = points;
   PetscFunctionReturn(0);
 }
 
@@ -157,28 +184,28 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
   PetscCall(PetscOptionsBool("-load_warm_start",
     "Start a load step from the extrapolated displacements and the pressures of the last one", "SimulationStep",
-    sim->warm, &sim->warm, NULL));
+    sim->control->warm, &sim->control->warm, NULL));
   PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
-    "SimulationStep", sim->maxcuts, &sim->maxcuts, NULL, 0));
+    "SimulationStep", sim->control->maxcuts, &sim->control->maxcuts, NULL, 0));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
-    sim->progress.every, &sim->progress.every, NULL));
+    sim->run->progress.every, &sim->run->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
-    "SimulationStep", sim->estimate, &sim->estimate, NULL));
+    "SimulationStep", sim->results->estimate, &sim->results->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol",
     "Change of the gap, relative to the largest displacement, that ends the contact updates", "SimulationStep",
-    sim->tolerances.gap_change, &sim->tolerances.gap_change, NULL));
+    sim->control->tolerances.gap_change, &sim->control->tolerances.gap_change, NULL));
   PetscCall(PetscOptionsReal("-contact_gap_tol",
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
-    "SimulationStep", sim->tolerances.gap_unconverged, &sim->tolerances.gap_unconverged, NULL));
+    "SimulationStep", sim->control->tolerances.gap_unconverged, &sim->control->tolerances.gap_unconverged, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty",
     "Penalty method: stiffness of the contact relative to that of the bodies at a row (0: no penalty)",
-    "SimulationStep", sim->penalty, &sim->penalty, NULL));
+    "SimulationStep", sim->control->penalty, &sim->control->penalty, NULL));
   PetscOptionsEnd();
-  PetscCheck(sim->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->penalty), sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "-contact_penalty must not be negative, but is %g", (double)sim->penalty);
-  PetscCheck(sim->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->progress.every), sim->comm,
+  PetscCheck(sim->control->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->control->penalty), sim->comm,
+    PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->control->penalty);
+  PetscCheck(sim->run->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->run->progress.every), sim->comm,
     PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g",
-    (double)sim->progress.every);
+    (double)sim->run->progress.every);
   PetscFunctionReturn(0);
 }
 
@@ -216,7 +243,7 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(StepEventsGetTimes(sim->comm, &sim->start, &sim->report.time));
+  PetscCall(StepEventsGetTimes(sim->comm, &sim->run->start, &sim->report.time));
   for (PetscInt b = 0; b < sim->report.nbodies; ++b)
     PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
   PetscCall(EffectsSetTimes(sim, &sim->report));
@@ -254,19 +281,19 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->report.effects));
   for (PetscInt i = 0; i < s->report.nwarnings; ++i) PetscCall(PetscFree(*(char **)&s->report.warnings[i]));
   PetscCall(PetscFree(s->report.warnings));
-  PetscCall(PetscFree2(s->pressure, s->gap));
-  PetscCall(PetscFree2(s->shear, s->slip));
-  PetscCall(PetscFree(s->cause));
-  PetscCall(PetscFree(s->stress));
-  PetscCall(PetscFree(s->points));
-  PetscCall(PetscFree(s->beyond));
-  PetscCall(ResultsFree(&s->results));
-  PetscCall(PetscFree2(s->adapt.errors, s->adapt.marked));
-  PetscCall(StepForecastDestroy(&s->forecast.here));
-  PetscCall(ProbesDestroy(&s->probes));
-  PetscCall(ContactLinearizationDestroy(&s->linearization));
-  PetscCall(ContactLinearizationDestroy(&s->upcoming));
-  PetscCall(ContactHistoryDestroy(&s->history));
+  PetscCall(PetscFree2(s->solved->pressure, s->solved->gap));
+  PetscCall(PetscFree2(s->solved->shear, s->solved->slip));
+  PetscCall(PetscFree(s->control->cause));
+  PetscCall(PetscFree(s->results->stress));
+  PetscCall(PetscFree(s->solved->points));
+  PetscCall(PetscFree(s->results->beyond));
+  PetscCall(ResultsFree(s->results));
+  PetscCall(PetscFree2(s->run->adapt.errors, s->run->adapt.marked));
+  PetscCall(StepForecastDestroy(&s->control->forecast.here));
+  PetscCall(ProbesDestroy(&s->results->probes));
+  PetscCall(ContactLinearizationDestroy(&s->solved->linearization));
+  PetscCall(ContactLinearizationDestroy(&s->solved->upcoming));
+  PetscCall(ContactHistoryDestroy(s->history));
   PetscCall(ContactDestroy(&s->contact));
   PetscCall(PrescribedDestroy(&s->prescribed));
   PetscCall(DeadLoadsDestroy(&s->loads));
@@ -277,15 +304,15 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(MatDestroy(&s->follows));
   PetscCall(RigidDestroy(&s->rigid));
   PetscCall(VertexPlacesDestroy(&s->places));
-  PetscCall(KSPDestroy(&s->ksp));
-  PetscCall(PetscContainerDestroy(&s->subspace));
+  PetscCall(KSPDestroy(&s->control->ksp));
+  PetscCall(PetscContainerDestroy(&s->solved->subspace));
   PetscCall(ElasticityDestroy(&s->elasticity));
   PetscCall(MatDestroy(&s->K));
   PetscCall(VecDestroy(&s->mass));
-  PetscCall(VecDestroy(&s->path.u));
-  PetscCall(VecDestroy(&s->path.previous_u));
-  PetscCall(VecDestroy(&s->path.outside));
-  PetscCall(VecDestroy(&s->path.contact));
+  PetscCall(VecDestroy(&s->path->u));
+  PetscCall(VecDestroy(&s->path->previous_u));
+  PetscCall(VecDestroy(&s->path->outside));
+  PetscCall(VecDestroy(&s->path->contact));
   PetscCall(DMDestroy(&s->dm));
   PetscCall(PetscFree(*sim));
   PetscFunctionReturn(0);

@@ -1,5 +1,6 @@
 /* Contact pressure, slack and friction force of each nonmortar vertex, carried from one load step to the next. */
 #include "stateimpl.h"
+#include "src/state/contact_history.h"
 
 static const PetscReal negligible_pressure = 1e-3; /* relative to the largest pressure */
 static const PetscReal open_share          = 1e-3; /* A row is open if its force is below this fraction of (stiffness x

@@ -1,9 +1,10 @@
 /* Inertia in a load step, which is a time step then. */
 #include "stateimpl.h"
+#include "src/state/path.h"
 
 static PetscReal InertiaStep(Simulation sim, PetscReal time)
 {
-  return (time - sim->path.time) * SceneTimeStep(sim->scene);
+  return (time - sim->path->time) * SceneTimeStep(sim->scene);
 }
 
 /* The term of this step; changed: its part of the tangent is not that of the step before */
@@ -12,7 +13,7 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   Dynamics *d = &sim->dynamics;
 
   PetscFunctionBegin;
-  PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim, time), sim->path.u, d));
+  PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim, time), sim->path->u, d));
   PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, d->viscosity, changed));
   PetscFunctionReturn(0);
 }
@@ -40,7 +41,7 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
 
   PetscFunctionBegin;
   if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(SchemeAdvance(&sim->scene->dynamics, InertiaStep(sim, time), sim->path.u, u, &sim->dynamics));
+  PetscCall(SchemeAdvance(&sim->scene->dynamics, InertiaStep(sim, time), sim->path->u, u, &sim->dynamics));
   PetscCall(DynamicsSetRest(&constraints, &sim->loads, time, u, &sim->dynamics));
   PetscFunctionReturn(0);
 }

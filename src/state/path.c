@@ -1,5 +1,6 @@
 /* The path of equilibrium states, and its extrapolation. */
 #include "stateimpl.h"
+#include "src/state/path.h"
 
 /*
    ratio: the next increment as a multiple of the last one. It is the projection of the change of all ramps on their
@@ -7,7 +8,7 @@
 */
 static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio)
 {
-  const LoadPath *path    = &sim->path;
+  const LoadPath *path    = sim->path;
   PetscReal       product = 0.0, square = 0.0;
 
   PetscFunctionBegin;
@@ -32,12 +33,12 @@ PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 
   PetscFunctionBegin;
   if (SimulationIsDynamic(sim)) {
-    PetscCall(SchemePredict(&sim->dynamics, (time - sim->path.time) * SceneTimeStep(sim->scene), sim->path.u, u));
+    PetscCall(SchemePredict(&sim->dynamics, (time - sim->path->time) * SceneTimeStep(sim->scene), sim->path->u, u));
   } else {
     PetscCall(PathRatio(sim, time, &ratio));
-    PetscCall(VecCopy(sim->path.u, u));
-    PetscCall(VecAXPY(u, ratio, sim->path.u));
-    PetscCall(VecAXPY(u, -ratio, sim->path.previous_u));
+    PetscCall(VecCopy(sim->path->u, u));
+    PetscCall(VecAXPY(u, ratio, sim->path->u));
+    PetscCall(VecAXPY(u, -ratio, sim->path->previous_u));
   }
   PetscCall(PrescribedApply(&sim->prescribed, time, u));
   PetscCall(TiesFollow(&sim->ties, u));
@@ -53,7 +54,7 @@ PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scal
   PetscFunctionBegin;
   *scale = 1.0;
   if (sim->scene->nramps > 1 || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(SceneGetFactor(sim->scene, 0, sim->path.time, &now));
+  PetscCall(SceneGetFactor(sim->scene, 0, sim->path->time, &now));
   PetscCall(SceneGetFactor(sim->scene, 0, time, &next));
   if (now != 0.0 && next / now > 0.0) *scale = next / now;
   PetscFunctionReturn(0);
@@ -82,7 +83,7 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
 PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
 {
   const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;
-  PetscReal       steps   = PetscMax((PetscReal)sim->scene->nsteps - sim->path.time, 1.0);
+  PetscReal       steps   = PetscMax((PetscReal)sim->scene->nsteps - sim->path->time, 1.0);
   PetscBool       linear;
 
   PetscFunctionBegin;

@@ -1,5 +1,6 @@
 /* The solution at the contact rows. */
 #include "stateimpl.h"
+#include "src/state/solution.h"
 
 /* Creates the vectors, in place of existing ones; rows: a vector with the layout of the rows */
 PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *sol)

@@ -2,6 +2,10 @@
    linearized gap agrees with the gap of the deformed faces. */
 #include "stepimpl.h"
 #include <math.h>
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 /* The gap at u for a load step that ends at `time`. Ramps of initial overlaps need J */
 static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
@@ -40,7 +44,8 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
     else if (p->sim->quadratic && !p->J && !p->lower)
       PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
-    else if (p->sim->penalty > 0.0 && p->J) PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
+    else if (p->sim->control->penalty > 0.0 && p->J)
+      PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     else PetscCall(OptimizerSolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
     PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
@@ -69,12 +74,13 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   report->gap_true = NAN;
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
-  PetscCall(ContactHistoryChange(&sim->history, at_u, &report->gap_change));
+  PetscCall(ContactHistoryChange(sim->history, at_u, &report->gap_change));
   PetscCall(ContactUpdateMeasureError(sim, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true                = (PetscBool)(report->update_error <= sim->tolerances.gap_change * size);
-  report->gap_unconverged = (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
-                                        PetscMax(sim->tolerances.gap_change, sim->tolerances.gap_unconverged) * size);
+  *is_true = (PetscBool)(report->update_error <= sim->control->tolerances.gap_change * size);
+  report->gap_unconverged =
+    (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
+                PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size);
   PetscFunctionReturn(0);
 }
 
@@ -82,7 +88,7 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
    steps it decides about energy and angular momentum (turn.c) */
 static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowed)
 {
-  const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->tolerances.optimizer, 1e-12);
+  const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->control->tolerances.optimizer, 1e-12);
   PetscReal       size, extent;
 
   PetscFunctionBegin;
@@ -140,7 +146,7 @@ static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
    Searches again for faces that were farther apart than the search distance at u_linearized. They may have met if the
    solution u moved by more than half that distance. If the linearized gap of any row of the wider search is more
    negative at u than that of the present rows (a penalty method allows some penetration), the wider linearization
-   replaces sim->linearization and missed is true.
+   replaces sim->solved->linearization and missed is true.
 */
 static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach,
   PetscBool *missed)
@@ -167,12 +173,12 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
-    if (sim->monitor)
+    if (sim->control->monitor)
       PetscCall(PetscPrintf(sim->comm,
         "Faces beyond the contact search distance penetrated by %g: searched again up to a distance of %g\n",
         -(double)least, (double)*reach));
-    PetscCall(ContactLinearizationDestroy(&sim->linearization));
-    sim->linearization = wide;
+    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+    sim->solved->linearization = wide;
   } else PetscCall(ContactLinearizationDestroy(&wide));
   PetscFunctionReturn(0);
 }
@@ -188,8 +194,8 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
   PetscCall(StepProblemTurn(p, u_linearized));
   do {
-    PetscCall(StepProblemSetContact(p, p->sim->linearization, u_linearized));
-    if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->linearization));
+    PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
+    if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
@@ -218,7 +224,7 @@ static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, Step
       " contact updates %s still changes by %g, more than %g of the largest displacement",
       report->contact_updates,
       report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
-      (double)report->update_error, (double)sim->tolerances.gap_unconverged));
+      (double)report->update_error, (double)sim->control->tolerances.gap_unconverged));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
@@ -240,7 +246,7 @@ static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized
   char                 sentence[128];
 
   PetscFunctionBegin;
-  PetscCall(ContactHistoryFindLostRows(&sim->history, at_u, &lost, &nlost));
+  PetscCall(ContactHistoryFindLostRows(sim->history, at_u, &lost, &nlost));
   *slid = (PetscBool)(nlost > 0);
   if (nlost) {
     PetscCall(AttemptMotion(u_linearized, u, &du, &moved));
@@ -249,7 +255,7 @@ static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
     PetscCall(AttemptLinearizeGap(sim, p->time, u, &deep));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-    PetscCall(ContactHistoryLeastGap(&sim->history, lost, deep, &least));
+    PetscCall(ContactHistoryLeastGap(sim->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
       "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
@@ -281,7 +287,7 @@ static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt
   char                    sentence[256];
 
   PetscFunctionBegin;
-  PetscCall(AttemptFindMet(sim, time, p, sim->path.u, &before));
+  PetscCall(AttemptFindMet(sim, time, p, sim->path->u, &before));
   PetscCall(AttemptFindMet(sim, time, p, u, &now));
   if (!before || now) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
@@ -303,12 +309,12 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, S
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(AttemptMotion(sim->path.u, u, &du, &moved));
+  PetscCall(AttemptMotion(sim->path->u, u, &du, &moved));
   PetscCall(VecDestroy(&du));
   for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
 
-    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path.u, u, &depth, &reach, &turned));
+    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path->u, u, &depth, &reach, &turned));
     if (turned && depth <= reach) PetscCall(AttemptFindTurned(sim, time, p, u, report));
     if (depth <= reach) continue;
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
@@ -360,19 +366,19 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
-  PetscCall(ContactLinearizationDestroy(&sim->linearization));
+  PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
   if (!at_solution || (*at_u)->gaps_only) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(AttemptMakeRigid(p, u_linearized));
     PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
   }
-  sim->linearization = *at_u;
-  *at_u              = NULL;
+  sim->solved->linearization = *at_u;
+  *at_u                      = NULL;
   PetscFunctionReturn(0);
 }
 
 /*
-   One contact update: solves with sim->linearization, then linearizes the gap at the solution u (`at_u`). end: no
+   One contact update: solves with sim->solved->linearization, then linearizes the gap at the solution u (`at_u`). end: no
    further update is needed, because the gap agrees or the solve failed. slid: vertices with a pressure have no row at
    u, so their gap is unknown.
 */
@@ -395,7 +401,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
-  if (sim->monitor && sim->scene->contact_updates > 1)
+  if (sim->control->monitor && sim->scene->contact_updates > 1)
     PetscCall(PetscPrintf(sim->comm,
       "Contact update %" PetscInt_FMT ": penetration %.3g, change %.3g, normals turn by %.3g, slip changes by %.3g\n",
       report->contact_updates, (double)PetscMax(0.0, -report->gap_true), (double)report->gap_change,
@@ -415,12 +421,13 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   const StepReport *report)
 {
   Simulation      sim   = p->sim;
-  const PetscReal first = sim->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5, before = p->tolerance;
-  PetscReal       size;
+  const PetscReal first = sim->solved->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5,
+                  before = p->tolerance;
+  PetscReal size;
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (end || sim->springs.weak || sim->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON ||
+  if (end || sim->springs.weak || sim->control->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON ||
       report->contact_updates + 1 >= sim->scene->contact_updates)
     PetscFunctionReturn(0);
   p->tolerance = foreseen ? 0.0 : first;
@@ -449,7 +456,7 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
 }
 
 /* Tries the undeformed bodies as the solution of a step to zero load. rests: they are the solution;
-   sim->linearization and `at_u` are then of the undeformed bodies. */
+   sim->solved->linearization and `at_u` are then of the undeformed bodies. */
 static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u, PetscBool *rests)
 {
@@ -465,8 +472,8 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   PetscCall(AttemptLinearizeGap(sim, p->time, u, &undeformed));
   PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
   if (*rests) {
-    PetscCall(ContactLinearizationDestroy(&sim->linearization));
-    sim->linearization = undeformed;
+    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+    sim->solved->linearization = undeformed;
     PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
     PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
@@ -476,33 +483,33 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   PetscFunctionReturn(0);
 }
 
-/* Sets sim->linearization, and creates u_linearized, where it is: u if u is a forecast; the path's extrapolation if the
+/* Sets sim->solved->linearization, and creates u_linearized, where it is: u if u is a forecast; the path's extrapolation if the
    gap is linearized again; else the last state: in the first load step, after a cut, and with friction, where what the
    tolerance leaves would add up over load steps */
 static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
   Simulation sim       = p->sim;
-  PetscBool  continues = (PetscBool)(sim->path.time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+  PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < sim->scene->npairs; ++k)
     if (SceneContactPairHasFriction(&sim->scene->pairs[k])) continues = PETSC_FALSE;
   PetscCall(VecDuplicate(u, u_linearized));
-  PetscCall(VecCopy(foreseen ? u : sim->path.u, *u_linearized));
+  PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
   if (foreseen || continues) {
     if (!foreseen) PetscCall(PathContinue(sim, p->time, *u_linearized));
     PetscCall(AttemptMakeRigid(p, *u_linearized));
-    PetscCall(ContactLinearizationDestroy(&sim->upcoming));
+    PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
   }
-  if (!sim->upcoming) PetscCall(ContactLinearize(sim->contact, *u_linearized, &sim->upcoming));
-  sim->linearization = sim->upcoming;
-  sim->upcoming      = NULL;
-  PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->linearization));
+  if (!sim->solved->upcoming) PetscCall(ContactLinearize(sim->contact, *u_linearized, &sim->solved->upcoming));
+  sim->solved->linearization = sim->solved->upcoming;
+  sim->solved->upcoming      = NULL;
+  PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->solved->linearization));
   PetscFunctionReturn(0);
 }
 
-/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit sim->linearization is
+/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit sim->solved->linearization is
    the one u was found with and `at_u` the one at u. foreseen: u is a forecast. */
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
@@ -542,17 +549,17 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
 
 static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *sol)
 {
-  const PetscInt     n = sim->linearization->nlocal;
+  const PetscInt     n = sim->solved->linearization->nlocal;
   const PetscScalar *z, *g;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree2(sim->pressure, sim->gap));
-  PetscCall(PetscMalloc2(n, &sim->pressure, n, &sim->gap));
+  PetscCall(PetscFree2(sim->solved->pressure, sim->solved->gap));
+  PetscCall(PetscMalloc2(n, &sim->solved->pressure, n, &sim->solved->gap));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(sol->gap, &g));
   for (PetscInt i = 0; i < n; ++i) {
-    sim->pressure[i] = PetscRealPart(z[i]);
-    sim->gap[i]      = PetscRealPart(g[i]);
+    sim->solved->pressure[i] = PetscRealPart(z[i]);
+    sim->solved->gap[i]      = PetscRealPart(g[i]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
@@ -569,17 +576,17 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 
   PetscFunctionBegin;
   if (report->converged || (!p->unheld && !p->moves_on)) {
-    sim->unheld = 0;
+    sim->control->unheld = 0;
     PetscFunctionReturn(0);
   }
-  PetscCall(VecEqual(p->base, sim->path.u, &still));
-  sim->unheld += still && p->unheld ? 2 : 1;
-  if (!sim->cause) PetscCall(PetscStrallocpy(report->reason, &sim->cause));
+  PetscCall(VecEqual(p->base, sim->path->u, &still));
+  sim->control->unheld += still && p->unheld ? 2 : 1;
+  if (!sim->control->cause) PetscCall(PetscStrallocpy(report->reason, &sim->control->cause));
   PetscFunctionReturn(0);
 }
 
 /*
-   Attempts to advance the state to `time`. On success sim->path, sim->linearization, pressures and gaps become those of
+   Attempts to advance the state to `time`. On success sim->path, sim->solved->linearization, pressures and gaps become those of
    the new state. On failure all of them stay as they were.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
@@ -587,20 +594,20 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   const PetscInt       first = sim->scene->displacement_bounds;
   StepProblem          p;
   ContactSolution      sol  = {.gap = NULL};
-  ContactLinearization good = sim->linearization, at_u = NULL;
+  ContactLinearization good = sim->solved->linearization, at_u = NULL;
   PetscBool            foreseen;
   Vec                  u, inertia;
 
   PetscFunctionBegin;
-  if (sim->contact && sim->path.time == 0.0 && !report->cuts && !sim->forecast.failed) {
-    if (!sim->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path.u, &sim->upcoming));
-    PetscCall(ContactCheckDepth(sim->contact, sim->upcoming));
-    PetscCall(StartWarn(sim, sim->upcoming));
+  if (sim->contact && sim->path->time == 0.0 && !report->cuts && !sim->control->forecast.failed) {
+    if (!sim->solved->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path->u, &sim->solved->upcoming));
+    PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
+    PetscCall(StartWarn(sim, sim->solved->upcoming));
   }
   PetscCall(StepProblemCreate(sim, time, &p));
-  PetscCall(VecDuplicate(sim->path.u, &u));
-  if (first && time > (PetscReal)(first - 1) && sim->path.largest_increment > 0.0)
-    PetscCall(StepProblemSetBounds(&p, sim->path.largest_increment));
+  PetscCall(VecDuplicate(sim->path->u, &u));
+  if (first && time > (PetscReal)(first - 1) && sim->path->largest_increment > 0.0)
+    PetscCall(StepProblemSetBounds(&p, sim->path->largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
@@ -616,15 +623,15 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(VecDestroy(&inertia));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
     if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
-    PetscCall(PathAdvance(&sim->path, time, &u));
+    PetscCall(PathAdvance(sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
-    PetscCall(ContactLinearizationDestroy(&sim->upcoming));
+    PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
     if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u)); /* the next load step linearizes */
-    sim->upcoming = at_u;
-    if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->upcoming));
+    sim->solved->upcoming = at_u;
+    if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->solved->upcoming));
   } else if (sim->contact) {
-    PetscCall(ContactLinearizationDestroy(&sim->linearization));
-    sim->linearization = good;
+    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+    sim->solved->linearization = good;
     PetscCall(ContactLinearizationDestroy(&at_u));
   }
   PetscCall(VecDestroy(&u));

@@ -10,6 +10,7 @@
    At the solution of the load step g = g' = 0 in these rows.
 */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
 
 #define ANTICIPATE_TOLERANCE  1e-3
 #define ANTICIPATE_ITERATIONS 100
@@ -107,7 +108,7 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   PetscCall(VecDuplicate(p->base, &r.D));
   PetscCall(VecDuplicate(p->base, &r.force));
   PetscCall(VecDuplicate(p->base, &r.du));
-  PetscCall(ContactHistoryFindClosed(&p->sim->history, lin, r.closed));
+  PetscCall(ContactHistoryFindClosed(p->sim->history, lin, r.closed));
   PetscCall(ResponseDiagonal(p, r.D));
   PetscCall(VecPointwiseMult(g, r.closed, lin->g));
   PetscCall(ResponseSolve(&r, g, w, &found));

@@ -1,6 +1,9 @@
 /* Differences between a contact linearization and the one at its solution, apart from the gap: rotation of the
    normals and change of the slip. */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 /* Weight of the rotation of the normals in the criterion: a rotation of 100 times the relative gap tolerance is
    accepted */
@@ -10,13 +13,13 @@ static const PetscReal askew = 1e-2;
 static const PetscReal tied = 1e4;
 
 /*
-   Rotation of the normals between sim->linearization and at_u: over all pairs the largest sum_r p_r m_r |n' - n| /
-   sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->linearization, or negative
+   Rotation of the normals between sim->solved->linearization and at_u: over all pairs the largest sum_r p_r m_r |n' - n| /
+   sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->solved->linearization, or negative
 */
 static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
 {
-  ContactLinearization solved = sim->linearization;
+  ContactLinearization solved = sim->solved->linearization;
   const PetscInt       npairs = sim->scene->npairs;
   const PetscScalar   *mass, *z;
   PetscReal           *sums;
@@ -50,7 +53,7 @@ static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const Contac
 static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
-  ContactLinearization solved = sim->linearization;
+  ContactLinearization solved = sim->solved->linearization;
   const Bodies         bodies = SimulationBodies(sim);
   const PetscScalar   *s, *a;
   PetscReal            worst = 0.0;
@@ -61,9 +64,9 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   *change = 0.0;
   if (!sol->slip) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &increment));
-  PetscCall(ArcsGetExcess(&bodies, sim->path.u, u, increment, &turned));
+  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, increment, &turned));
   if (!turned) PetscCall(VecZeroEntries(increment));
-  PetscCall(VecAXPBYPCZ(increment, 1.0, -1.0, 1.0, u, sim->path.u));
+  PetscCall(VecAXPBYPCZ(increment, 1.0, -1.0, 1.0, u, sim->path->u));
   PetscCall(MatCreateVecs(at_u->slip, NULL, &slip));
   PetscCall(MatMult(at_u->slip, increment, slip));
   PetscCall(VecGetArrayRead(slip, &s));
@@ -86,7 +89,7 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* at_u: at the state u, which was found with sim->linearization; report->gap_change is set. Sets the rotation
+/* at_u: at the state u, which was found with sim->solved->linearization; report->gap_change is set. Sets the rotation
    of the normals, the change of the slip, and update_error: the largest of the three and of the correction of free
    rotations, each as an equivalent change of the gap [length] */
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
@@ -97,7 +100,7 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(ContactHistoryFollowRows(&sim->history, sim->linearization, at_u, &row));
+  PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, at_u, &row));
   PetscCall(ContactUpdateErrorMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
   PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
   PetscCall(PetscFree(row));

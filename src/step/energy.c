@@ -2,6 +2,7 @@
    element is inverted. */
 #include "stepimpl.h"
 #include <math.h>
+#include "src/state/path.h"
 
 /* u: the bodies' displacements for an iterate of the optimizer. With ties u = p->w, where tied nodes follow the
    nodes that they depend on. */
@@ -102,9 +103,9 @@ PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
   PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored, &work, &body));
   if (!(work > multiple * stored)) PetscFunctionReturn(0);
-  PetscCall(VecEqual(p->base, p->sim->path.u, &still));
+  PetscCall(VecEqual(p->base, p->sim->path->u, &still));
   PetscCall(EnergyObjective(tao, iterate, &f, p));
-  PetscCall(EnergyObjective(tao, p->sim->path.u, &rest, p));
+  PetscCall(EnergyObjective(tao, p->sim->path->u, &rest, p));
   if (!still || !(f < rest) || ++p->nflows < patience) PetscFunctionReturn(0);
   p->flowing = p->sim->scene->bodies[body].name;
   PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));

@@ -5,6 +5,7 @@
    symmetric this is Newton's method.
 */
 #include "stepimpl.h"
+#include "src/state/control.h"
 
 static const PetscInt max_followed = 50;
 
@@ -98,7 +99,7 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
    becomes the load at u. */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
   PetscReal       off, size, energy = 0.0;
   PetscBool       damped;
   Vec             linear, load;

@@ -4,6 +4,9 @@
    interpolated displacement, so that fewer contact updates are needed.
 */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 /* Collective. Makes load steps start from their final states on another mesh, and records their final states. sim: the
    simulation, before SimulationSetUp(); forecast: on entry the states on the other mesh, or zeros; filled with the
@@ -14,7 +17,7 @@
 PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
 {
   PetscFunctionBegin;
-  sim->forecast.found = forecast;
+  sim->control->forecast.found = forecast;
   PetscFunctionReturn(0);
 }
 
@@ -54,7 +57,7 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
   for (PetscInt f = 0; f < n && !missing; ++f) {
     PetscScalar *a;
 
-    PetscCall(VecDuplicate(sim->path.u, &here->fields[f]));
+    PetscCall(VecDuplicate(sim->path->u, &here->fields[f]));
     PetscCall(VecGetArrayWrite(here->fields[f], &a));
     for (PetscInt i = 0; i < nlocal; ++i) a[i] = values[3 * (n * (i / 3) + f) + i % 3];
     PetscCall(VecRestoreArrayWrite(here->fields[f], &a));
@@ -67,12 +70,12 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
    Call when mesh and contact exist. */
 PetscErrorCode ForecastSetUp(Simulation sim)
 {
-  StepForecast *found = sim->forecast.found;
+  StepForecast *found = sim->control->forecast.found;
 
   PetscFunctionBegin;
   if (!found) PetscFunctionReturn(0);
-  if (sim->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1))
-    PetscCall(ForecastTransfer(sim, found, &sim->forecast.here));
+  if (sim->control->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1))
+    PetscCall(ForecastTransfer(sim, found, &sim->control->forecast.here));
   PetscCall(StepForecastDestroy(found));
   found->nfields = 1 + (sim->contact ? sim->scene->npairs : 0);
   found->dm      = sim->dm;
@@ -104,7 +107,7 @@ static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Ve
 /* Appends the state at the end of a converged load step to the caller's forecast */
 PetscErrorCode ForecastRecord(Simulation sim)
 {
-  StepForecast *found = sim->forecast.found;
+  StepForecast *found = sim->control->forecast.found;
   Vec          *fields;
 
   PetscFunctionBegin;
@@ -112,11 +115,11 @@ PetscErrorCode ForecastRecord(Simulation sim)
   PetscCall(PetscRealloc((size_t)((found->nsteps + 1) * found->nfields) * sizeof(*fields), &found->fields));
   fields = &found->fields[found->nsteps++ * found->nfields];
   for (PetscInt f = 0; f < found->nfields; ++f) {
-    PetscCall(VecDuplicate(sim->path.u, &fields[f]));
+    PetscCall(VecDuplicate(sim->path->u, &fields[f]));
     PetscCall(VecZeroEntries(fields[f]));
-    if (f) PetscCall(ForecastCopyPressures(&sim->history, f - 1, fields[f], PETSC_FALSE));
+    if (f) PetscCall(ForecastCopyPressures(sim->history, f - 1, fields[f], PETSC_FALSE));
   }
-  PetscCall(VecCopy(sim->path.u, fields[0]));
+  PetscCall(VecCopy(sim->path->u, fields[0]));
   PetscFunctionReturn(0);
 }
 
@@ -125,8 +128,8 @@ PetscErrorCode ForecastRecord(Simulation sim)
 PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 {
   Simulation      sim    = p->sim;
-  StepForecast   *here   = &sim->forecast.here;
-  const PetscInt  step   = (PetscInt)p->time - sim->first_step;
+  StepForecast   *here   = &sim->control->forecast.here;
+  const PetscInt  step   = (PetscInt)p->time - sim->control->first_step;
   const PetscBool has    = (PetscBool)(p->time == PetscFloorReal(p->time) && step >= 1 && step <= here->nsteps);
   PetscReal       energy = 0.0;
   Vec            *fields = has ? &here->fields[(step - 1) * here->nfields] : NULL;
@@ -138,9 +141,9 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   PetscCall(PrescribedApply(&sim->prescribed, p->time, u));
   PetscCall(TiesFollow(&sim->ties, u));
   if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &energy));
-  *foreseen = sim->forecast.used = EnergyIsFinite(energy);
+  *foreseen = sim->control->forecast.used = EnergyIsFinite(energy);
   for (PetscInt f = 1; *foreseen && f < here->nfields; ++f)
-    PetscCall(ForecastCopyPressures(&sim->history, f - 1, fields[f], PETSC_TRUE));
+    PetscCall(ForecastCopyPressures(sim->history, f - 1, fields[f], PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -149,11 +152,11 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *again)
 {
   PetscFunctionBegin;
-  *again             = (PetscBool)(sim->forecast.used && !converged);
-  sim->forecast.used = PETSC_FALSE;
+  *again                      = (PetscBool)(sim->control->forecast.used && !converged);
+  sim->control->forecast.used = PETSC_FALSE;
   if (!*again) PetscFunctionReturn(0);
-  sim->forecast.failed = PETSC_TRUE;
-  PetscCall(StepForecastDestroy(&sim->forecast.here));
-  if (sim->contact) PetscCall(PetscArrayzero(sim->history.pressure, sim->history.npairs * sim->history.nowned));
+  sim->control->forecast.failed = PETSC_TRUE;
+  PetscCall(StepForecastDestroy(&sim->control->forecast.here));
+  if (sim->contact) PetscCall(PetscArrayzero(sim->history->pressure, sim->history->npairs * sim->history->nowned));
   PetscFunctionReturn(0);
 }

@@ -8,6 +8,9 @@
    tangents belong to one linearization.
 */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/path.h"
 
 /* Sets limit and coefficient of each row. `stick: true` uses a coefficient of 1,000: with an infinite one the force
    bound of a vertex at zero pressure would be undetermined. */
@@ -53,11 +56,11 @@ PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_lin
   PetscCall(MatDiagonalScale(f->T, NULL, mask));
   PetscCall(MatCreateVecs(f->T, NULL, &f->t));
   PetscCall(VecDuplicate(f->t, &moved));
-  PetscCall(VecWAXPY(p->w, -1.0, p->sim->path.u, p->base));
+  PetscCall(VecWAXPY(p->w, -1.0, p->sim->path->u, p->base));
   PetscCall(MatMult(lin->slip, p->w, f->t));
   PetscCall(MatMult(f->T, p->base, moved));
   PetscCall(VecAXPY(f->t, -1.0, moved));
-  PetscCall(ArcsGetExcess(&bodies, p->sim->path.u, u_linearized, p->w, &turned));
+  PetscCall(ArcsGetExcess(&bodies, p->sim->path->u, u_linearized, p->w, &turned));
   if (turned) PetscCall(MatMultAdd(lin->slip, p->w, f->t, f->t));
   PetscCall(VecDestroy(&moved));
   PetscCall(VecDuplicate(lin->g, &f->limit));
@@ -79,8 +82,8 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
 /* Passes the friction laws to the optimizer, and as a start the stored forces times scale */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
-  ContactLinearization  lin = p->sim->linearization;
-  const ContactHistory *m   = &p->sim->history;
+  ContactLinearization  lin = p->sim->solved->linearization;
+  const ContactHistory *m   = p->sim->history;
   PetscScalar          *f;
   Vec                   force;
 
@@ -107,8 +110,8 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 /* Stores friction forces and slips of a solution in sol, and the forces in the contact history */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
-  ContactLinearization lin = p->sim->linearization;
-  ContactHistory      *m   = &p->sim->history;
+  ContactLinearization lin = p->sim->solved->linearization;
+  ContactHistory      *m   = p->sim->history;
   const PetscScalar   *f;
   Vec                  force;
 

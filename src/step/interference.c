@@ -4,6 +4,7 @@
    pressure. The increase acts along the normal of each row.
 */
 #include "stepimpl.h"
+#include "src/state/path.h"
 
 /* mark = 1 at the given displacement component of all nodes of the pair's mortar face, 0 elsewhere */
 static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt component, Vec mark)
@@ -35,7 +36,7 @@ static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscR
   Vec                mark, moved;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path.u, &mark));
+  PetscCall(VecDuplicate(sim->path->u, &mark));
   PetscCall(VecDuplicate(lin->g, &moved));
   PetscCall(PetscCalloc1(lin->nlocal, &size));
   for (PetscInt c = 0; c < 3; ++c) {

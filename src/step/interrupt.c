@@ -1,6 +1,7 @@
 /* SIGINT, SIGTERM and SIGUSR1 end a run after the current Newton step. */
 #include "stepimpl.h"
 #include <signal.h>
+#include "src/state/control.h"
 
 static volatile sig_atomic_t caught = 0;
 
@@ -44,11 +45,11 @@ PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
   int any = (int)caught;
 
   PetscFunctionBegin;
-  if (!sim->interrupted) {
+  if (!sim->control->interrupted) {
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, sim->comm));
-    sim->interrupted = any;
+    sim->control->interrupted = any;
   }
-  *stop = sim->interrupted ? PETSC_TRUE : PETSC_FALSE;
+  *stop = sim->control->interrupted ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -71,9 +72,9 @@ PetscErrorCode InterruptReport(Simulation sim, StepReport *report)
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s",
-    sim->interrupted == SIGINT    ? "SIGINT"
-    : sim->interrupted == SIGTERM ? "SIGTERM"
-                                  : "SIGUSR1"));
+    sim->control->interrupted == SIGINT    ? "SIGINT"
+    : sim->control->interrupted == SIGTERM ? "SIGTERM"
+                                           : "SIGUSR1"));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,8 @@
 /* Load steps that are linear systems: solved by PCG. */
 #include "stepimpl.h"
 #include <petsctime.h>
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 /* estimated iterations of a solve that is preconditioned by a factorization */
 static const PetscReal factored_iterations = 2.0;
@@ -84,26 +86,28 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   PC              pc;
 
   PetscFunctionBegin;
-  if (!sim->ksp) {
-    PetscCall(KSPCreate(sim->comm, &sim->ksp));
-    PetscCall(KSPSetOptionsPrefix(sim->ksp, "elasticity_"));
-    PetscCall(KSPSetType(sim->ksp, KSPCG));
-    PetscCall(KSPSetTolerances(sim->ksp, sim->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-    PetscCall(KSPGetPC(sim->ksp, &pc));
+  if (!sim->control->ksp) {
+    PetscCall(KSPCreate(sim->comm, &sim->control->ksp));
+    PetscCall(KSPSetOptionsPrefix(sim->control->ksp, "elasticity_"));
+    PetscCall(KSPSetType(sim->control->ksp, KSPCG));
+    PetscCall(KSPSetTolerances(sim->control->ksp, sim->control->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT,
+      PETSC_DEFAULT));
+    PetscCall(KSPGetPC(sim->control->ksp, &pc));
     PetscCall(PCSetType(pc, PCAMGF));
     PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
     PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
-    PetscCall(KSPSetFromOptions(sim->ksp));
-    PetscCall(KSPGetTolerances(sim->ksp, &sim->tolerances.linear, NULL, NULL, NULL));
-    PetscCall(StiffnessSetModes(sim, sim->ksp, sim->K));
-    PetscCall(KSPSetOperators(sim->ksp, sim->K, sim->K));
-    if (sim->observer.linear) PetscCall(KSPMonitorSet(sim->ksp, sim->observer.linear, sim, NULL));
-  } else PetscCall(KSPGetIterationNumber(sim->ksp, &its));
-  PetscCall(KSPGetPC(sim->ksp, &pc));
+    PetscCall(KSPSetFromOptions(sim->control->ksp));
+    PetscCall(KSPGetTolerances(sim->control->ksp, &sim->control->tolerances.linear, NULL, NULL, NULL));
+    PetscCall(StiffnessSetModes(sim, sim->control->ksp, sim->K));
+    PetscCall(KSPSetOperators(sim->control->ksp, sim->K, sim->K));
+    if (sim->control->observer.linear)
+      PetscCall(KSPMonitorSet(sim->control->ksp, sim->control->observer.linear, sim, NULL));
+  } else PetscCall(KSPGetIterationNumber(sim->control->ksp, &its));
+  PetscCall(KSPGetPC(sim->control->ksp, &pc));
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(
     PCAMGFExpect(pc, (PetscReal)solves * (its ? (PetscReal)its : usual), factored_iterations * (PetscReal)solves));
-  *ksp = sim->ksp;
+  *ksp = sim->control->ksp;
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,10 @@
 /* Load steps with constraints, or with an energy that is not quadratic: solved by TAO. */
 #include "stepimpl.h"
 #include <petsctime.h>
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 /* Marks two options of share/options/pdipm.opts as used. PETSc releases differ in the name of one option; the file
    has both names, and PETSc would report the other one as unused. */
@@ -26,7 +30,7 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscCall(
     PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
   interior       = (PetscBool)(!ours || (given && !use && !p->friction.T));
-  p->ended_early = (PetscBool)(p->tolerance > p->sim->tolerances.optimizer && !p->centre && !interior);
+  p->ended_early = (PetscBool)(p->tolerance > p->sim->control->tolerances.optimizer && !p->centre && !interior);
   if (p->ended_early) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscFunctionReturn(0);
 }
@@ -56,13 +60,13 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, StepProblemConstraint, p));
     PetscCall(TaoSetJacobianInequalityRoutine(*tao, p->J, p->J, StepProblemConstant, p));
     PetscCall(VecDestroy(&c));
-    PetscCall(TaoIPFilterSetSlackMass(*tao, sim->linearization->mass));
+    PetscCall(TaoIPFilterSetSlackMass(*tao, sim->solved->linearization->mass));
   }
   PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
-  PetscCall(TaoSetTolerances(*tao, sim->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(TaoSetTolerances(*tao, sim->control->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSetFromOptions(*tao));
   PetscCall(OptimizerKnowBothNames());
-  PetscCall(TaoGetTolerances(*tao, &sim->tolerances.optimizer, NULL, NULL));
+  PetscCall(TaoGetTolerances(*tao, &sim->control->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
   if (!*ours && !p->lower)
@@ -70,13 +74,13 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
-  if (*ours && sim->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->subspace));
+  if (*ours && sim->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->solved->subspace));
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
-  if (sim->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->observer.optimizer, sim, NULL));
+  if (sim->control->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->control->observer.optimizer, sim, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -89,8 +93,8 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(
-    ContactHistoryRecall(&p->sim->history, p->sim->linearization, scale / StepProblemShare(p), slack, pressure, any));
+  PetscCall(ContactHistoryRecall(p->sim->history, p->sim->solved->linearization, scale / StepProblemShare(p), slack,
+    pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
   PetscCall(VecDestroy(&pressure));
@@ -110,14 +114,14 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
-  if (p->J && (resume || sim->warm)) {
+  if (p->J && (resume || sim->control->warm)) {
     if (resume) scale = 1.0;
     else PetscCall(PathPressureScale(sim, p->time, &scale));
     PetscCall(OptimizerRecallContact(p, scale, tao, &moved));
   }
   if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
   if (resume) PetscFunctionReturn(0);
-  if (!p->J) moved = sim->warm;
+  if (!p->J) moved = sim->control->warm;
   if (moved) {
     PetscCall(PathContinue(sim, p->time, u));
     if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &f));
@@ -203,7 +207,7 @@ static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *repo
     "no equilibrium exists at time %g: body \"%s\" flows plastically, for the load is beyond the collapse load; the "
     "last "
     "equilibrium is at time %g",
-    (double)p->time, p->flowing, (double)p->sim->path.time));
+    (double)p->time, p->flowing, (double)p->sim->path->time));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
@@ -221,7 +225,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (reason < 0 && p->flowing) PetscCall(OptimizerReportFlow(p, report));
-  else if (reason < 0 && !p->sim->interrupted) PetscCall(OptimizerDiagnose(p, report));
+  else if (reason < 0 && !p->sim->control->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
@@ -235,7 +239,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
 
 static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ours, Vec u, ContactSolution *sol)
 {
-  ContactLinearization lin   = p->sim->linearization;
+  ContactLinearization lin   = p->sim->solved->linearization;
   Vec                  slack = NULL, multipliers;
 
   PetscFunctionBegin;
@@ -248,7 +252,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactHistoryStore(&p->sim->history, lin, sol, slack ? slack : sol->gap,
+  PetscCall(ContactHistoryStore(p->sim->history, lin, sol, slack ? slack : sol->gap,
     p->sim->stiffness)); /* NULL without rows; only TAOIPFILTER has slacks */
   PetscFunctionReturn(0);
 }
@@ -261,8 +265,8 @@ static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
   PetscFunctionBegin;
   PetscCall(TaoIPFilterGetSubspace(tao, &space));
   PetscCall(PetscObjectReference((PetscObject)space));
-  PetscCall(PetscContainerDestroy(&sim->subspace));
-  sim->subspace = space;
+  PetscCall(PetscContainerDestroy(&sim->solved->subspace));
+  sim->solved->subspace = space;
   PetscFunctionReturn(0);
 }
 
@@ -300,7 +304,7 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
     PetscCall(OptimizerReport(p, tao, ours, &before, u, report));
-    if (sim->interrupted) PetscCall(InterruptReport(sim, report));
+    if (sim->control->interrupted) PetscCall(InterruptReport(sim, report));
     if (ours) PetscCall(OptimizerKeepSubspace(sim, tao));
     if (p->J && report->converged) PetscCall(OptimizerKeepContact(p, tao, ours, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));

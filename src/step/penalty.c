@@ -8,6 +8,10 @@
 #include "stepimpl.h"
 #include <petscsnes.h>
 #include <petsctime.h>
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
 
 #define PENALTY_MAX_NEWTON 100
 
@@ -142,7 +146,7 @@ static PetscErrorCode PenaltyCreate(StepProblem *p, Penalty *penalty)
   PetscCall(VecDuplicate(p->g, &penalty->c));
   PetscCall(VecDuplicate(p->g, &penalty->stiffness));
   PetscCall(VecDuplicate(p->g, &penalty->force));
-  PetscCall(PenaltyStiffness(p->J, p->K, p->sim->penalty, penalty->stiffness));
+  PetscCall(PenaltyStiffness(p->J, p->K, p->sim->control->penalty, penalty->stiffness));
   PetscCall(StiffnessGetWhole(p->sim, MATAIJ, &penalty->K));
   PetscCall(MatDuplicate(p->J, MAT_COPY_VALUES, &penalty->DJ));
   PetscCall(PenaltyProduct(penalty, p->base));
@@ -208,7 +212,7 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
   PetscFunctionBegin;
   PetscCall(SNESGetConvergedReason(snes, &reason));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), SNESConvergedReasons[reason]));
-  if (penalty->p->sim->interrupted) PetscCall(InterruptReport(penalty->p->sim, report));
+  if (penalty->p->sim->control->interrupted) PetscCall(InterruptReport(penalty->p->sim, report));
   PetscCall(ReportIterations(report, penalty->niterations, penalty->iterations));
   report->ip_iterations += penalty->niterations;
   report->systems += penalty->niterations;
@@ -232,8 +236,8 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
   PetscFunctionBegin;
   PetscCall(ContactSolutionCreate(penalty->c, sol));
   PetscCall(VecCopy(penalty->c, sol->gap));
-  PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, sim->linearization->mass));
-  PetscCall(ContactHistoryStore(&sim->history, sim->linearization, sol, sol->gap, sim->stiffness));
+  PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, sim->solved->linearization->mass));
+  PetscCall(ContactHistoryStore(sim->history, sim->solved->linearization, sol, sol->gap, sim->stiffness));
   PetscFunctionReturn(0);
 }
 
@@ -245,7 +249,7 @@ PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport 
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
-  if (!resume && p->sim->warm) PetscCall(PathContinue(p->sim, p->time, u));
+  if (!resume && p->sim->control->warm) PetscCall(PathContinue(p->sim, p->time, u));
   else if (!resume) PetscCall(VecCopy(p->base, u));
   PetscCall(PetscTime(&t0));
   PetscCall(PenaltyCreate(p, &penalty));

@@ -1,5 +1,6 @@
 /* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
 #include "stepimpl.h"
+#include "src/state/path.h"
 
 /* Where bodies turn freely, the base and the loads are those about u */
 static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
@@ -8,14 +9,14 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   const Constraints constraints = SimulationConstraints(sim);
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(sim->path.u, p->base));
+  PetscCall(VecCopy(sim->path->u, p->base));
   PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
-  PetscCall(TiesTurn(&constraints, p->time, sim->path.u, u, anew));
+  PetscCall(TiesTurn(&constraints, p->time, sim->path->u, u, anew));
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(VecDestroy(&p->load));
   PetscCall(DeadLoadsGet(&sim->loads, p->time, &p->load));
   PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
-  PetscCall(TurnSetForce(&constraints, sim->path.u, u, p->load, &sim->dynamics));
+  PetscCall(TurnSetForce(&constraints, sim->path->u, u, p->load, &sim->dynamics));
   PetscFunctionReturn(0);
 }
 
@@ -28,7 +29,7 @@ static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  if (anew) PetscCall(TiesTangent(&constraints, sim->path.u, sim->K));
+  if (anew) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
   PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
   PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -58,17 +59,17 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   p->time = time;
   PetscCall(PetscObjectReference((PetscObject)sim->K));
   p->K = sim->K;
-  PetscCall(VecDuplicate(sim->path.u, &p->base));
-  PetscCall(VecDuplicate(sim->path.u, &p->w));
-  PetscCall(StepProblemSetBase(p, sim->path.u, &anew));
+  PetscCall(VecDuplicate(sim->path->u, &p->base));
+  PetscCall(VecDuplicate(sim->path->u, &p->w));
+  PetscCall(StepProblemSetBase(p, sim->path->u, &anew));
   PetscCall(TemperaturesApply(&sim->temperatures, time));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
   if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
-  PetscCall(VecDuplicate(sim->path.u, &p->force));
-  PetscCall(VecDuplicate(sim->path.u, &p->Kw));
+  PetscCall(VecDuplicate(sim->path->u, &p->force));
+  PetscCall(VecDuplicate(sim->path->u, &p->Kw));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || changed || !linear)));
   PetscFunctionReturn(0);

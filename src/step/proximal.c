@@ -7,6 +7,7 @@
    The same is done for all bodies if only friction holds an elastic body and the first solve failed.
 */
 #include "stepimpl.h"
+#include "src/state/control.h"
 
 /* max_centres: limit of solves. After `patience` solves the force of the proximal term must fall below `stuck` times
    its last value; otherwise neither contact nor springs hold the bodies. */
@@ -87,7 +88,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
   PetscFunctionBegin;
   *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld && !p->flowing &&
-                       !p->sim->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
+                       !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(VecDuplicate(p->base, &p->held));
@@ -136,14 +137,15 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
 /* Whether another solve with the centre at u must follow. again: yes, since the proximal term still exerts a force */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->sim->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
   PetscReal       carried, size, energy = 0.0;
   PetscBool       falls;
   Vec             force;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
-  if (p->failed && !report->converged && !p->sim->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
+  if (p->failed && !report->converged && !p->sim->control->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   if (!p->centre || !report->converged) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityForce(p->sim->elasticity, u, force));

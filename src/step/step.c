@@ -2,6 +2,10 @@
 #include "stepimpl.h"
 #include <math.h>
 #include <petsctime.h>
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+#include "src/state/results.h"
 
 /* Fills the part of the report that is known before the step is solved */
 static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepReport *report)
@@ -18,10 +22,10 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
   for (PetscInt r = 0; r < scene->nramps; ++r)
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
-  sim->report.nsteps   = step + 1 - sim->first_step;
-  sim->path.unbalanced = sim->path.turnover = 0.0;
-  sim->unheld                               = 0;
-  PetscCall(PetscFree(sim->cause));
+  sim->report.nsteps    = step + 1 - sim->control->first_step;
+  sim->path->unbalanced = sim->path->turnover = 0.0;
+  sim->control->unheld                        = 0;
+  PetscCall(PetscFree(sim->control->cause));
   PetscFunctionReturn(0);
 }
 
@@ -29,8 +33,8 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscCall(PetscFree(sim->stress));
-  PetscCall(ElasticityCellStress(sim->elasticity, sim->path.u, &sim->stress));
+  PetscCall(PetscFree(sim->results->stress));
+  PetscCall(ElasticityCellStress(sim->elasticity, sim->path->u, &sim->results->stress));
   PetscCall(ContactPointsMeasure(sim, report));
   PetscCall(RigidPlacesMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
@@ -40,17 +44,17 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
     .report            = report,
-    .displacement      = sim->path.u,
+    .displacement      = sim->path->u,
     .velocity          = sim->dynamics.velocity,
-    .stress            = sim->stress,
-    .nodal             = sim->results.nodal,
-    .plastic           = sim->results.plastic,
-    .density           = sim->results.density,
-    .nquadrature       = sim->results.npoints,
-    .quadrature        = sim->results.places,
-    .quadrature_stress = sim->results.point_stress,
-    .npoints           = sim->npoints,
-    .points            = sim->points,
+    .stress            = sim->results->stress,
+    .nodal             = sim->results->nodal,
+    .plastic           = sim->results->plastic,
+    .density           = sim->results->density,
+    .nquadrature       = sim->results->npoints,
+    .quadrature        = sim->results->places,
+    .quadrature_stress = sim->results->point_stress,
+    .npoints           = sim->solved->npoints,
+    .points            = sim->solved->points,
   };
   PetscFunctionReturn(0);
 }
@@ -59,7 +63,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
    time */
 static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
 {
-  const PetscInt next = (PetscInt)PetscFloorReal(sim->path.time);
+  const PetscInt next = (PetscInt)PetscFloorReal(sim->path->time);
 
   PetscFunctionBegin;
   PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "SimulationSetUp() comes before SimulationStep()");
@@ -77,13 +81,14 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact);
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!linear && !sim->interrupted && report->cuts < sim->maxcuts && sim->unheld < 2);
+  *again = (PetscBool)(!linear && !sim->control->interrupted && report->cuts < sim->control->maxcuts &&
+                       sim->control->unheld < 2);
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
-  if (sim->monitor)
+  if (sim->control->monitor)
     PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step,
-      (double)(sim->path.time + *increment), report->reason));
+      (double)(sim->path->time + *increment), report->reason));
   PetscFunctionReturn(0);
 }
 
@@ -121,19 +126,19 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
   const PetscReal end       = (PetscReal)(step + 1);
-  PetscReal       increment = sim->increment > 0.0 ? sim->increment : end - sim->path.time;
+  PetscReal       increment = sim->control->increment > 0.0 ? sim->control->increment : end - sim->path->time;
   PetscBool       again     = PETSC_TRUE, anew, stop;
   StepReport     *report;
   PetscLogDouble  t0, t1;
 
   PetscFunctionBegin;
   PetscCall(SimulationCheckStep(sim, step));
-  report = &sim->report.steps[step - sim->first_step];
+  report = &sim->report.steps[step - sim->control->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
-  if (sim->observer.begin) PetscCall(sim->observer.begin(sim));
-  while (again && sim->path.time < end) {
-    const PetscReal left = end - sim->path.time;
+  if (sim->control->observer.begin) PetscCall(sim->control->observer.begin(sim));
+  while (again && sim->path->time < end) {
+    const PetscReal left = end - sim->path->time;
 
     PetscCall(InterruptTest(sim, &stop));
     if (stop) {
@@ -141,28 +146,28 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
       break;
     }
     if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
-    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path.time + increment, report));
+    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path->time + increment, report));
     if (report->converged) {
       ++report->substeps;
-      if (sim->observer.reach) PetscCall(sim->observer.reach(sim));
+      if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
       increment *= 2.0;
     }
     PetscCall(ForecastAssess(sim, report->converged, &anew));
     if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, &increment, &again));
-    sim->increment = increment;
+    sim->control->increment = increment;
   }
-  if (sim->path.time >= end) {
-    sim->increment = 0.0;
+  if (sim->path->time >= end) {
+    sim->control->increment = 0.0;
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
   }
-  if (!report->converged && sim->cause && !sim->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->cause)); /* the first cause, not that of a later, smaller
+  if (!report->converged && sim->control->cause && !sim->control->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause)); /* the first cause, not that of a later, smaller
                                                                  increment */
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;
-    sim->report.exit_code = sim->interrupted          ? RUN_INTERRUPTED
+    sim->report.exit_code = sim->control->interrupted ? RUN_INTERRUPTED
                             : report->gap_unconverged ? RUN_GAP_UNCONVERGED
                                                       : RUN_FAILED;
   } else if (report->gap_unconverged) sim->report.reason = report->reason;

@@ -132,7 +132,7 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
-/* interference.c: ramps of initial overlaps. Linearizations in sim->upcoming are stored without them. */
+/* interference.c: ramps of initial overlaps. Linearizations in sim->solved->upcoming are stored without them. */
 PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
 /* check_weak_springs.c */

@@ -4,6 +4,8 @@
    rounding.
 */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/path.h"
 
 /* due: whether loads and prescribed displacements are zero at this time, the last state is deformed, and no pair has
    friction */
@@ -18,7 +20,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   if (SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
   if (p->load) PetscCall(VecNorm(p->load, NORM_INFINITY, &load));
   PetscCall(TemperaturesGetLargest(&p->sim->temperatures, &temperature));
-  PetscCall(VecNorm(p->sim->path.u, NORM_INFINITY, &before));
+  PetscCall(VecNorm(p->sim->path->u, NORM_INFINITY, &before));
   PetscCall(VecDuplicate(p->base, &u));
   PetscCall(VecZeroEntries(u));
   PetscCall(PrescribedApply(&p->sim->prescribed, p->time, u));
@@ -38,7 +40,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
 PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
   ContactSolution *sol, PetscBool *rests)
 {
-  const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->sim->path.largest_increment;
+  const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->sim->path->largest_increment;
   PetscReal       least    = 0.0;
   PetscInt        nrows;
 
@@ -51,7 +53,7 @@ PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization unde
   PetscCall(ContactSolutionCreate(undeformed->g, sol));
   PetscCall(VecZeroEntries(sol->pressure));
   PetscCall(VecCopy(undeformed->g, sol->gap));
-  PetscCall(ContactHistoryStore(&p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
+  PetscCall(ContactHistoryStore(p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
   PetscCall(ReportReason(report, PETSC_TRUE,
     "converged: loads and prescribed displacements are zero, the bodies are undeformed"));
