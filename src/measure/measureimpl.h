@@ -48,7 +48,7 @@ PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
    [area, force, gap x area] per vertex */
 PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
-/* contact_points.c: pressure, gap and status on both sides of every pair, stored in sim->solved->points and the report */
+/* contact_points.c: pressure, gap and status on both sides of every pair: sim->solved->points, and the report */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* penetration.c: penetration of vertices; gaps of mortar pairs are means */

@@ -378,9 +378,9 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
 }
 
 /*
-   One contact update: solves with sim->solved->linearization, then linearizes the gap at the solution u (`at_u`). end: no
-   further update is needed, because the gap agrees or the solve failed. slid: vertices with a pressure have no row at
-   u, so their gap is unknown.
+   One contact update: solves with sim->solved->linearization, then linearizes the gap at the solution u (`at_u`).
+   end: no further update is needed, because the gap agrees or the solve failed. slid: vertices with a pressure have
+   no row at u, so their gap is unknown.
 */
 static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
@@ -483,9 +483,11 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   PetscFunctionReturn(0);
 }
 
-/* Sets sim->solved->linearization, and creates u_linearized, where it is: u if u is a forecast; the path's extrapolation if the
-   gap is linearized again; else the last state: in the first load step, after a cut, and with friction, where what the
-   tolerance leaves would add up over load steps */
+/*
+   Sets sim->solved->linearization, and creates u_linearized, the displacement that it is made at: u if u is a forecast;
+   an extrapolation of the path if the gap is linearized again; else the last state. In the first load step, after a cut
+   and with friction it is always the last state: with friction the tolerance's errors would add up over load steps.
+*/
 static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
@@ -509,8 +511,8 @@ static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, co
   PetscFunctionReturn(0);
 }
 
-/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit sim->solved->linearization is
-   the one u was found with and `at_u` the one at u. foreseen: u is a forecast. */
+/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit u was computed with
+   sim->solved->linearization, and `at_u` is the linearization at u. foreseen: u is a forecast. */
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
 {
@@ -586,8 +588,8 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 }
 
 /*
-   Attempts to advance the state to `time`. On success sim->path, sim->solved->linearization, pressures and gaps become those of
-   the new state. On failure all of them stay as they were.
+   Attempts to advance the state to `time`. On success sim->path, sim->solved->linearization, pressures and gaps become
+   those of the new state. On failure all of them stay as they were.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
 {
