@@ -21,6 +21,7 @@ typedef struct _n_Checkpoint {
   PetscReal        work;              /* work of the external forces [force length] */
   PetscReal        contact_work;      /* work taken up by contact pairs with friction [force length] */
   PetscReal        damping_work;      /* in dynamics: work taken up by damping [force length] */
+  PetscReal       *shortening;        /* of each bolt [length] */
   PetscInt         nfields;
   CheckpointField *fields;
 } * Checkpoint;

@@ -51,6 +51,13 @@ PETSC_EXTERN PetscErrorCode ElasticityAddForce(Elasticity, const char face[], co
 /* Sets springs: stiffness to the ground for each row (used in energy, force and tangent), and a matrix of springs
    between unknowns (used in energy and force); NULL: none [force/length] */
 PETSC_EXTERN PetscErrorCode ElasticitySetSprings(Elasticity, Vec stiffness, Mat between);
+/* Sections for the pretension of bolts: cells that the plane through `point` cuts take the displacements of their nodes
+   beyond it as larger by shortening x axis, so that the body is stretched. ncells: number of cut cells. Forces of all
+   sections at u, positive: tension [force] */
+PETSC_EXTERN PetscErrorCode ElasticityAddSection(Elasticity, PetscInt body, const PetscReal point[3],
+  const PetscReal axis[3], PetscInt *ncells);
+PETSC_EXTERN PetscErrorCode ElasticitySetShortening(Elasticity, PetscInt section, PetscReal shortening);
+PETSC_EXTERN PetscErrorCode ElasticityGetSectionForces(Elasticity, Vec u, PetscReal force[]);
 /* Temperatures of bodies that expand, linear in each cell: 4 values per local cell (value at its centre, gradient).
    They can be fitted to a function of space, and set; NULL: none */
 PETSC_EXTERN PetscErrorCode ElasticityGetCellCount(Elasticity, PetscInt *ncells);

@@ -197,6 +197,18 @@ typedef struct {
   PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
+/* Pretension of a bolt: a section through a body, with a force or a shortening */
+typedef struct {
+  char     *name;
+  PetscInt  body;
+  PetscReal point[3], axis[3]; /* of the plane of the section; axis: any length */
+  PetscBool shortens;          /* the shortening is prescribed, not the force */
+  PetscReal force;             /* tension at factor 1 [force] */
+  PetscReal shortening;        /* at factor 1 [length] */
+  PetscInt  lock;              /* load step after which the shortening stays as it is; 0: never */
+  PetscInt  ramp;
+} SceneBolt;
+
 typedef struct {
   char     *name;
   PetscInt  body;     /* index, or PETSC_DECIDE: every body */
@@ -283,6 +295,8 @@ typedef struct _n_Scene {
   SceneSpring       *springs;
   PetscReal       weak_springs; /* stiffness of the weak springs on bodies that move freely, relative to Young's modulus
                              times the cube root of the volume; 0: none */
+  PetscInt        nbolts;
+  SceneBolt      *bolts;
   PetscInt        nforces;
   SceneBodyForce *forces;
   PetscInt        ntemperatures;

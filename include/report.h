@@ -43,6 +43,13 @@ typedef struct {
   PetscReal   rotation[3]; /* [degrees] */
 } RigidReport;
 
+/* Pretension of a bolt */
+typedef struct {
+  const char *name;
+  PetscReal   force;      /* in the section, positive: tension [force] */
+  PetscReal   shortening; /* [length] */
+} BoltReport;
+
 /* A load program at the end of a load step */
 typedef struct {
   const char *name;
@@ -150,6 +157,8 @@ typedef struct {
   FaceReport  *faces;
   PetscInt     nbodies;
   BodyReport  *bodies;
+  PetscInt     nbolts; /* number of the scene's bolts */
+  BoltReport  *bolts;
   PetscInt     nrigid_bodies; /* number of the scene's rigid bodies */
   RigidReport *rigid_bodies;
   PetscInt     nmotions; /* 1 in dynamics, else 0 */

@@ -109,6 +109,7 @@ PetscErrorCode CheckpointDestroy(Checkpoint *checkpoint)
   if (!*checkpoint) PetscFunctionReturn(0);
   for (PetscInt f = 0; f < (*checkpoint)->nfields; ++f) PetscCall(PetscFree((*checkpoint)->fields[f].values));
   PetscCall(PetscFree((*checkpoint)->fields));
+  PetscCall(PetscFree((*checkpoint)->shortening));
   PetscCall(PetscFree(*checkpoint));
   PetscFunctionReturn(0);
 }

@@ -129,6 +129,13 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
   for (size_t i = 0; CheckpointNumbers[i].name; ++i)
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL,
       CheckpointNumber(checkpoint, i)));
+  PetscCall(PetscCalloc1(r->scene->nbolts, &checkpoint->shortening));
+  for (PetscInt b = 0; b < r->scene->nbolts; ++b) {
+    char name[256];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "bolt_%s", r->scene->bolts[b].name));
+    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, &checkpoint->shortening[b]));
+  }
   PetscCall(CheckpointCheck(r->comm, checkpoint));
   for (PetscInt k = 0; k < r->scene->nramps; ++k) {
     const char *ramp = r->scene->ramps[k].name;

@@ -124,6 +124,8 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
+  PetscCall(PetscMalloc1(sim->bolts.n, &(*checkpoint)->shortening));
+  PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->bolts.shortening, sim->bolts.n));
   PetscCall(VecGetLocalSize(path->u, &n));
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
@@ -163,7 +165,8 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 @*/
 PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
 {
-  LoadPath *path = sim->path;
+  const Bodies bodies = SimulationBodies(sim);
+  LoadPath    *path   = sim->path;
 
   PetscFunctionBegin;
   PetscCall(CheckpointCheck(sim->comm, checkpoint));
@@ -180,6 +183,8 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   path->contact_work               = checkpoint->contact_work;
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
+  PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));
+  PetscCall(BoltsRestore(&bodies, &sim->bolts, path->u));
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));

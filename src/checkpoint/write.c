@@ -68,6 +68,12 @@ static PetscErrorCode CheckpointWriteNumbers(const CheckpointContents *contents,
     PetscCall(SceneGetFactor(contents->scene, r, contents->checkpoint->time, &factor));
     PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, name, PETSC_REAL, &factor));
   }
+  for (PetscInt b = 0; b < contents->scene->nbolts; ++b) {
+    char name[256];
+
+    PetscCall(PetscSNPrintf(name, sizeof(name), "bolt_%s", contents->scene->bolts[b].name));
+    PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, name, PETSC_REAL, &contents->checkpoint->shortening[b]));
+  }
   PetscFunctionReturn(0);
 }
 

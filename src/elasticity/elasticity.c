@@ -250,6 +250,9 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
+  PetscCall(PetscFree((*e)->sections));
+  PetscCall(PetscFree2((*e)->cellsection, (*e)->cellbeyond));
+  PetscCall(PetscFree((*e)->beyond));
   PetscCall(PetscFree((*e)->light));
   PetscCall(PetscFree((*e)->firstpoint));
   PetscCall(PetscFree((*e)->history));

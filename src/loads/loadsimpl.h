@@ -61,6 +61,27 @@ PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec u, PetscReal force[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
+/* bolts.c: pretension of bolts. Forces and shortenings at the last state of equilibrium, and now */
+typedef struct {
+  PetscInt   n;
+  PetscReal *force, *shortening; /* at the last state [force], [length] */
+  PetscReal *target, *now;       /* of the present load step: force that is given [force]; shortening [length] */
+  PetscBool *driven;             /* the force is given, and the shortening follows from it */
+  PetscReal *compliance;         /* n x n: derivative of the shortenings by the forces [length/force] */
+  PetscReal *most;               /* limit of the shortenings [length] */
+  PetscReal *tried[2];           /* shortenings and forces of the solve before in this problem */
+  PetscInt   nsolves;            /* in the present problem, so far */
+  PetscInt   nslopes;            /* compliances that were measured so far */
+} Bolts;
+
+PETSC_INTERN PetscErrorCode BoltsCreate(const Bodies *, Bolts *);
+PETSC_INTERN PetscErrorCode BoltsBegin(const Bodies *, Bolts *, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode BoltsAdvance(const Bodies *, Bolts *, PetscReal tolerance, Vec u, PetscBool *again,
+  const char **failed);
+PETSC_INTERN PetscErrorCode BoltsSettle(const Bodies *, Bolts *, Vec u, PetscReal *work);
+PETSC_INTERN PetscErrorCode BoltsRestore(const Bodies *, Bolts *, Vec u);
+PETSC_INTERN PetscErrorCode BoltsDestroy(Bolts *);
+
 /* couplings.c */
 PETSC_INTERN PetscErrorCode CouplingsReserve(const Bodies *, Mat nodes, Mat *);
 PETSC_INTERN PetscErrorCode CouplingsCreate(const Bodies *, Mat *stiffness);

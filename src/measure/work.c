@@ -58,6 +58,25 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Reports the pretension of bolts at u, and adds its work */
+static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
+{
+  const Bodies bodies = SimulationBodies(sim);
+  PetscReal    work;
+
+  PetscFunctionBegin;
+  PetscCall(BoltsSettle(&bodies, &sim->bolts, u, &work));
+  sim->path->work += work;
+  PetscCall(PetscFree(report->bolts));
+  report->nbolts = sim->bolts.n;
+  PetscCall(PetscCalloc1(report->nbolts, &report->bolts));
+  for (PetscInt b = 0; b < report->nbolts; ++b)
+    report->bolts[b] = (BoltReport){.name = sim->scene->bolts[b].name,
+      .force                              = sim->bolts.force[b],
+      .shortening                         = sim->bolts.shortening[b]};
+  PetscFunctionReturn(0);
+}
+
 /*
    Adds the work from the last state to u. unbalanced: internal - contact - dead forces, i.e. reactions in prescribed
    rows; rigid: forces on rigid bodies driven by forces, NULL: none; contact: contact forces if there is friction
@@ -88,6 +107,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
+  PetscCall(WorkAddBolts(sim, u, report));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;

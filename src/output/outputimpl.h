@@ -111,6 +111,7 @@ typedef enum {
   TABLE_PAIRS,
   TABLE_FACES,
   TABLE_RIGID,
+  TABLE_BOLTS,
   TABLE_BALANCE,
   TABLE_PLASTICITY,
   TABLE_TRUTH,
@@ -160,8 +161,8 @@ struct _n_ReportRecord {
   const ReportField *fields;
 };
 
-PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaFallbacks,
-  SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
+PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaBolts,
+  SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
 PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);

@@ -77,6 +77,15 @@ static const ReportField rigid_fields[] = {
 };
 const ReportRecord SchemaRigid = {sizeof(RigidReport), PETSC_TRUE, rigid_fields};
 
+static const ReportField bolt_fields[] = {
+  FIELD(BoltReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_BOLTS, "bolt", "", -24)}),
+  FIELD(BoltReport, force, FIELD_REAL, "force", .columns = {COLUMN(TABLE_BOLTS, "tension", "", 14, .format = "%.8e")}),
+  FIELD(BoltReport, shortening, FIELD_REAL, "length",
+    .columns = {COLUMN(TABLE_BOLTS, "shortening", "", 14, .format = "%.8e")}),
+  END,
+};
+const ReportRecord SchemaBolts = {sizeof(BoltReport), PETSC_TRUE, bolt_fields};
+
 static const ReportField ramp_fields[] = {
   FIELD(RampReport, name, FIELD_TEXT, ""),
   FIELD(RampReport, factor, FIELD_REAL, ""),
@@ -202,6 +211,7 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
+  FIELD(StepReport, bolts, FIELD_LIST, "", .count = offsetof(StepReport, nbolts), .record = &SchemaBolts),
   FIELD(StepReport, rigid_bodies, FIELD_LIST, "", .count = offsetof(StepReport, nrigid_bodies), .record = &SchemaRigid),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),
   FIELD(StepReport, motions, FIELD_LIST, "", .count = offsetof(StepReport, nmotions), .record = &SchemaMotions),

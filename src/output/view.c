@@ -29,6 +29,11 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
     PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
     PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
   }
+  if (last && last->nbolts) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_BOLTS, &SchemaBolts, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_BOLTS, &SchemaBolts, last->nbolts, last->bolts, viewer));
+  }
   if (last && last->nrigid_bodies) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(TableViewHead(report, TABLE_RIGID, &SchemaRigid, 0, viewer));

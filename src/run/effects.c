@@ -19,6 +19,7 @@ typedef enum {
   EFFECT_BODY_FORCE,
   EFFECT_INERTIA,
   EFFECT_SPRINGS,
+  EFFECT_BOLTS,
   EFFECT_WEAK_SPRINGS,
   EFFECT_TEMPERATURE,
   EFFECT_TIES,
@@ -45,6 +46,7 @@ static const char *const EffectNames[] = {
   [EFFECT_BODY_FORCE]    = "body force",
   [EFFECT_INERTIA]       = "inertia",
   [EFFECT_SPRINGS]       = "springs",
+  [EFFECT_BOLTS]         = "pretension",
   [EFFECT_WEAK_SPRINGS]  = "weak springs",
   [EFFECT_TEMPERATURE]   = "thermal strain",
   [EFFECT_TIES]          = "ties",
@@ -124,6 +126,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
   PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces",
     scene->nsprings));
+  PetscCall(EffectSet(report, EFFECT_BOLTS, (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
   PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0),
     scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set",
     sim->springs.nweak));

@@ -40,6 +40,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   bodies = SimulationBodies(sim);
   PetscCall(SpringsMeasureStiffness(&bodies, &sim->stiffness));
   PetscCall(SpringsCreate(&bodies, &sim->springs));
+  PetscCall(BoltsCreate(&bodies, &sim->bolts));
   PetscCall(StiffnessSetType(sim));
   constraints = SimulationConstraints(sim);
   PetscCall(TiesCreate(&constraints));

@@ -274,6 +274,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(PetscFree(s->report.steps[i].lines));
     PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(s->report.steps[i].rigid_bodies));
+    PetscCall(PetscFree(s->report.steps[i].bolts));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));
@@ -299,6 +300,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(DeadLoadsDestroy(&s->loads));
   PetscCall(TemperaturesDestroy(&s->temperatures));
   PetscCall(SpringsDestroy(&s->springs));
+  PetscCall(BoltsDestroy(&s->bolts));
   PetscCall(TiesDestroy(&s->ties));
   PetscCall(DynamicsDestroy(&s->dynamics));
   PetscCall(MatDestroy(&s->follows));

@@ -249,6 +249,15 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
       here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0],
       (double)here->value[1], (double)here->value[2]));
   }
+  for (PetscInt b = 0; b < scene->nbolts; ++b) {
+    const SceneBolt *here = &scene->bolts[b];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  bolt %s: %s, %s %.6g, follows %s", here->name,
+      scene->bodies[here->body].name, here->shortens ? "shortened by" : "tension",
+      (double)(here->shortens ? here->shortening : here->force), scene->ramps[here->ramp].name));
+    if (here->lock) PetscCall(PetscViewerASCIIPrintf(viewer, ", locked after load step %" PetscInt_FMT, here->lock));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
   for (PetscInt f = 0; f < scene->nforces; ++f) {
     const SceneBodyForce *here = &scene->forces[f];
 

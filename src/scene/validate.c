@@ -208,6 +208,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateRigid(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateSprings(comm, file, scene));
+  PetscCall(SceneValidateBolts(comm, file, scene));
   PetscCall(SceneValidateTemperatures(comm, file, scene));
   PetscCall(SceneValidateDamping(comm, file, scene));
   PetscCall(SceneValidateContact(comm, file, scene));

@@ -29,6 +29,7 @@ struct _n_Simulation {
   DeadLoads       loads;
   Temperatures    temperatures;
   Springs         springs;
+  Bolts           bolts;
   RigidBodies     rigid;
   Ties            ties;
   Dynamics        dynamics;

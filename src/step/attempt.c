@@ -38,6 +38,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscBool         again, rescued;
 
   PetscFunctionBegin;
+  p->sim->bolts.nsolves = 0;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   do {
     if (!nsolves) PetscCall(FollowersForget(p));
@@ -50,6 +51,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
     PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
     PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
+    PetscCall(StepProblemAdvanceBolts(p, u, report, &again));
     PetscCall(ProximalRescue(p, u, report, &rescued));
     if (rescued) nsolves = 0;
   } while (again || rescued);

@@ -1,5 +1,6 @@
 /* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
 #include "stepimpl.h"
+#include "src/state/control.h"
 #include "src/state/path.h"
 
 /* Where bodies turn freely, the base and the loads are those about u */
@@ -51,7 +52,8 @@ static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
-  PetscBool linear, anew, changed = PETSC_FALSE;
+  const Bodies bodies = SimulationBodies(sim);
+  PetscBool    linear, anew, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
@@ -63,6 +65,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(VecDuplicate(sim->path->u, &p->w));
   PetscCall(StepProblemSetBase(p, sim->path->u, &anew));
   PetscCall(TemperaturesApply(&sim->temperatures, time));
+  PetscCall(BoltsBegin(&bodies, &sim->bolts, time, sim->path->u));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
   if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
@@ -86,6 +89,29 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   PetscCall(FollowersTurn(p));
   if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || SimulationIsDynamic(p->sim))));
   PetscCall(ProximalTurn(p, u));
+  PetscFunctionReturn(0);
+}
+
+/* Whether another solve must follow, with other shortenings of bolts. again: yes */
+PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
+{
+  const Bodies    bodies    = SimulationBodies(p->sim);
+  const PetscReal tolerance = PetscMax(1e-2 * PetscMax(p->sim->control->tolerances.optimizer, p->tolerance), 1e-10);
+  PetscBool       changes   = PETSC_FALSE;
+  const char     *failed;
+  char            sentence[192];
+
+  PetscFunctionBegin;
+  if (!report->converged || *again) PetscFunctionReturn(0);
+  PetscCall(BoltsAdvance(&bodies, &p->sim->bolts, tolerance, u, &changes, &failed));
+  if (failed) {
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      "bolt \"%s\" does not reach its force; the parts that it clamps must resist it", failed));
+    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  if (!changes) PetscFunctionReturn(0);
+  *again = PETSC_TRUE;
+  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 

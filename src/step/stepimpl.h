@@ -89,6 +89,7 @@ PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepPr
 PETSC_INTERN PetscErrorCode StepProblemTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
+PETSC_INTERN PetscErrorCode StepProblemAdvanceBolts(StepProblem *, Vec u, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* TAO callbacks, also in quadratic.c and energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);

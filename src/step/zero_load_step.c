@@ -28,6 +28,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   PetscCall(VecDestroy(&u));
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
   PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
+  for (PetscInt b = 0; b < p->sim->bolts.n; ++b) stays = (PetscBool)(stays || p->sim->bolts.now[b] != 0.0);
   for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
     stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->sim->scene->pairs[k]));
   *due =

@@ -196,6 +196,13 @@ typedef struct {
   PetscObjectState state;
 } AssembledTangent;
 
+/* A section through a body: the cells that it cuts take the nodes beyond it as displaced by shortening x axis */
+typedef struct {
+  PetscInt  body;
+  PetscReal axis[3];    /* unit vector */
+  PetscReal shortening; /* [length] */
+} BodySection;
+
 struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
@@ -216,6 +223,11 @@ struct _n_Elasticity {
   PetscInt        *firstpoint;  /* then: first point of cell c in history; PETSC_DECIDE: its law has none */
   PetscInt         npoints;     /* number of points with a history on this rank */
   PetscReal       *history;     /* at the last state of equilibrium, MATERIAL_HISTORY values per point */
+  PetscInt         nsections;
+  BodySection     *sections;
+  PetscInt        *cellsection, *cellbeyond; /* of each cell: its section, PETSC_DECIDE: none; its first value in */
+  PetscReal       *beyond;                   /* 1 for nodes of a cut cell beyond the section, 0 for the others */
+  PetscInt         nbeyond;
   AssembledTangent assembled;
   PetscReal        inertia, viscosity; /* of tangents: factor of the mass, 0: none; more than 1 of the stiffness */
   PetscBool        consistent, *light; /* mass; local nodes that have none, NULL: all have theirs */
@@ -249,6 +261,9 @@ typedef struct {
 /* thermal.c: subtracts the free thermal displacement of a cell */
 PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 
+/* sections.c: adds the shortening of a section to the displacements of a cell's nodes beyond it */
+PETSC_INTERN void SectionAdd(Elasticity, PetscInt c, CellState *);
+
 static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],
   CellState *cell)
 {
@@ -264,6 +279,7 @@ static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar
   CellGather(cell->n, cell->nodes, x, cell->X);
   CellGather(cell->n, cell->nodes, u, cell->U);
   if (e->temperature && cell->body->expands) ThermalSubtract(e->temperature + 4 * c, cell);
+  if (e->cellsection && e->cellsection[c] >= 0) SectionAdd(e, c, cell);
 }
 
 #endif

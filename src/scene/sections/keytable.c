@@ -47,6 +47,7 @@ static const SceneKey top_rows[] = {
   SECTION("tractions", "none", "list of loads per undeformed area on faces, with fixed direction"),
   SECTION("forces", "none", "list of resultant forces and moments on faces and rigid bodies, with fixed direction"),
   SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
+  SECTION("bolts", "none", "list of bolts with pretension"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
     "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
     "springs as a fraction of the body's stiffness, above 0 and at most 0.01"),
@@ -153,6 +154,18 @@ static const SceneKey spring_rows[] = {TEXT("face", NULL, SceneSpring, face, REQ
   REALS("value", NULL, 3, SceneSpring, value, REQUIRED, ANY, "F/L³", "",
     "stiffness along x, y, z per undeformed area, not negative"),
   {NULL}};
+
+static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "required", "the body that is cut"),
+  REALS("point", NULL, 3, SceneBolt, point, REQUIRED, ANY, "L", "",
+    "a point of the plane of the section, in undeformed coordinates; the plane cuts the whole body"),
+  REALS("axis", NULL, 3, SceneBolt, axis, REQUIRED, ANY, "", "", "direction of the bolt, normal to that plane"),
+  REALS("force", NULL, 1, SceneBolt, force, SHOWN, ANY, "F", "",
+    "force in the section at load factor 1; positive: tension. Required without `shortening`"),
+  REALS("shortening", NULL, 1, SceneBolt, shortening, SHOWN, ANY, "L", "",
+    "by how much the two sides of the section are pulled over one another at load factor 1, instead of `force`"),
+  INTS("lock", NULL, 1, SceneBolt, lock, OPTIONAL, "0: never",
+    "load step after which the shortening stays as it is, and the force is no longer given"),
+  NUMBER_OF("ramp", RAMP, SceneBolt, ramp, "`load`", "a ramp that force or shortening follows"), {NULL}};
 
 static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForce, body, "every body", "a body"),
   REALS("value", NULL, 3, SceneBodyForce, value, REQUIRED, ANY, "F/L³", "",
@@ -267,6 +280,7 @@ static const SceneBody         body_initial         = {.element = ELEMENT_AUTO};
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
+static const SceneBolt         bolt_initial         = {.body = PETSC_DECIDE};
 static const SceneBodyForce    body_force_initial   = {.body = PETSC_DECIDE};
 static const SceneTemperature  temperature_initial  = {.body = PETSC_DECIDE};
 static const SceneContactPair  contact_initial      = {.interference_ramp = PETSC_DECIDE,
@@ -298,6 +312,8 @@ const SceneList SceneLists[] = {
   {"forces", force_rows, sizeof(SceneTraction), OF_SCENE(ntractions, tractions), .initial = &force_initial,
     .finish = SceneFinishForce, .holds = SceneTractionIsForce, .hides = SceneForceHides, .shared = PETSC_TRUE},
   {"springs", spring_rows, sizeof(SceneSpring), OF_SCENE(nsprings, springs), .finish = SceneFinishSpring},
+  {"bolts", bolt_rows, sizeof(SceneBolt), OF_SCENE(nbolts, bolts), .initial = &bolt_initial, .finish = SceneFinishBolt,
+    .hides = SceneBoltHides},
   {"temperatures", temperature_rows, sizeof(SceneTemperature), OF_SCENE(ntemperatures, temperatures),
     .initial = &temperature_initial},
   {"body_forces", body_force_rows, sizeof(SceneBodyForce), OF_SCENE(nforces, forces), .initial = &body_force_initial},

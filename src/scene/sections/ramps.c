@@ -136,6 +136,8 @@ PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
   }
   if (scene->displacement_bounds)
     scene->displacement_bounds = 1 + (PetscInt)PetscCeilReal((PetscReal)(scene->displacement_bounds - 1) * stretch);
+  for (PetscInt b = 0; b < scene->nbolts; ++b)
+    scene->bolts[b].lock = (PetscInt)PetscCeilReal((PetscReal)scene->bolts[b].lock * stretch);
   scene->dynamics.time_step /= stretch;
   scene->nsteps = nsteps;
   PetscFunctionReturn(0);

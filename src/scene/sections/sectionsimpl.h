@@ -79,6 +79,11 @@ PETSC_INTERN PetscBool      SceneForceHides(const void *entry, const char key[])
 PETSC_INTERN PetscErrorCode SceneFinishForce(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, const char file[], Scene);
 
+/* bolts.c */
+PETSC_INTERN PetscBool      SceneBoltHides(const void *entry, const char key[]);
+PETSC_INTERN PetscErrorCode SceneFinishBolt(SceneKeys, Scene, const char owner[], void *entry);
+PETSC_INTERN PetscErrorCode SceneValidateBolts(MPI_Comm, const char file[], Scene);
+
 /* springs.c */
 #define SCENE_WEAK_SPRINGS 1e-7 /* weak_springs: true */
 PETSC_INTERN const SceneOwn SceneOwnWeakSprings;

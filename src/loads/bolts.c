@@ -1,0 +1,214 @@
+/*
+   Pretension of bolts. Each solve has the shortenings of the sections fixed. The energy of equilibrium is a convex
+   function of them for linear bodies, and its derivatives are the section forces. Where forces are given, the
+   shortenings follow by the method of Broyden, Fletcher, Goldfarb and Shanno from one solve to the next. The matrix
+   that it learns, the compliance of bolts and clamped parts, is kept for all solves of the run.
+*/
+#include "loadsimpl.h"
+#include <math.h>
+
+static const PetscInt max_solves = 40;
+
+/* The sections and, for the first shortenings, the compliance of the cut cells alone */
+PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
+{
+  Scene          scene = bodies->scene;
+  const PetscInt n     = scene->nbolts;
+
+  PetscFunctionBegin;
+  bolts->n = n;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc6(n, &bolts->force, n, &bolts->shortening, n, &bolts->target, n, &bolts->now, n, &bolts->driven,
+    n * n, &bolts->compliance));
+  PetscCall(PetscCalloc3(n, &bolts->tried[0], n, &bolts->tried[1], n, &bolts->most));
+  for (PetscInt b = 0; b < n; ++b) {
+    const SceneBolt *bolt = &scene->bolts[b];
+    PetscInt         ncells;
+
+    PetscCall(ElasticityAddSection(bodies->elasticity, bolt->body, bolt->point, bolt->axis, &ncells));
+    PetscCheck(ncells, bodies->comm, PETSC_ERR_USER_INPUT,
+      "bolt \"%s\": the plane through its point (%g, %g, %g) with its axis (%g, %g, %g) does not cut its body \"%s\"",
+      bolt->name, (double)bolt->point[0], (double)bolt->point[1], (double)bolt->point[2], (double)bolt->axis[0],
+      (double)bolt->axis[1], (double)bolt->axis[2], scene->bodies[bolt->body].name);
+    PetscCheck(ncells > 0, bodies->comm, PETSC_ERR_USER_INPUT,
+      "bolt \"%s\": its section cuts cells of its body \"%s\" that the section of another bolt cuts; move its point or "
+      "refine the mesh",
+      bolt->name, scene->bodies[bolt->body].name);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* The compliance of the cut cells, by a difference; u: any displacement */
+static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
+{
+  const PetscReal part = 1e-6, lengths = 10.0; /* of the cube root of a body's volume */
+  PetscReal      *volume, *before, *after;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(bodies->scene->nbodies, &volume, bolts->n, &before, bolts->n, &after));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, before));
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    const PetscReal size = part * PetscCbrtReal(volume[bodies->scene->bolts[b].body]);
+
+    PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b] + size));
+    PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, after));
+    PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b]));
+    bolts->compliance[b * bolts->n + b] = size / (after[b] - before[b]);
+    bolts->most[b]                      = lengths / part * size;
+  }
+  PetscCall(PetscFree3(volume, before, after));
+  PetscFunctionReturn(0);
+}
+
+/* now += compliance times (target - force), in driven bolts */
+static void BoltsFollow(Bolts *bolts, const PetscReal force[])
+{
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    for (PetscInt k = 0; k < bolts->n && bolts->driven[b]; ++k) {
+      if (bolts->driven[k]) bolts->now[b] += bolts->compliance[b * bolts->n + k] * (bolts->target[k] - force[k]);
+    }
+  }
+}
+
+static PetscErrorCode BoltsApply(const Bodies *bodies, const Bolts *bolts)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < bolts->n; ++b) PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b]));
+  PetscFunctionReturn(0);
+}
+
+/* Forces and shortenings of a load step that ends at `time`, from those of the last state, u */
+PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Vec u)
+{
+  const PetscReal rounding = 1e-9;
+
+  PetscFunctionBegin;
+  if (!bolts->n) PetscFunctionReturn(0);
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    const SceneBolt *bolt = &bodies->scene->bolts[b];
+    PetscReal        factor;
+
+    PetscCall(SceneGetFactor(bodies->scene, bolt->ramp, time, &factor));
+    bolts->driven[b] = (PetscBool)(!bolt->shortens && !(bolt->lock && time > (PetscReal)bolt->lock + rounding));
+    bolts->now[b]    = bolt->shortens ? factor * bolt->shortening : bolts->shortening[b];
+    bolts->target[b] = bolts->driven[b] ? factor * bolt->force : 0.0;
+  }
+  PetscCall(BoltsApply(bodies, bolts));
+  if (!bolts->nslopes) PetscCall(BoltsGuess(bodies, bolts, u));
+  BoltsFollow(bolts, bolts->force);
+  PetscCall(BoltsApply(bodies, bolts));
+  PetscFunctionReturn(0);
+}
+
+/* Improves the compliance by what the last two solves of this problem show */
+static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
+{
+  const PetscInt  n    = bolts->n;
+  const PetscReal most = 30.0; /* by what the compliance grows at most: bolts that are not clamped yet */
+  PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, scale;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(n, &s, n, &y, n, &Hy));
+  for (PetscInt b = 0; b < n; ++b) {
+    s[b] = bolts->driven[b] ? bolts->now[b] - bolts->tried[0][b] : 0.0;
+    y[b] = bolts->driven[b] ? force[b] - bolts->tried[1][b] : 0.0;
+  }
+  for (PetscInt b = 0; b < n; ++b) {
+    Hy[b] = 0.0;
+    for (PetscInt k = 0; k < n; ++k) Hy[b] += bolts->compliance[b * n + k] * y[k];
+    ys += y[b] * s[b];
+    yHy += y[b] * Hy[b];
+  }
+  scale = ys > 0.0 && yHy > 0.0 ? ys / yHy : PETSC_INFINITY;
+  if (scale > most || !bolts->nslopes) {
+    for (PetscInt i = 0; i < n * n; ++i) bolts->compliance[i] *= PetscMin(scale, most);
+    for (PetscInt b = 0; b < n; ++b) Hy[b] *= PetscMin(scale, most);
+    yHy *= PetscMin(scale, most);
+  }
+  ++bolts->nslopes;
+  for (PetscInt b = 0; b < n && scale <= most; ++b) {
+    for (PetscInt k = 0; k < n; ++k)
+      bolts->compliance[b * n + k] += (1.0 + yHy / ys) * s[b] * s[k] / ys - (Hy[b] * s[k] + s[b] * Hy[k]) / ys;
+  }
+  PetscCall(PetscFree3(s, y, Hy));
+  PetscFunctionReturn(0);
+}
+
+/*
+   After a solve with solution u: whether another one must follow, with other shortenings, since a force is not the
+   given one within the relative tolerance. failed: the name of a bolt whose force is not reached in max_solves, or
+   without a shortening that is longer than the bolt; NULL: none
+*/
+PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolerance, Vec u, PetscBool *again,
+  const char **failed)
+{
+  PetscReal *force, largest = 0.0, off = 0.0;
+  PetscInt   worst = 0;
+
+  PetscFunctionBegin;
+  *failed = NULL;
+  if (!bolts->n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(bolts->n, &force));
+  PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, force));
+  for (PetscInt b = 0; b < bolts->n; ++b) largest = PetscMax(largest, PetscAbsReal(bolts->target[b]));
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    if (!bolts->driven[b] || PetscAbsReal(force[b] - bolts->target[b]) <= off) continue;
+    off   = PetscAbsReal(force[b] - bolts->target[b]);
+    worst = b;
+  }
+  if (bolts->nsolves++) PetscCall(BoltsLearn(bolts, force));
+  if (off > tolerance * largest) {
+    PetscCall(PetscArraycpy(bolts->tried[0], bolts->now, bolts->n));
+    PetscCall(PetscArraycpy(bolts->tried[1], force, bolts->n));
+    BoltsFollow(bolts, force);
+    PetscCall(BoltsApply(bodies, bolts));
+    for (PetscInt b = 0; b < bolts->n; ++b) {
+      if (PetscAbsReal(bolts->now[b]) > bolts->most[b]) *failed = bodies->scene->bolts[b].name;
+    }
+    if (bolts->nsolves >= max_solves) *failed = bodies->scene->bolts[worst].name;
+    *again = (PetscBool) !*failed;
+  }
+  PetscCall(PetscFree(force));
+  PetscFunctionReturn(0);
+}
+
+/* Forces and shortenings at u become those of the last state. work: what pretension does on the way from the last one
+   [force length] */
+PetscErrorCode BoltsSettle(const Bodies *bodies, Bolts *bolts, Vec u, PetscReal *work)
+{
+  PetscReal *force;
+
+  PetscFunctionBegin;
+  *work = 0.0;
+  if (!bolts->n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(bolts->n, &force));
+  PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, force));
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    *work += 0.5 * (force[b] + bolts->force[b]) * (bolts->now[b] - bolts->shortening[b]);
+    bolts->force[b]      = force[b];
+    bolts->shortening[b] = bolts->now[b];
+  }
+  PetscCall(PetscFree(force));
+  PetscFunctionReturn(0);
+}
+
+/* At a state u of an earlier run, whose shortenings are set */
+PetscErrorCode BoltsRestore(const Bodies *bodies, Bolts *bolts, Vec u)
+{
+  PetscFunctionBegin;
+  if (!bolts->n) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(bolts->now, bolts->shortening, bolts->n));
+  PetscCall(BoltsApply(bodies, bolts));
+  PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, bolts->force));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode BoltsDestroy(Bolts *bolts)
+{
+  PetscFunctionBegin;
+  if (!bolts->n) PetscFunctionReturn(0);
+  PetscCall(PetscFree6(bolts->force, bolts->shortening, bolts->target, bolts->now, bolts->driven, bolts->compliance));
+  PetscCall(PetscFree3(bolts->tried[0], bolts->tried[1], bolts->most));
+  PetscFunctionReturn(0);
+}
