@@ -13,8 +13,9 @@ static const PetscReal askew = 1e-2;
 static const PetscReal tied = 1e4;
 
 /*
-   Rotation of the normals between sim->solved->linearization and at_u: over all pairs the largest
-   sum_r p_r m_r |n' - n| / sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of sim->solved->linearization, or negative
+   Rotation of the normals between the last contact update and at_u: over all pairs the largest
+   sum_r p_r m_r |n' - n| / sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of the last update, or
+   negative
 */
 static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)

@@ -24,8 +24,8 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to
-   balance only to the few per cent at which the linear solves aim, because mu affects the pairs, not the forces */
+/* Whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to balance
+   only to a few per cent, the aim of the linear solves: mu affects the pairs, not the forces. */
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = ip->kkt;
@@ -82,8 +82,8 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error is below the worst of the last iterates in free mode, and stores it in its place (Nocedal,
-   Waechter and Waltz 2009, section 4) */
+/* Whether the KKT error is below the largest of those of the last iterates in free mode. If so, it replaces that one
+   (Nocedal, Waechter and Waltz 2009, section 4). */
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
   const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar->errors);
@@ -122,8 +122,8 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 
 /*
    Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives and linear
-   constraints, where the affine step predicts mu. The monotone rule replaces it for other problems, and while the KKT
-   error does not fall
+   constraints, because the affine step then predicts mu. For other problems, and while the KKT error does not fall, the
+   monotone rule is used.
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {

@@ -12,8 +12,8 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Square to which the curvature of d is compared: d^T d in the unit of H. With scale-free constants at most d^T
-   |diag(H)| d, so that unknowns of different units count equally */
+/* The square that the curvature of d is compared with: d^T d in the unit of H. With scale-free constants it is at most
+   d^T |diag(H)| d, so that unknowns of different units count equally. */
 static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -171,8 +171,8 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
   return (PetscBool)(!ip->me || ip->prox->condensed);
 }
 
-/* Computes the direction for the residuals rc and ce and the pairs' targets, from the guess in dx. While mu falls,
-   forces and multipliers need to be accurate only to a few per cent; a step that would finish is solved to the
+/* Computes the direction for the residuals rc and ce and the pairs' targets; dx is the initial guess. While mu falls,
+   forces and multipliers need to be accurate to a few per cent only. A step that would finish is solved to the
    accuracy that convergence requires. matrix: A is new */
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
@@ -272,7 +272,7 @@ static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* A further direction with the last matrix, for the residuals of a second-order correction */
+/* A second direction with the same matrix, for the residuals of a second-order correction */
 PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -280,8 +280,8 @@ PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier function falls along the direction, as it must where there are no constraints: a solve that was
-   ended early in a matrix that is almost singular may not descend */
+/* Whether the barrier function falls along the direction. Without constraints it must fall, but a linear solve with an
+   almost singular matrix that was ended early may give a direction of ascent. */
 static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -295,7 +295,8 @@ static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
   PetscFunctionReturn(0);
 }
 
-/* The Newton direction, whose curvature (or, with equality constraints, whose matrix's inertia) is in order */
+/* The Newton direction, regularized until its curvature (or, with equality constraints, the matrix's inertia) is
+   right */
 static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -318,8 +319,8 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Sizes |A_jj|, no less than a trace of the largest, and sines that repeat nothing times their roots: b has a part in
-   every direction, whatever the units */
+/* Scales d_j = |A_jj|, at least a small fraction of the largest, and a right-hand side b_j = sqrt(d_j) sin(...) whose
+   sines do not repeat. So b has a component in every direction, in any units. */
 static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
 {
   const PetscReal trace = 1e-12;
@@ -343,8 +344,8 @@ static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* Into dir.x a direction of negative curvature of the matrix at the present point, if conjugate gradients, scaled by
-   the diagonal, meet one: p with p^T A p < 0 */
+/* Looks for a direction p of negative curvature, p^T A p < 0, by conjugate gradients with diagonal scaling, and stores
+   it in dir.x */
 PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;

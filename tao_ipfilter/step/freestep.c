@@ -6,8 +6,8 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Computes the step to a tenth of its residual. usable: false if the Hessian is not convex along it, or has no
-   positive diagonal, without which no AMG can be built */
+/* Solves for the step to a residual of a tenth. usable: false if the Hessian is not convex along it, or some of its
+   diagonal entries are not positive, so that no AMG can be set up */
 static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -37,7 +37,7 @@ static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The trial point after the step: keeps a margin to the bounds, limited to a part of the distance between two */
+/* The trial point after the step, at a distance from the bounds that is limited by the distance between two bounds */
 static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -67,7 +67,8 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
   PetscFunctionReturn(0);
 }
 
-/* Measures sizes at the point after the step. They replace those of the start, which may be far off */
+/* Measures the reference sizes at the point after the step. They replace those at the start, which may be far too
+   large. */
 static PetscErrorCode FreeMeasure(Tao tao)
 {
   IPFirst *first = ((TAO_IPFILTER *)tao->data)->first;

@@ -48,7 +48,8 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
   return PetscMax(ip->opt->scaling == IP_SCALING_NONE ? 1.0 : ip->search->theta_ref, ip->search->theta0);
 }
 
-/* Largest allowed increase of the objective for a smaller violation: little if hardly any violation is left */
+/* Largest allowed increase of the objective for a smaller violation. If there is hardly any violation left, it is
+   small. */
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = ip->search;
@@ -59,9 +60,9 @@ static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
                                              : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
 }
 
-/* accepted: whether (theta, phi) at step alpha is acceptable. *objective: whether it is accepted for its objective,
-   which falls as the switching condition predicts, or because no violation is left to reduce; the old iterate then
-   stays out of the filter (Waechter and Biegler 2006, equations (18) to (20)) */
+/* accepted: whether (theta, phi) at step alpha is acceptable. *objective: whether the reason is the objective: it
+   falls as the switching condition predicts, or there is no violation to reduce. Then the old iterate is not added to
+   the filter (Waechter and Biegler 2006, equations (18) to (20)). */
 static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi,
   PetscBool *accepted, PetscBool *objective)
 {
@@ -100,8 +101,8 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
   return PetscMax(IP_GAMMA_ALPHA * least, 1e-12);
 }
 
-/* Takes the accepted step: the trial point; multipliers of the constraints by alpha, of the pairs by their own step
-   length. Slacks so small that J^T D J would swamp the Hessian are increased slightly */
+/* Takes the accepted step: the trial point; multipliers of the constraints with alpha, those of the pairs with their
+   own step length. Very small slacks are increased slightly: J^T D J would otherwise dominate the Hessian. */
 static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -136,8 +137,8 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   PetscFunctionReturn(0);
 }
 
-/* Tests whether the constraints' residuals at the trial point differ from 1 - alpha times the present ones, which
-   linear constraints would give */
+/* Tests whether the constraints are nonlinear: for linear ones the residuals at the trial point are 1 - alpha times
+   the present ones */
 static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -179,8 +180,8 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
   PetscFunctionReturn(0);
 }
 
-/* Second-order corrections: a new direction from the residuals rc and ce of the first trial point, then from those
-   of each correction, combined with the iterate's */
+/* Second-order corrections: a new direction from the residuals rc and ce of the first trial point, then of each
+   correction, added to those of the iterate */
 static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
   Vec rc, Vec ce, PetscBool *ok)
 {
@@ -243,8 +244,9 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Clears the filter, a few times per solve, if the filter alone has shortened several descent steps in a row: it
-   then contains iterates from another region (IPOPT's filter_reset_trigger and max_filter_resets) */
+/* Clears the filter if the filter alone has shortened several descent steps in a row, because it then contains
+   iterates from another region. This is done a few times per solve (IPOPT's filter_reset_trigger and
+   max_filter_resets). */
 static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 {
   const PetscInt patience = 5, limit = 5;
@@ -290,8 +292,8 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Goes on from the trial point at the end of dir.x, which was found beside the path: multipliers are centred, with mu
-   no less than a trace of the first */
+/* Continues from the trial point x + dir.x, which is not on the central path: multipliers are centred, with mu at
+   least a small fraction of the first mu */
 static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -308,7 +310,8 @@ static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
   PetscFunctionReturn(0);
 }
 
-/* Directions of slacks and bounds that belong to dir.x; constraints' multipliers stay */
+/* Directions of slacks and distances to bounds that follow from dir.x. The multipliers of the constraints do not
+   change. */
 static PetscErrorCode SearchFollow(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -326,8 +329,8 @@ static PetscErrorCode SearchFollow(Tao tao)
 
 #define IP_LEAVE_MET 1e-2 /* violation, in its unit, that a point beside the path may have */
 
-/* Leaves a stationary point along dir.x, a direction of negative curvature, as far as the barrier function falls and
-   constraints stay met; *left is false where it does not */
+/* Leaves a stationary point along dir.x, a direction of negative curvature. The step is as long as the barrier
+   function falls and the constraints stay satisfied. *left: false if there is no such step */
 PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -360,7 +363,8 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
   PetscFunctionReturn(0);
 }
 
-/* Whether steps shrink no faster than by a constant factor, as they do where the Hessian vanishes with the gradient */
+/* Whether steps shrink by a constant factor only (linear convergence), which happens if gradient and Hessian vanish
+   together */
 static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
 {
   const PetscReal quadratic = 0.2;
@@ -369,9 +373,9 @@ static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
     PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
 }
 
-/* Where Newton's steps shrink slowly, the gradient and the curvature vanish together, and the point may be one of
-   inflection: whether the barrier function falls beyond it, along the last step, further and further. Then the solve
-   goes on from there. */
+/* If Newton's steps shrink slowly, gradient and curvature vanish together, and the point may be one of inflection.
+   Then this tests longer and longer steps along the last direction. If the barrier function falls there, the solve
+   continues from there. */
 PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

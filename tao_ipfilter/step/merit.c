@@ -59,7 +59,7 @@ static PetscErrorCode MeritRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Rounding error of theta where all constraints are met: a few eps of their values and of the terms that cancel in
+/* Rounding error of theta if all constraints are satisfied: a few eps of their values, and of the terms that cancel in
    equality constraints */
 static PetscErrorCode MeritViolationRounding(Tao tao)
 {

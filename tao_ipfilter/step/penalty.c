@@ -47,7 +47,7 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* convex: whether the penalized problem is convex along dx and, if factors are available, by their inertia */
+/* convex: whether the penalized problem is convex along dx, and if factors are available also by their inertia */
 static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -112,7 +112,7 @@ static PetscErrorCode PenaltyMinimize(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* value: the penalized objective at an iterate whose objective and constraints are known */
+/* value: the penalized objective at an iterate, from its objective and constraints */
 static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal *value)
 {
   PetscScalar penalty;
@@ -134,8 +134,8 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* hold: whether objective and constraints at x + alpha dx agree with their quadratic and linear models from x;
-   always true for a quadratic program */
+/* hold: whether the models at x (quadratic for the objective, linear for the constraints) agree with the true values
+   at x + alpha dx. Always true for a quadratic program */
 static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -166,8 +166,9 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the solution of the penalized problem, as far as its bounds allow and the penalized objective falls.
-   *moved: false if it does not fall, the models are invalid so far away, or equality constraints are violated more */
+/* Moves x towards the solution of the penalized problem. The step is limited by the bounds, and shortened until the
+   penalized objective falls. *moved: false if it does not fall, if the models do not hold at that distance, or if
+   equality constraints become more violated */
 PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

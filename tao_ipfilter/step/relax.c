@@ -43,7 +43,8 @@ static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
   return PetscMax(ip->scale->balance, ip->first->pressure);
 }
 
-/* Whether the smallest slack is of rounding size and its multiplier is larger than one that balances the gradient */
+/* Whether the smallest slack is as small as rounding, and its multiplier is larger than one that balances the
+   gradient */
 static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
   const PetscReal larger = 10.0;
@@ -76,7 +77,7 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
   PetscFunctionReturn(0);
 }
 
-/* By how much, for the size that the constraints have when they are relaxed first */
+/* The amount of relaxation, from the size of the constraints at the first relaxation */
 static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -105,8 +106,8 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes constraints and bounds by a fraction of the tolerance times their size. Reduces mu to the largest value that
-   the relaxed constraints allow with large multipliers */
+/* Relaxes constraints and bounds by a fraction of the tolerance times their size. Reduces mu so that the relaxed
+   constraints permit it with large multipliers. */
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -150,7 +151,7 @@ PetscErrorCode IPRelax(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes, if no next step was found, as soon as a slack has vanished; a second time by the full tolerance */
+/* Relaxes if no next step was found and a slack has vanished. The second relaxation is by the full tolerance. */
 PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -22,7 +22,7 @@
 #define IP_RESTORE_METRIC 0.1  /* smallest delta in the metric, in its unit, for Hessians without curvature */
 #define IP_RESTORE_SMALL  1e-3 /* psi may have a minimum where its relative gradient is below this */
 #define IP_RESTORE_DROWNED \
-  1e8 /* if multipliers enlarged the Hessian by more than this, the objective has no influence on steps */
+  1e8 /* if multipliers made the Hessian larger by more than this factor, the objective has no influence on steps */
 #define IP_RESTORE_LEAST 1e-6 /* psi has a minimum where its relative gradient is below this and it does not fall */
 
 /* psi at an iterate */
@@ -117,7 +117,7 @@ static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* Solves for the step; usable: whether it reduces the violation or the bounds' barrier */
+/* Solves for the step. usable: whether it reduces the violation or the barrier function of the bounds */
 static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -140,9 +140,9 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks inside the bounds until psi falls. *psi: its new value; *alpha: 0 if it does not fall. zeta is
-   increased the more, the worse the model was; it is reduced if a full step gains at least about what the model
-   predicts (half of the slope) */
+/* Backtracks inside the bounds until psi falls. *psi: its new value; *alpha: 0 if it does not fall. zeta is increased
+   the more, the less the model agreed with psi. It is reduced after a full step whose decrease is near the predicted
+   one (half of the slope). */
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -284,7 +284,7 @@ static PetscErrorCode RestoreForgetMultipliers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Initial zeta: balances the metric and the model of the violation, using the stiffness of the constraints */
+/* Initial zeta: makes the metric and the model of the violation equally large, by the stiffness of the constraints */
 static PetscErrorCode RestoreFirstZeta(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -382,7 +382,7 @@ static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
 }
 
 /* One restoration step; updates psi. *alpha: its length; *gradient: the relative gradient before it. *descent: false
-   if the bounds' barrier turned the step away from less violation */
+   if the barrier function of the bounds made the step increase the violation */
 static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient,
   PetscBool *descent)
 {
@@ -443,8 +443,8 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 }
 
 /*
-   Reduces the violation until the filter accepts the point. *ok: whether it did. *infeasible: otherwise, whether the
-   violation has a non-zero minimum: it no longer falls and its projected gradient is small
+   Reduces the violation until the filter accepts the point. *ok: whether it did. *infeasible: if not, whether the
+   violation has a local minimum that is not zero: it no longer falls and its projected gradient is small
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {

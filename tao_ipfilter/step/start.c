@@ -75,7 +75,7 @@ static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* The pressure of all rows alike that balances the gradient where this is large, (g, g) / (|g|, |J|^T w) */
+/* The pressure, equal in all rows, that balances the gradient where the gradient is large: (g, g) / (|g|, |J|^T w) */
 static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -96,8 +96,8 @@ static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
   PetscFunctionReturn(0);
 }
 
-/* Without a penalty step, or an objective that resists one, the stiffness is that pressure over the constraints' mean
-   value, or over a part of their terms where none has a value */
+/* Stiffness without a penalty step, or if the objective has no curvature: that pressure divided by the constraints'
+   mean value, or, if all values are zero, by a fraction of their terms */
 static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -116,8 +116,8 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
   PetscFunctionReturn(0);
 }
 
-/* bound: mean product per pair of bounds: the work of forces on the way to the bounds they push to. Used where the
-   objective is almost linear, so that only the bounds will stop the iteration */
+/* bound: mean product per pair of bounds: the work of the forces on the way to the bounds. Used if the objective is
+   almost linear, so that only the bounds end the iteration */
 static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
@@ -169,7 +169,7 @@ static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 }
 
 /* Predicted start: s and z from the constraints' values after the penalty step, moved to the central path; mu is a
-   fraction of length x pressure there. If all constraints happen to be active this gives nothing; pairs then start
+   fraction of length x pressure there. If all constraints happen to be active this gives zero. The pairs then start
    with a gap that is noticeable relative to the objective. */
 static PetscErrorCode StartPredicted(Tao tao)
 {
@@ -316,7 +316,7 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Where the objective is linear, the curvature is that of the constraints with their first multipliers */
+/* If the objective is linear, the curvature is that of the constraints with their first multipliers */
 static PetscErrorCode StartCurvature(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

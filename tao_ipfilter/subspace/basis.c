@@ -342,7 +342,7 @@ static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a
   PetscFunctionReturn(0);
 }
 
-/* Finds the local rows of W where a direction is not zero; *all: their number on all ranks */
+/* Finds the local rows of W in which some direction is not zero. *all: the number of these rows on all ranks */
 static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscInt **rows, PetscInt *all)
 {
   const PetscInt *w;

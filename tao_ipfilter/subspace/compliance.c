@@ -55,7 +55,7 @@ static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Of a sequential K_WW, without rows; *definite is false where it is not positive definite */
+/* Sets up a sequential K_WW, still without constraint rows. *definite: false if it is not positive definite */
 PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 {
   PetscFunctionBegin;
@@ -65,7 +65,7 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* The rows are those of a sequential J_W, which is kept; NULL: there are none */
+/* Sets the constraint rows, a sequential J_W, which is kept. NULL: there are none */
 PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J)
 {
   PetscFunctionBegin;

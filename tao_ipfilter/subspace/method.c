@@ -97,8 +97,9 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Takes W. Returns whether the constraints involve few enough unknowns, and some; auto: few compared with all. */
-static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *thin)
+/* Sets W. *few: whether there are constraints, and they involve few enough unknowns. auto: few compared with all
+   unknowns */
+static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
@@ -109,11 +110,10 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *t
   PetscCall(IPSubspaceUpdate(tao));
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCall(ISGetSize(ip->cond->filter, &touched));
-  *thin =
-    (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
+  *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  if (*thin && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
-  else if (*thin) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  if (*few && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
+  else if (*few) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
@@ -162,7 +162,7 @@ static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Whether f changes along v by 1/2 v^T (grad f + grad f at the centre), as a quadratic function does, and c_I by J v */
+/* Whether the problem is quadratic along v: f changes by 1/2 v^T (grad f + grad f at the centre), and c_I by J v */
 static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -283,9 +283,9 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 }
 
 /*
-   Estimates now and then how many more applications of the preconditioner are needed: the remaining digits of the KKT
-   error at the rate so far. Until one digit is gained, twice the number so far is assumed, because the rate is
-   meaningless while the active set changes.
+   Estimates now and then how many more applications of the preconditioner are needed: the digits of the KKT error that
+   are still to be gained, at the rate so far. Before the first digit is gained the rate is meaningless, because the
+   active set changes; the estimate is then twice the number so far.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {

@@ -165,8 +165,8 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionReturn(0);
 }
 
-/* What the model's solution leaves of the laws of norm terms: sum of b |v| + tau v, 0 where the laws hold; sum: that of
-   b |v| */
+/* Error in the laws of norm terms at the model's solution: sum of b |v| + tau v, which is 0 if the laws hold. sum: the
+   sum of b |v| */
 static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal *slack)
 {
   IPTerms    *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -184,10 +184,11 @@ static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Line search: halves the step until the penalized objective falls. The objective includes the norm terms with the
-   weights of the model's multipliers. The violation that the model itself has at d, and what it leaves of the laws of
-   norm terms, are subtracted in proportion to the step. *ok: false if the objective does not
-   fall, or the model is not convex along d */
+/*
+   Line search: halves the step until the penalized objective falls. The objective includes the norm terms, with the
+   weights of the model's multipliers. The model's own violation at d and its own error in the laws of norm terms are
+   subtracted in proportion to the step. *ok: false if the objective does not fall, or the model is not convex along d
+*/
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -245,8 +246,8 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Tolerance for the model's residual: a fraction of the present residual, smaller near the solution so that Newton's
-   method converges fast; not smaller than convergence requires */
+/* Tolerance for the model's residual: a fraction of the present residual. The fraction is smaller near the solution,
+   where Newton's method then converges fast. The tolerance is never smaller than convergence requires. */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
 {
   const PetscReal largest = 0.1, smallest = 1e-3;

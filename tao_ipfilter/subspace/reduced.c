@@ -17,12 +17,12 @@ typedef struct {
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* keep explicit zeros: ordering codes need a symmetric pattern, and one of two
+  PetscBool       symmetric; /* zeros are stored, too: ordering codes need a symmetric pattern, and only one of two
                                 transposed entries may be zero */
 } ReducedGather;
 
-/* Entries of one row: added to S, or where that is NULL counted by rows of S. What the upper triangle lacks is added;
-   blocks on the diagonal lack nothing. */
+/* Adds the entries of one row to S. If S is NULL, counts them by rows of S instead. If A stores its upper triangle
+   only, the lower one is added; diagonal blocks are stored whole. */
 static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt column[],
   PetscScalar entry[], PetscInt counts[], Mat S)
 {
@@ -50,7 +50,7 @@ static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r
   PetscFunctionReturn(0);
 }
 
-/* The first rank's part, which is the whole matrix as all its rows are there; NULL on the others */
+/* The local matrix of the first rank, which holds all rows; NULL on the other ranks */
 static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
 {
   Mat diagonal;
@@ -226,7 +226,7 @@ static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error,
   PetscFunctionReturn(0);
 }
 
-/* Factors K_WW, with companions where it is singular; *definite is false where it is not positive definite */
+/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite */
 static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
@@ -284,8 +284,8 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* Adds n more coordinates of y: their forces on W are the columns of Q; their energies with those before them and with
-   each other, in columns of length kmax, stand where T takes them */
+/* Adds n coordinates to y. The columns of Q are their forces on W. T receives their energies with the earlier
+   coordinates and with each other, in columns of length kmax. */
 static PetscErrorCode ReducedAppendColumns(IPReduced *r, PetscInt n, const PetscReal Q[])
 {
   IPReducedSystem *s     = &r->system;
@@ -367,7 +367,7 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscFunctionReturn(0);
 }
 
-/* The constraints and norm terms on the space that there is, with the directions that it has */
+/* Sets the constraints and norm terms for the present space and its directions */
 static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, const IPTerms *terms, Vec c,
   PetscBool *definite)
 {
@@ -420,8 +420,8 @@ PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Takes in the constraints. The factors of K_WW stay for as long as K and W do, and K_WW^-1 Q_W for as long as the
-   directions; *definite is false where K_WW is not positive definite */
+/* Sets the constraints. The factors of K_WW are kept while K and W are the same, and K_WW^-1 Q_W while the directions
+   are the same. *definite: false if K_WW is not positive definite */
 PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
   Vec c, const IPBasis *basis, PetscBool *definite)
 {
@@ -504,8 +504,8 @@ static void ReducedLoad(IPReduced *r, PetscInt j, const PetscReal pg[])
   if (j >= r->companions.n) r->system.t[j] -= pg[j - r->companions.n];
 }
 
-/* v is relative to a point with gradient g, P^T g, constraints c and, if there are norm terms, their value. With norm
-   terms the present forces are subtracted from g. */
+/* Sets the point that v is relative to: its gradient g, P^T g, constraints c and, if there are norm terms, their
+   values. With norm terms the present forces are subtracted from g. */
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -532,7 +532,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
-/* Adds the missing directions of the basis, and pg = P^T g of all of them */
+/* Adds the directions of the basis that are missing here. pg: P^T g of all directions */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
   IPReducedSystem *s      = &r->system;
@@ -560,8 +560,8 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* E = Q_W^T K_WW^-1 Q_W on all ranks, columns of the basis' maximal length: the part of the directions' energy that
-   W takes up */
+/* E = Q_W^T K_WW^-1 Q_W on all ranks, in columns of the basis' maximal length: the part of each direction's energy
+   that the unknowns W relieve */
 PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
   const IPReducedSystem *s      = &r->system;
@@ -579,7 +579,7 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Forgets the directions for those that the basis has now; the active set stays */
+/* Replaces the directions by those that the basis has now. The active set is kept. */
 PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
 {
   PetscFunctionBegin;
@@ -624,8 +624,8 @@ static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* Solves the problem. y: on all ranks; w goes to the entries W of v; force: lambda; terms: forces of the norm terms.
-   r->nactive and r->nsteps are set; r->met: whether the laws hold to the requested tolerance */
+/* Solves the problem. y: on all ranks. v: its entries W are set to w. force: lambda. terms: forces of the norm terms.
+   Sets r->nactive, r->nsteps, and r->met: whether the laws hold to the requested tolerance */
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;

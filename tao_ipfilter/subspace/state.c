@@ -48,7 +48,7 @@ PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
   PetscFunctionReturn(0);
 }
 
-/* whole: K with full rows if the preconditioner reads rows and K stores its upper triangle only */
+/* whole: K with both triangles, if the preconditioner reads rows and K stores its upper triangle only */
 static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
 {
   MatNullSpace modes;
@@ -73,8 +73,8 @@ static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal later    = 0.7,
-                  factored = 10.0; /* later: applications of a later solve, relative to this one; factored: those of a
-                                      factorization in a solve */
+                  factored = 10.0; /* later: applications in a later solve divided by those in this one; factored:
+                                      applications in a solve with a factorization */
   const PetscReal n        = ip->rec->napplications + left,
                   solves   = kept->changing ? 0.0 : PetscMax(ip->given->solves_to_come - 1, 0);
 
@@ -164,7 +164,7 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* D of the norm terms' rows: what resists the terms that can carry a force; 0 for the others */
+/* Weights D_t of the norm terms' rows: the stiffness that resists a term if it can carry a force; else 0 */
 static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
 {
   IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
@@ -215,7 +215,7 @@ PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* Sets up B for K + J^T D J + T^T D T, where only constraints and norm terms hold the bodies; D: stiffness of the
+/* Sets up B for K + J^T D J + T^T D_t T, for bodies that only constraints and norm terms hold. D: stiffness of the
    bodies */
 PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
@@ -310,8 +310,8 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
   PetscFunctionReturn(0);
 }
 
-/* Makes the kept preconditioner that of the Krylov method, so that TaoGetKSP() shows the one in use; a
-   preconditioner of another type is not replaced */
+/* Makes the kept preconditioner the one of the Krylov method, so that TaoGetKSP() shows the one in use. A
+   preconditioner of another type is not replaced. */
 static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
   IPFiltered      *f = IPFilteredOf(tao);

@@ -164,9 +164,9 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
 }
 
 /*
-   Reduces the number of directions. All but the newest are compressed to the combinations that W couples to most,
-   because these help with other constraints and gaps. The reduced problem must then be centred at its solution to stay
-   exact.
+   Reduces the number of directions. The newest are kept. The others are compressed to the combinations that are coupled
+   to W most, because these help with other constraints and gaps. The reduced problem must then be centred at its
+   solution to stay exact.
 */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
@@ -185,9 +185,9 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular up to rounding, or negative, along a preconditioned residual d: K plus constraints may be
-   positive, as for bodies under pressure that only contact holds. Newton's method without norm terms shifts a negative
-   K instead. */
+/* Whether K is singular up to rounding, or negative, along a preconditioned residual d. K with the constraints may
+   still be positive, for example for bodies under pressure that only contact holds. Newton's method without norm terms
+   shifts a negative K instead. */
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -303,10 +303,10 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 }
 
 /*
-   The same with K + J^T D J + T^T D_t T. D is not zero in rows that are closed, D_t in terms that stick: there they are
-   stiffer than the bodies. A tangent K_WW may be indefinite although contact holds its unknowns. These springs start
-   from the present point. They change no solution in which the same rows stay closed and stick. They touch W alone, so
-   that directions and their products with K stay.
+   Sets up the reduced problem with K + J^T D J + T^T D_t T. D is not zero in closed rows, D_t not in terms that stick;
+   there they are stiffer than the bodies. Reason: a tangent K_WW may be indefinite although contact holds its unknowns.
+   These springs start from the present point, and do not change a solution in which the same rows stay closed and
+   stick. They act on W only, so that the directions and their products with K are kept.
 */
 static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
@@ -344,8 +344,8 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Sets up for the present Hessian, with the active rows that slacks and multipliers indicate; at the beginning also
-   what belongs to this solve only. *possible is false if K_WW is not positive definite */
+/* Sets up for the present Hessian, with the rows active that slacks and multipliers indicate. At the beginning of a
+   solve it also sets up its data. *possible: false if K_WW is not positive definite */
 PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -373,8 +373,8 @@ PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
   PetscFunctionReturn(0);
 }
 
-/* Extends W to all unknowns. With few directions the reduced problem may be far from the whole one, and its laws of
-   norm terms much harder: bodies that are thin or nearly incompressible. *possible: false if K is not positive
+/* Extends W to all unknowns. For thin or nearly incompressible bodies the reduced problem with few directions may be
+   far from the whole one, and its laws of norm terms much harder to satisfy. *possible: false if K is not positive
    definite */
 PetscErrorCode IPFilteredWiden(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {

@@ -39,18 +39,20 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
 
 /* The contact problem with w eliminated, as in active_set.c and laws.c: constraints, then two rows per norm term */
 typedef struct {
-  PetscInt   m, k, kmax;       /* number of rows; of coordinates y (companions and directions); and their maximum */
+  PetscInt   m, k, kmax;       /* number of rows; number of coordinates y (companions and directions), and its
+                                  maximum */
   PetscReal *JZ, *T, *h, *t;   /* JZ: columns of length m; T: of length kmax */
   PetscReal *G;                /* the diagonal of P^T K P */
   PetscReal *lambda, *gap, *y; /* forces and motions of the rows */
-  PetscReal *base;             /* forces that h and t contain already, so that bodies that constraints alone hold do not
-                                  move far without them; zero without norm terms */
+  PetscReal *base;             /* forces that h and t already contain: without them bodies that only constraints hold
+                                  would move far; zero without norm terms */
   PetscReal  length;           /* magnitude of the terms of a gap, for tolerances */
 } IPReducedSystem;
 
 /* The constraints that are active, and the factors that belong to them */
 typedef struct {
-  PetscInt   m, n, k; /* number of constraints; of active ones with non-zero compliance; of directions in V */
+  PetscInt   m, n, k; /* number of constraints; number of active ones with a compliance that is not zero; number of
+                         directions in V */
   PetscBool *active, factored;
   PetscInt  *rows;
   PetscReal *L, *V, *H, *r;
@@ -96,7 +98,7 @@ typedef struct {
   IPActiveSet      set;
   PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient and K_WW^-1 g at the centre; work */
   PetscInt         nsteps, nactive;
-  PetscBool        simply; /* with norm terms: give up where Newton's method fails, for W can be extended */
+  PetscBool        simply; /* with norm terms: give up if Newton's method fails, because W can be extended */
   PetscBool        met;    /* the last solution satisfies the laws to the requested tolerance */
 } IPReduced;
 
@@ -119,7 +121,8 @@ typedef struct {
 typedef struct {
   PetscBool      newton;  /* by Newton's method, as the objective is not quadratic */
   PetscContainer kept;    /* an IPSubspaceState */
-  IS             W;       /* the unknowns that V has all of: those of the constraints, and their neighbours */
+  IS             W;       /* the unknowns whose unit vectors are all in V: those of the constraints, and their
+                             neighbours */
   IPReduced     *reduced; /* that of kept; NULL: not set up */
   Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
   PetscReal      f;                   /* and f there */
