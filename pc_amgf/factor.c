@@ -181,7 +181,6 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed) PetscFunctionReturn(0);
   PetscCall(MatGetSize(pc->pmat, &n, NULL));
   if (n > largest) PetscFunctionReturn(0);
-  PetscCall(PCAMGFConfigureInner_Private(pc)); /* determines which AMG would be used */
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!AMGFStampSamePattern(&now, &f->analysed)) {
     PetscCall(FactorTakeMatrix(pc->pmat, &A));
@@ -258,6 +257,7 @@ PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves
   const PetscBool on = f->on;
 
   PetscFunctionBegin;
+  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* determines which AMG would be used */
   PetscCall(FactorExpect(pc, applications, solves));
   if (f->on != on) pc->setupcalled = 0;
   PetscFunctionReturn(0);

@@ -48,13 +48,31 @@ PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
   PetscFunctionReturn(0);
 }
 
-/* whole: K with both triangles, if the preconditioner reads rows and K stores its upper triangle only */
-static PetscErrorCode KeptGetWhole(Mat K, PetscBool rows, Mat *whole)
+/* Whether the preconditioner reads full rows. A factorization and PCBLOCKAMG read the upper triangle */
+static PetscErrorCode KeptReadsRows(PC pc, PetscBool *rows)
 {
-  MatNullSpace modes;
-  PetscBool    half;
+  PetscBool amgf, factored, block;
+  PC        amg;
 
   PetscFunctionBegin;
+  *rows = PETSC_FALSE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (!amgf) PetscFunctionReturn(0);
+  PetscCall(PCAMGFGetFactored(pc, &factored, NULL));
+  PetscCall(PCAMGFGetAMGPC(pc, &amg));
+  PetscCall(PetscObjectTypeCompare((PetscObject)amg, PCBLOCKAMG, &block));
+  *rows = (PetscBool)(!factored && !block);
+  PetscFunctionReturn(0);
+}
+
+/* whole: K with both triangles, if the preconditioner reads rows and K stores its upper triangle only */
+static PetscErrorCode KeptGetWhole(PC pc, Mat K, Mat *whole)
+{
+  MatNullSpace modes;
+  PetscBool    half, rows;
+
+  PetscFunctionBegin;
+  PetscCall(KeptReadsRows(pc, &rows));
   PetscCall(PetscObjectTypeCompare((PetscObject)K, MATSEQSBAIJ, &half));
   if (half && rows) {
     PetscCall(MatConvert(K, MATBAIJ, MAT_INITIAL_MATRIX, whole));
@@ -131,15 +149,12 @@ static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, 
 static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
 {
   const PetscReal usual = 35.0;
-  PetscBool       amgf, factored = PETSC_TRUE;
   Mat             whole;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
   PetscCall(PCSetOperators(kept->pc, K, K));
   PetscCall(KeptExpect(tao, kept, usual));
-  if (amgf) PetscCall(PCAMGFGetFactored(kept->pc, &factored, NULL));
-  PetscCall(KeptGetWhole(K, (PetscBool)!factored, &whole));
+  PetscCall(KeptGetWhole(kept->pc, K, &whole));
   PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
   PetscCall(MatDestroy(&whole));
   kept->held = kept->negative = PETSC_FALSE;
