@@ -97,8 +97,8 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionReturn(0);
 }
 
-/* Agglomerates and smooths one component of the friction stress like the pressure, so that the two stay consistent
-   with the friction law */
+/* Treats one component of the friction stress like the pressure (nodal_pressure.c), so that both together satisfy the
+   friction law */
 static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone, PetscInt component)
 {

@@ -11,7 +11,7 @@
 
 #define EQUILIBRIUM_ROWS 3 /* linearizations */
 
-/* The rays that form the nearest point so far, n numbers each, and their amounts */
+/* The rays whose sum is the nearest point so far, n numbers each, and their factors */
 typedef struct {
   PetscInt   n, nrays, nmax;
   PetscReal *ray, *normal; /* normal: of the row's normal force alone */
@@ -41,8 +41,8 @@ static PetscErrorCode ConeFree(ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
-/* Finds the row. Without a limit of the coefficient (pairs that stick, or with a shear limit) any friction force is
-   allowed */
+/* Finds the row whose force does the most negative work on the remaining load. Pairs that stick, or have a shear
+   limit, allow any friction force. */
 static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
 {
   Vec                rates, slips = NULL;
@@ -144,7 +144,7 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* Amounts, of any sign, for which the rays leave the smallest remainder, by orthogonalization */
+/* Factors of the rays, of any sign, that leave the smallest remainder; by orthogonalization */
 static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[], PetscReal amount[])
 {
   const PetscInt  n = cone->n, nrays = cone->nrays;
@@ -193,7 +193,7 @@ static void ConeDrop(ContactCone *cone)
   cone->nrays = kept;
 }
 
-/* Non-negative amounts for which the rays leave the smallest remainder (Lawson and Hanson's algorithm) */
+/* Non-negative factors of the rays that leave the smallest remainder (Lawson and Hanson's algorithm) */
 static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 {
   PetscReal *wanted, part = 0.0;
@@ -297,8 +297,9 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* Linearizes contact at the last state: within the usual search distance; with dual functions, whose forces may act
-   at the edges of faces; and with a search distance of the bodies' size, as a moving body may meet other faces */
+/* Linearizes contact at the last state three times: with the usual search distance; with dual functions, whose forces
+   may act at the edges of faces; and with a search distance of the size of the bodies, because a moving body may meet
+   other faces */
 static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
   Simulation sim = m->sim;
@@ -336,7 +337,7 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   PetscFunctionReturn(0);
 }
 
-/* Rigid bodies that turn freely, and the load on them, are those of the last state */
+/* The rotations of rigid bodies that turn freely, and the load on these bodies, are those of the last state */
 static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec load)
 {
   const Constraints constraints = SimulationConstraints(sim);

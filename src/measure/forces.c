@@ -223,8 +223,8 @@ static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char 
   PetscFunctionReturn(0);
 }
 
-/* reaction: forces in prescribed rows; ties: on bodies, rigid: on rigid bodies, NULL: none. The rest of ties belongs
-   to joints */
+/* reaction: forces in prescribed rows. ties: forces on the bodies, rigid: on the rigid bodies; NULL: none. What
+   remains of ties belongs to joints */
 PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum  *sums;

@@ -3,7 +3,8 @@
 #include "measureimpl.h"
 #include "src/state/path.h"
 
-/* Where bodies are: those of small strain as their energy has them, undeformed, but beside rigid ones that turn */
+/* Positions of the bodies' nodes. Those of bodies at small strain are undeformed, as in their energy, unless rigid
+   bodies turn. */
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
 {
   PetscBool linear;

@@ -22,8 +22,8 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
   PetscFunctionReturn(0);
 }
 
-/* Of one pair, at the vertices of both of its sides that this rank owns: the forces now; less the work of the mean of
-   those before and now, each on its way from the last state */
+/* For one pair, at the vertices of both sides that this rank owns: the present friction forces, and minus the work
+   since the last state of the mean of the forces at both states */
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])
 {
@@ -156,7 +156,7 @@ PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
   PetscFunctionReturn(0);
 }
 
-/* After a state was restored: its friction forces become those of the last solve */
+/* After a state was restored from a checkpoint: its friction forces become those of the last solve */
 PetscErrorCode FrictionRecall(Simulation sim)
 {
   ContactHistory *m = sim->history;

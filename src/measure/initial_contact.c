@@ -2,8 +2,7 @@
 #include "measureimpl.h"
 #include <math.h>
 
-#define START_ROUNDING \
-  1e-6 /* overlap of faces in touch that counts as rounding, relative to the square root of their facing area */
+#define START_ROUNDING 1e-6 /* an overlap below this fraction of the square root of the facing area is rounding */
 
 /* The nonmortar side of a pair in the undeformed state */
 typedef struct {
@@ -64,7 +63,7 @@ static const char *StartJudge(const SceneContactPair *pair, const PairStart *sta
            : NULL;
 }
 
-/* Warns of nodes that should stick although both faces are driven there by different displacements */
+/* Warns of nodes that must stick although both faces have different prescribed displacements there */
 static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair = &sim->scene->pairs[p];

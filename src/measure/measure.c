@@ -7,7 +7,7 @@
 #include "src/state/results.h"
 #include "src/state/run.h"
 
-/* With q = J_full^T M z: the relative sum of the contact forces on both sides */
+/* Relative sum of the contact forces on both sides, q = J_full^T M z; it is zero if action equals reaction */
 static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
 {
   const PetscScalar *a;
@@ -61,8 +61,8 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
   PetscFunctionReturn(0);
 }
 
-/* Estimates the discretization error in the energy norm, relative to that of the displacement; report->energy must
-   be set. moves: the energy is only rounding */
+/* Estimates the discretization error in the energy norm, relative to that of the displacement; report->energy must be
+   set. moves: the bodies only move; their energy is rounding */
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {
   const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
@@ -82,9 +82,9 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
 }
 
 /*
-   Relative error in energy that the solver leaves: sum m |gap z| (duality gap), work of the residual forces, and work
-   of the pressures on the difference of true and linearized gap; each to first order, divided by twice the energy.
-   moves: the energy is only rounding, so nothing is relative to it
+   Relative error in energy due to the solver: sum m |gap z| (duality gap), work of the residual forces, and work of the
+   pressures on the difference between true and linearized gap; each to first order, divided by twice the energy. moves:
+   the bodies only move and their energy is rounding, so that nothing is relative to it
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
   PetscBool moves, StepReport *report)
@@ -125,7 +125,7 @@ static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec for
   PetscFunctionReturn(0);
 }
 
-/* The plastic work, which is then no part of the energy, and the largest plastic strains */
+/* Reports the plastic work separately from the energy, and the largest plastic strains */
 static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 {
   PetscReal *largest;

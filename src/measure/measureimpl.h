@@ -25,7 +25,8 @@ typedef struct {
   PetscInt   nbodies, n;
   Vec        x;             /* coordinates of the nodes [length] */
   PetscReal *center, *size; /* 3 per body, 1 per body [length] */
-  PetscReal *motion;        /* [6 nbodies n], orthonormal: for each body translations, and angles x its size */
+  PetscReal *motion;        /* [6 nbodies n], orthonormal: for each body three translations, and three angles times
+                               its size */
 } FreeMotions;
 
 PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);

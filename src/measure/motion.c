@@ -2,8 +2,9 @@
 #include "measureimpl.h"
 
 /*
-   With the velocity at u, after the work of the way to it. What the loads have done, and the kinetic energy at the
-   start, is kinetic or stored energy, work of the contacts or of damping, or is lost to the time integration
+   Called when the velocity at u and the work up to u are known. The energy balance: the work of the loads plus the
+   first kinetic energy, minus kinetic energy, stored energy, work of contact and of damping, is what the time
+   integration has lost
 */
 PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
 {

@@ -8,8 +8,8 @@
 */
 #include "measureimpl.h"
 
-static const PetscReal cover_ratio     = 0.3; /* a vertex passes its values on if its cover is below this fraction of
-                                                 another one's */
+static const PetscReal cover_ratio     = 0.3; /* a vertex passes its values on if its covered area is below this
+                                                 fraction of a neighbour's */
 static const PetscReal cover_partial   = 0.8; /* a vertex is partly covered if less than this fraction of its area is
                                                  covered */
 static const PetscInt  cover_rings     = 4;   /* number of rings of facets around such vertices in which pressures
@@ -22,8 +22,8 @@ static const PetscReal cover_rounding =
    of local vectors */
 typedef struct {
   PetscInt nfacets, *offset; /* [4 nfacets] offset of each vertex's values */
-  Vec      cover; /* covered fraction of the vertex's area; covered area; sum of the areas it passes values to, 0:
-                     none */
+  Vec      cover; /* covered fraction of the vertex's area; covered area; sum of the areas that it passes values to
+                     (0: none) */
 } CoverFacets;
 
 static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets)
@@ -52,8 +52,8 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscFunctionReturn(0);
 }
 
-/* Each vertex passes its values to better covered vertices of its facets; out: the values received. carried NULL: out =
-   sum of the areas of the receiving vertices */
+/* Each vertex with a small covered area passes its values to better covered vertices of its facets. out: the values
+   received. carried NULL: out is the sum of the receiving vertices' areas */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
   Vec                local[3]; /* cover, carried, out */
@@ -152,7 +152,7 @@ static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried
   PetscFunctionReturn(0);
 }
 
-/* Repeats until nothing is left to pass on; it terminates because covers only grow */
+/* Repeats until no vertex passes values on. It terminates because covered areas only grow. */
 static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gain, Vec carried)
 {
   PetscReal left = 1.0;

@@ -4,7 +4,7 @@
 #include "src/state/path.h"
 
 #define PAIR_COARSE 2.0 /* warn if the nonmortar facets are larger than the mortar facets by this factor */
-#define PAIR_SWING  0.1 /* relative change of the force between load steps that counts as a swing */
+#define PAIR_SWING  0.1 /* relative change of the force between load steps that counts as an oscillation */
 
 /* Collective. Mean over the contact area of (nonmortar facet size / mortar facet size) */
 static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows, PetscReal *coarseness)
@@ -132,7 +132,7 @@ static PetscBool PairLoadTurns(const RunReport *run)
   return PETSC_FALSE;
 }
 
-/* Number of times that the force changes its direction by more than a tenth of its size while the contact is narrow;
+/* Counts how often the force changes its direction by more than a tenth of its size while the contact is narrow.
    forces: the last two extreme values; rounding: of forces */
 static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal rounding, PetscReal forces[2])
 {

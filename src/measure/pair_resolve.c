@@ -19,7 +19,7 @@ static PetscReal ResolveModulus(Scene scene, PetscInt pair)
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }
 
-/* size: size of the mortar facets at their vertices [length], in the first value */
+/* size: its first value is the size of the mortar facets at each of their vertices [length] */
 static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
 {
   PetscScalar *a;
@@ -73,8 +73,8 @@ static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mar
   PetscFunctionReturn(0);
 }
 
-/* place: undeformed coordinates of the rows' vertices relative to a nearby point [length], n values per component,
-   and their squares */
+/* place: undeformed coordinates of the rows' vertices relative to a nearby point, and their squares; n values per
+   component [length] */
 static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscReal place[])
 {
   const PetscInt     n = rows->n;
@@ -110,8 +110,8 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
 }
 
 /*
-   Keeps those open rows that are surrounded by closed ones: the centre of the closed rows within two mortar facets is
-   close to that of all rows there, relative to their spread. Beside the border of a contact it is not
+   Keeps only the open rows that closed ones surround: the centre of the closed rows within two mortar facets is close
+   to the centre of all rows there, relative to their spread. This excludes open rows beside the contact area.
 */
 static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], Vec sides,
   PetscReal open[])
@@ -139,8 +139,8 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, cons
 }
 
 /*
-   mark: 1 for rows where the mortar pressure would close the gap by a small strain of its facets, and which share a
-   mortar vertex with an enclosed open row; any: whether there is one on any rank. length: of these facets
+   mark: 1 for rows whose gap the mortar pressure would close by a small strain of the mortar facets, and which share a
+   mortar vertex with an enclosed open row. any: whether any rank has such a row. length: size of these facets
 */
 static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec sides,
   const PetscReal length[], PetscReal mark[], PetscBool *any)
@@ -184,7 +184,7 @@ static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const P
   PetscFunctionReturn(0);
 }
 
-/* Does the same for friction; a row slips if most of its pressure comes from slipping rows */
+/* Does the same for friction. A row then slips if most of its pressure comes from slipping rows. */
 static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
   const PetscReal pressure[], Vec sides)
 {

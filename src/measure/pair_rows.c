@@ -30,7 +30,7 @@ static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt
 
 /*
    Whether a row is in contact: the strain equivalent of the pressure (pressure/young) exceeds that of the gap
-   (gap/length). On the central path the product of the two is the same in all rows, and tends to zero
+   (gap/length). With an interior point method their product is the same in all rows and tends to zero.
 */
 PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length)
 {

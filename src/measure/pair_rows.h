@@ -13,15 +13,17 @@ typedef struct {
   PetscInt   n;
   PetscReal *area, *share, *normal; /* w [length^2]; normal: 3 per row */
   PetscReal *pressure, *gap, *closed;
-  PetscReal *presses; /* closed before unresolved pressures were smoothed */
-  PetscReal  young;   /* Young's modulus of the softer body [force/length^2] */
-  PetscReal *own;     /* size of the facets around the row [length] */
-  PetscReal *facing;  /* size of the mortar facets that the row faces [length] */
-  PetscReal *length;  /* facet size to which the row's gap belongs; of the coarser side where only that is resolved */
+  PetscReal *presses;    /* closed before unresolved pressures were smoothed */
+  PetscReal  young;      /* Young's modulus of the softer body [force/length^2] */
+  PetscReal *own;        /* size of the facets around the row [length] */
+  PetscReal *facing;     /* size of the mortar facets that the row faces [length] */
+  PetscReal *length;     /* facet size that the row's gap is compared with: that of the coarser side if only that side
+                         is resolved */
   PetscBool  frictional; /* the pair has friction */
   PetscReal *slips;      /* 1: the row slips */
   PetscReal *shear,
-    *slid; /* friction stress on the mortar side [force/length^2], and slip [length]; n values per component */
+    *slid; /* friction stress on the mortar side [force/length^2], and slip [length]; component c of row A stands at
+              c n + A */
 } PairRows;
 
 /* pair_rows.c */

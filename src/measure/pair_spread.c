@@ -81,7 +81,7 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* along: the value v[from] of mortar vertices in direction c, 0 elsewhere */
+/* along: v[from] at the mortar vertices, as component c of a vector; 0 elsewhere */
 static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
 {
   const PetscScalar *side, *a;

@@ -23,13 +23,13 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Whether the scene leaves an overlap of the pair at the end of a load step */
+/* Whether an initial overlap of the pair remains at the end of a load step because its ramp has not ended */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
   return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
 }
 
-/* After the last load step: warns for each pair, unless the gap is not required to be closed */
+/* After the last load step: warns of penetration, pair by pair, unless the scene leaves an overlap */
 PetscErrorCode PenetrationWarn(Simulation sim)
 {
   const RunReport *run    = &sim->report;

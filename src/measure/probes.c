@@ -27,7 +27,7 @@ PetscErrorCode ProbesDestroy(Probes *probes)
   PetscFunctionReturn(0);
 }
 
-/* Fills the values; at a vertex in several pairs: mean pressure, smallest gap, closed if any is */
+/* Sets the values. At a vertex in several pairs: mean pressure, smallest gap, closed if it is closed in any pair */
 static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], PetscScalar paired[])
 {
   PetscSection global;
@@ -98,7 +98,7 @@ static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], Pets
   }
 }
 
-/* Contact values exist on faces only: at points whose nodes are all in a pair */
+/* Contact values exist on contact faces only: a point has them if all nodes of its facet are in a pair */
 static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[],
   ProbeReport *report)
 {

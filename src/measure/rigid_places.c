@@ -7,7 +7,8 @@ static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
   return (PetscBool)(scene->bodies[body].material.type == MATERIAL_RIGID);
 }
 
-/* Rotation vectors [degrees] differ by whole turns about their axis: that which is nearest to the one before */
+/* Rotation vectors that differ by whole turns about their axis mean the same rotation. Takes the one nearest to that
+   of the last state [degrees]. */
 static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
 {
   const PetscReal turn = 360.0;
@@ -22,7 +23,8 @@ static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
   for (PetscInt i = 0; i < 3; ++i) rotation[i] = size * axis[i];
 }
 
-/* At the last state; about the axes that the scene has, or else about the middle of the body */
+/* Positions and rotations at the last state: about the axes that the scene gives, or else about the centre of the
+   body */
 PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
 {
   const Bodies       bodies  = SimulationBodies(sim);

@@ -19,7 +19,8 @@ static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
   return any;
 }
 
-/* At the last state; once for a body, in the first load step that goes so far. A rigid body may turn. Collective */
+/* Collective. Measures the last state and warns once for each body, in the first load step beyond the range of its
+   law. Rigid bodies may turn. */
 PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;

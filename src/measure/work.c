@@ -3,8 +3,8 @@
 #include "src/state/contact_history.h"
 #include "src/state/path.h"
 
-/* Adds (part x force now + (1 - part) x force before; NULL: zero) . (way of each) to work; `now` becomes
-   `before` then */
+/* Adds to work the product of part x force now + (1 - part) x force before (NULL: zero) with the displacement since
+   then. `now` then becomes `before`. */
 static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
   const PetscReal parts[2]  = {1.0 - part, part};
@@ -23,13 +23,13 @@ static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before
   PetscFunctionReturn(0);
 }
 
-/* Updates the energy balance by a solve in which the loads did `work` and contact took up `taken`. rounding: work that
-   rounding of the forces does */
+/* Updates the energy balance after a solve: the loads did `work`, contact took up `taken`. rounding: work of rounding
+   errors of the forces */
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, PetscReal rounding,
   StepReport *report)
 {
-  const PetscReal at_rest = 1e-2; /* relative to the energy: the imbalance of a step with less turnover is related to
-                                     this */
+  const PetscReal at_rest = 1e-2; /* if the turnover of a step is below this fraction of the energy, its imbalance is
+                                     related to this fraction instead */
   const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;

@@ -63,9 +63,9 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionReturn(0);
 }
 
-/* Measures the gap of the deformed faces at u and its difference from the linearized gap that u was found with.
-   is_true: the difference is small enough to end the contact updates. report->gap_unconverged: it is too large for a
-   converged step. */
+/* Measures the gap of the deformed faces at u, and how much it differs from the linearized gap of the solve that gave
+   u. is_true: the difference is small enough to end the contact updates. report->gap_unconverged: it is too large for
+   a converged step. */
 static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report, PetscBool *is_true)
 {
@@ -86,8 +86,8 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   PetscFunctionReturn(0);
 }
 
-/* What may be left of the linearization of rotations: relative to displacements, and rounding of the places. In time
-   steps it decides about energy and angular momentum (turn.c) */
+/* Allowed error of linearized rotations [length]: a fraction of the displacements, and at least the rounding of the
+   coordinates. In time steps energy and angular momentum depend on it (turn.c). */
 static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowed)
 {
   const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->control->tolerances.optimizer, 1e-12);
@@ -100,7 +100,8 @@ static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowe
   PetscFunctionReturn(0);
 }
 
-/* Without contact. Rigid bodies that turn freely are linearized again until their rotation is finite */
+/* Solves without contact. Rotations of rigid bodies that turn freely are linearized again until the linearization
+   agrees with the finite rotation. */
 static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
 {
   const PetscInt most    = 50;
@@ -281,7 +282,8 @@ static PetscErrorCode AttemptFindMet(Simulation sim, PetscReal time, PetscInt pa
   PetscFunctionReturn(0);
 }
 
-/* A face that turned over and lost the other one may have passed it on ways that are not straight */
+/* Reports a face that turned by more than 90 degrees and has lost contact: it may have gone through the other face on
+   a curved way */
 static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt p, Vec u, StepReport *report)
 {
   const SceneContactPair *pair = &sim->scene->pairs[p];
@@ -300,8 +302,8 @@ static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Faces that went right through one another since the last state have no contact at u, and never had any on the way.
-   That takes motions of at least the depth that is searched */
+/* Reports faces that went through one another since the last state. They have no contact at u. This is possible only
+   if they moved by at least the depth of the search. */
 static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, StepReport *report)
 {
   PetscBool turned;
@@ -356,7 +358,8 @@ static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* From u_linearized, whose gap u was found with, to where the gap is linearized next; it is at u in at_u */
+/* Moves u_linearized to the point at which the gap is linearized next, and linearizes it there. at_u: on entry the
+   linearization at the solution u, on exit the new one */
 static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants, Vec u, Vec u_linearized,
   StepReport *report, ContactLinearization *at_u)
 {
@@ -458,7 +461,7 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
 }
 
 /* Tries the undeformed bodies as the solution of a step to zero load. rests: they are the solution;
-   sim->solved->linearization and `at_u` are then of the undeformed bodies. */
+   sim->solved->linearization and `at_u` are then those of the undeformed bodies. */
 static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u, PetscBool *rests)
 {

@@ -9,7 +9,7 @@
    accepted */
 static const PetscReal askew = 1e-2;
 
-/* What the end of a free rotation that is off counts for: elastic faces tied to the body take it as a strain */
+/* Weight of the error of free rotations: elastic faces that are tied to the body would be strained by it */
 static const PetscReal tied = 1e4;
 
 /*

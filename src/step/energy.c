@@ -4,8 +4,8 @@
 #include <math.h>
 #include "src/state/path.h"
 
-/* u: the bodies' displacements for an iterate of the optimizer. With ties u = p->w, where tied nodes follow the
-   nodes that they depend on. */
+/* u: the displacements of the bodies that belong to the optimizer's iterate. With ties u = p->w, in which tied nodes
+   follow the nodes they depend on. */
 static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
 {
   PetscFunctionBegin;
@@ -79,11 +79,11 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 }
 
 /*
-   Ends a solve that plastic flow keeps from an equilibrium. Plastic work grows in proportion to the displacement and
-   the elastic energy does not, so that the objective has a minimum unless the loads do more work on the flow than it
-   takes. They do where the objective is below that of the last state although the plastic work is a large multiple of
-   the elastic energy (the kinematic theorem of limit analysis). Prescribed displacements that move may require such a
-   plastic work, and are left alone.
+   Ends a solve that has no equilibrium because bodies flow plastically. Plastic work grows in proportion to the
+   displacement, elastic energy does not. So the objective has a minimum unless the loads do more work on the flow than
+   the flow dissipates (the kinematic theorem of limit analysis). This is so if the objective is below that of the last
+   state although the plastic work is a large multiple of the elastic energy. The test is not made if prescribed
+   displacements move, because these may require such a plastic work.
 */
 PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
 {

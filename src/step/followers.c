@@ -95,7 +95,7 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
   PetscFunctionReturn(0);
 }
 
-/* Whether another solve with the follower loads linearized at a new centre must follow. again: yes. If not, p->load
+/* again: whether another solve must follow, with the follower loads linearized at a new centre. If not, p->load
    becomes the load at u. */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {

@@ -39,8 +39,8 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
-/* slip = T (u - base) + T_full (base - path.u), T without prescribed columns; mask: 0 there, 1 elsewhere. Of bodies
-   that turn the way to u_linearized is along arcs */
+/* slip = T (u - base) + T_full (base - path.u). T has no prescribed columns. mask: 0 in prescribed rows, 1 elsewhere.
+   If bodies turn, the way to u_linearized is measured along arcs. */
 PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_linearized, Vec mask)
 {
   const Bodies  bodies = SimulationBodies(p->sim);

@@ -84,8 +84,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscFunctionReturn(0);
 }
 
-/* Gives the optimizer the pressures times scale and the slacks of the last solve as a start. any: whether any row
-   had a pressure */
+/* Passes the pressures of the last solve, times scale, and its slacks to the optimizer as a start. any: whether any
+   row had a pressure */
 static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Tao tao, PetscBool *any)
 {
   Vec slack, pressure;

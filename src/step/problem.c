@@ -92,7 +92,7 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Whether another solve must follow, with other shortenings of bolts. again: yes */
+/* again: whether another solve must follow, because the shortenings of bolts have changed */
 PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   const Bodies    bodies    = SimulationBodies(p->sim);

@@ -134,7 +134,7 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
   PetscFunctionReturn(0);
 }
 
-/* Whether another solve with the centre at u must follow. again: yes, since the proximal term still exerts a force */
+/* again: whether another solve must follow with the centre at u, because the proximal term still exerts a force */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);

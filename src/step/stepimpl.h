@@ -62,7 +62,7 @@ typedef struct {
   Vec                  followed;     /* centre at which follower loads are linearized; NULL: no follower loads */
   Vec                  centre, held; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
                                         proximal term; NULL: none */
-  PetscBool            unheld;       /* proven: contact cannot hold the loads with the bodies where they were at the
+  PetscBool            unheld;       /* proven: contact cannot hold the loads with the bodies in the positions of the
                                         last state */
   PetscBool            moves_on;     /* a body that only friction holds did not come to rest in any solve */
   char                *failed;       /* reason of the failed solve before the proximal term was added; NULL: none
@@ -73,7 +73,7 @@ typedef struct {
   PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
   PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
   PetscInt             nflows;       /* iterates that show plastic flow */
-  const char          *flowing;      /* the body that it shows in, so that there is no equilibrium; NULL: none */
+  const char          *flowing;      /* the body that flows, so that there is no equilibrium; NULL: none */
   Vec                  w, Kw;
 
   StepFriction friction;
