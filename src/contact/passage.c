@@ -1,6 +1,6 @@
 /*
-   Vertices that go through the other face of a pair between two states. The way is straight, of the vertex and of the
-   facets, and is looked at as a whole: at its end a face that went right through a body has no face before it.
+   Vertices that go through the other face of a pair between two states. Vertices and facets move on straight lines. The
+   whole way is tested, because a vertex that went right through a body has no face in front of it at the end.
 */
 #include "contactimpl.h"
 
@@ -17,7 +17,8 @@ typedef struct {
   PetscReal x[2][3], corner[2][3][3];
 } PassageTriangle;
 
-/* Height of the vertex above the triangle at a time, and its place on it in barycentric coordinates b */
+/* Height of the vertex above the triangle at a time, and its projection onto the triangle in barycentric
+   coordinates b */
 static PetscReal PassageHeight(const PassageTriangle *p, PetscReal time, PetscReal b[3])
 {
   PetscReal e[3][3], r[3], n[3], cross[3], square;
@@ -40,7 +41,7 @@ static PetscReal PassageHeight(const PassageTriangle *p, PetscReal time, PetscRe
   return VectorDot(n, r) / PetscSqrtReal(square);
 }
 
-/* Appends when the vertex goes through the triangle, moved inwards by `inside` */
+/* Appends the times at which the vertex goes through the triangle, which is moved inwards by `inside` */
 static void PassageFindEvents(const PassageTriangle *p, PetscReal inside, PetscInt *n, PassageEvent events[])
 {
   const PetscReal edge = 1e-6;
@@ -66,7 +67,8 @@ static void PassageFindEvents(const PassageTriangle *p, PetscReal inside, PetscI
   }
 }
 
-/* Into the body less out of it. Facets that share an edge count once */
+/* Number of times that the vertex enters the body minus those that it leaves it. Facets that share an edge count
+   once. */
 static PetscInt PassageCount(PetscInt n, const PassageEvent events[])
 {
   const PetscReal same  = 1e-6;
@@ -83,7 +85,7 @@ static PetscInt PassageCount(PetscInt n, const PassageEvent events[])
   return count;
 }
 
-/* Depth at the end of a vertex that has gone through the facets and not come back [length]; 0: it has not */
+/* Depth at the end of a vertex that has entered through the facets and not left again [length]; 0: it is outside */
 static PetscReal PassageOfVertex(const ContactTree *tree, const ContactCandidates facets[2], PetscReal inside,
   const PetscReal x0[3], const PetscReal x1[3])
 {
@@ -148,7 +150,8 @@ static void PassageWiden(const ContactCandidates facets[2], ContactTree *tree)
   }
 }
 
-/* Vertices of one side move from x0 to where the surface is. facets: of the other side. deepest grows */
+/* Tests the vertices of one side, which move from x0 to the surface's present position. facets: of the other side.
+   deepest: raised to the largest depth */
 static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal x0[], const ContactCandidates facets[2],
   PetscReal inside, PetscReal *deepest)
 {

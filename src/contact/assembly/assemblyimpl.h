@@ -14,8 +14,8 @@ typedef struct {
   GapType        gap;
   PetscBool      frictional;    /* whether the pair has friction */
   PetscBool      sticks;        /* whether friction allows no slip (`stick: true`) */
-  PetscInt       nfrictionless; /* number of rows, on all ranks, where friction cannot act although the faces slide; set
-                               after the slip rows were created */
+  PetscInt       nfrictionless; /* number of rows, on all ranks, at which friction cannot act although the faces
+                                   slide; set when the slip rows are created */
   PetscBool      smooth;        /* whether the gap is measured between smooth surfaces */
   PetscReal  bulge;    /* largest distance of the smooth surfaces from the undeformed facets, sum of both faces [length]
                         */
@@ -49,7 +49,8 @@ typedef struct {
   PetscReal *normal;  /* [3 nlocal] averaged unit normals */
   PetscReal *x;       /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;    /* int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight;  /* the same, with the masses of hanging vertices given to the vertices that they depend on */
+  Vec        weight;  /* the same, after the masses of hanging vertices were distributed to the vertices that they
+                         depend on */
   Mat        hanging; /* distributes the sums of hanging rows; NULL: no vertex hangs */
 } ContactRows;
 

@@ -3,8 +3,8 @@
    the other body, where they bend sharply. */
 #include "assemblyimpl.h"
 
-/* A surface is curved if it differs from its facets by more than this fraction of an edge; less is rounding of the
-   mesh file */
+/* A surface is curved if it differs from its facets by more than this fraction of an edge; smaller differences are
+   rounding of the mesh file */
 #define CURVED 1e-6
 
 /* Computes the normals at the surface's corners. bulge: largest distance of the patches from their facets [length];

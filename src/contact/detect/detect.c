@@ -2,8 +2,7 @@
 #include "detectimpl.h"
 #include <string.h>
 
-/* Rigid surfaces have cells that show where they are. One of their facets stands for the surface, which is larger than
-   any other */
+/* Rigid surfaces without facets: one facet of the cells that show them stands for the surface, which is larger */
 static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
 {
   const MeshSurfaces *s = &m->surfaces;
@@ -69,7 +68,7 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
   PetscFunctionReturn(0);
 }
 
-/* A name that no pair and no tie has: nonmortar and mortar body, with a number from 2 on */
+/* Makes a name that no pair and no tie has: nonmortar and mortar body, with a number from 2 on if needed */
 static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const char mortar[], char **name)
 {
   char      text[PETSC_MAX_PATH_LEN];
@@ -121,8 +120,8 @@ static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const 
   PetscFunctionReturn(0);
 }
 
-/* Decides on sides of a pair that was found, and whether it is tied: where one of the surfaces is near the other with
-   all its facets */
+/* Decides which side of a pair is nonmortar, and whether the pair is tied: all facets of one surface must be near the
+   other */
 static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const SceneContactPair *rule,
   const DetectPair *found, SceneContactPair *pair, PetscBool *tied)
 {

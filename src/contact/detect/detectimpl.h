@@ -22,17 +22,18 @@ typedef struct {
   PetscInt    *nfacets;   /* of each surface */
   PetscReal   *thickness; /* of each body: 2 volume / area [length] */
   PetscReal   *box;       /* [6 bodies] undeformed */
-  PetscReal   *fine;      /* of each body: area of the parts of its facets over theirs, 1/4 where it has order 2 */
+  PetscReal   *fine;      /* of each body: area of the parts of its facets relative to that of the facets; 1/4 if it
+                             has order 2 */
 
   const SceneBody *bodies;
-  PetscInt         ntools, *tool; /* one of the facets that stand for each rigid surface, which has none */
+  PetscInt         ntools, *tool; /* for each rigid surface without facets: the facet that stands for it */
 } DetectModel;
 
-/* rules.c: the rule for two surfaces; NULL: they get no contact. detect.c has the public function */
+/* rules.c: the rule that applies to two surfaces; NULL: they get no contact. detect.c has the public function */
 PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
 
-/* rays.c: the facets in one state, with a tree; what a ray from a facet along its normal meets of other bodies: all
-   behind it up to depth, and the first in front, up to reach */
+/* rays.c: the facets in one state, in a tree. A ray starts at a facet and runs along its normal. Its hits are the
+   facets of other bodies: all behind the start up to depth, and the first in front of it up to reach */
 typedef struct {
   PetscInt  from, to; /* facets; to is that which stands for a rigid surface */
   PetscReal distance; /* negative: the bodies overlap [length] */
@@ -53,14 +54,17 @@ PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt 
 /* rigid_surface.c: whether a point of a facet faces a rigid surface, and the distance [length] */
 PETSC_INTERN PetscBool DetectFacesRigidSurface(const DetectState *, PetscInt tool, const PetscReal x[3],
   const PetscReal normal[3], PetscReal *distance);
-#define DETECT_COSINE -0.174 /* of the normals of surfaces that face each other, at most; that of the contact search */
+#define DETECT_COSINE \
+  -0.174 /* largest cosine of the angle between the normals of facing surfaces; that of the
+                                contact search */
 
 /* facing.c: two surfaces that face each other. Number 0 is the surface with the smaller number */
 typedef struct {
   PetscInt  surface[2];
-  PetscReal apart;    /* smallest distance in the undeformed state; PETSC_MAX_REAL: they meet later [length] */
+  PetscReal apart;    /* smallest distance in the undeformed state; PETSC_MAX_REAL: they are near only in later
+                         states [length] */
   PetscReal facet[2]; /* mean area of the facets that face the other surface; 0: none */
-  PetscInt  tied[2];  /* facets all of whose rays meet the other surface within the rule's distance for ties */
+  PetscInt  tied[2];  /* number of facets whose rays all hit the other surface within the rule's distance for ties */
 } DetectPair;
 PETSC_INTERN PetscErrorCode DetectFacing(const DetectModel *, Scene, PetscInt *n, DetectPair **);
 

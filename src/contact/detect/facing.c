@@ -5,7 +5,7 @@
 #define FACING_STATES   32   /* at most */
 #define FACING_FRACTION 0.25 /* default distance, relative to the square root of the smaller surface's area */
 
-/* What the facets of two surfaces found; reals only, so that records can be sent as they are */
+/* What the rays between two surfaces have found; only reals, so that records can be sent as they are */
 typedef struct {
   PetscReal surface[2], apart, area[2], count[2], tied[2];
 } FacingRecord;
@@ -79,7 +79,7 @@ static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limit
          (limits->prescribed[body[i]] && limits->prescribed[body[j]] ? 0.0 : limits->extent);
 }
 
-/* Shoots from one facet, and adds a record for each surface that it faces */
+/* Sends rays from one facet, and adds a record for each surface that it faces */
 static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLimits *limits, PetscInt f,
   PetscBool start, FacingList *list)
 {
@@ -136,7 +136,7 @@ static void FacingBoxes(const DetectState *state, PetscInt nbodies, PetscReal ma
   }
 }
 
-/* Shoots from this rank's share of the facets; after the first state only where a body moves */
+/* Sends rays from this rank's share of the facets; after the first state only from and to bodies that move */
 static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *limits, const DetectMove moves[],
   PetscBool start, FacingList *list)
 {
@@ -163,7 +163,7 @@ static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *
   PetscFunctionReturn(0);
 }
 
-/* Largest motion of a corner of the bodies' boxes over the program [length]; how many states are looked at */
+/* Largest motion of a corner of the bodies' boxes during the load program [length]; number of states to test */
 static PetscErrorCode FacingMeasureMoves(const DetectModel *model, Scene scene, PetscReal *extent, PetscInt *nstates)
 {
   DetectMove *moves;
@@ -246,7 +246,7 @@ static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
   PetscFunctionReturn(0);
 }
 
-/* Reach of all rays: the largest distance of the rules, and the largest motion */
+/* Length of all rays: the largest distance of the rules, plus the largest motion */
 static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, PetscReal extent)
 {
   PetscReal reach = 0.0, largest = 0.0;
@@ -260,7 +260,7 @@ static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, Petsc
   return reach + extent;
 }
 
-/* Collective. The pairs that the scene's rules let, sorted by their surfaces */
+/* Collective. The pairs that the scene's rules accept, sorted by their surfaces */
 PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, DetectPair **pairs)
 {
   FacingLimits limits  = {.scene = scene};

@@ -1,5 +1,6 @@
-/* Where prescribed motions take the bodies. A body moves as its faces do: per direction the largest of their
-   displacements, and the first of their rotations. In dynamics other bodies fly on with their initial velocity */
+/* Positions of the bodies under prescribed motions. A body moves like its faces: per direction the largest of their
+   displacements, and the first of their rotations. In dynamics, bodies without prescribed motion continue with their
+   initial velocity. */
 #include "detectimpl.h"
 #include <string.h>
 

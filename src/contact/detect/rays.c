@@ -43,8 +43,8 @@ static PetscBool RayMeetsBox(const PetscReal box[6], const PetscReal origin[3], 
   return (PetscBool)(low <= high);
 }
 
-/* Where the line meets a triangle (Moeller and Trumbore 1997); with a margin, so that no ray slips through between two
-   triangles */
+/* Intersection of the line with a triangle (Moeller and Trumbore 1997), enlarged by a margin so that no ray passes
+   between two triangles */
 static PetscBool RayMeetsTriangle(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3],
   const PetscReal origin[3], const PetscReal direction[3], PetscReal *t)
 {
@@ -76,7 +76,7 @@ static PetscBool RayMeetsFacet(const PetscReal x[12], const PetscReal origin[3],
   return (PetscBool)(!ContactFacetIsTriangle(x) && RayMeetsTriangle(x, x + 6, x + 9, origin, direction, t));
 }
 
-/* Adds a hit at or behind the facet, or keeps the nearest one in front of it, which is hits[front] */
+/* Adds a hit at or behind the start. Of the hits in front it keeps the nearest one, hits[front]. */
 static void RayAdd(const DetectHit *hit, PetscReal touching, PetscInt *n, PetscInt *front, DetectHit hits[])
 {
   if (hit->distance > touching) {
@@ -86,7 +86,8 @@ static void RayAdd(const DetectHit *hit, PetscReal touching, PetscInt *n, PetscI
   } else if (*n < DETECT_HITS - (*front < 0)) hits[(*n)++] = *hit;
 }
 
-/* Adds the rigid surfaces that the start of a ray faces; limit: that of hits in front, which becomes smaller */
+/* Adds the rigid surfaces without facets that the start of a ray faces. limit: distance of the nearest hit in front,
+   which they may reduce */
 static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const PetscReal origin[3],
   const PetscReal normal[3], PetscReal touching, PetscReal *limit, PetscInt *n, PetscInt *front, DetectHit hits[])
 {
@@ -103,8 +104,8 @@ static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const 
   }
 }
 
-/* Ray 0 starts at the middle of the facet, the others near its corners. Returns the number of hits. A body hides what
-   is behind it, itself included; one that touches or overlaps this one hides all that is in front */
+/* Ray 0 starts at the centre of the facet, the others near its corners. Returns the number of hits. A body, also the
+   own one, hides what is behind it. A body that touches or overlaps the facet hides everything in front of it. */
 PetscInt DetectShoot(const DetectState *state, PetscInt facet, PetscInt ray, PetscReal reach,
   DetectHit hits[DETECT_HITS])
 {

@@ -10,7 +10,7 @@ static PetscBool RuleNames(const char name[], size_t length, const char surface[
   return (PetscBool)((length == body || length == strlen(surface)) && !strncmp(name, surface, length));
 }
 
-/* Whether an item of the list, "a" or "a/b", names one of two surfaces, or both */
+/* Whether an item of the list, "a" or "a/b", names one of the two surfaces, or both of them */
 static PetscBool RuleExcepts(const char except[], const char first[], const char second[])
 {
   while (except && *except) {

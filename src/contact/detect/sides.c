@@ -1,11 +1,11 @@
-/* Which of two surfaces is nonmortar: the first of these rules that tells them apart */
+/* Decides which of two surfaces is nonmortar: by the first of these rules in which they differ */
 #include "detectimpl.h"
 
 #define SIDES_FINER  2.25 /* ratio of the facets' mean areas, 1.5 of their sizes */
 #define SIDES_SOFTER 2.0  /* ratio of Young's moduli */
 #define SIDES_LARGER 1.25 /* ratio of the surfaces' areas */
 
-/* Mean area of the facets that face the other surface, as fine as the displacements are */
+/* Mean area of the facets that face the other surface; a facet of order 2 counts as four */
 static PetscReal SidesFacet(const DetectModel *model, const DetectPair *pair, PetscInt side)
 {
   const PetscInt s = pair->surface[side];
@@ -14,7 +14,7 @@ static PetscReal SidesFacet(const DetectModel *model, const DetectPair *pair, Pe
   return model->fine[model->surfaces.body[s]] * model->area[s] / (PetscReal)model->nfacets[s];
 }
 
-/* The side with the smaller value, PETSC_DECIDE if they differ by less than the ratio */
+/* The side with the smaller value; PETSC_DECIDE: they differ by less than the ratio */
 static PetscInt SidesSmaller(PetscReal first, PetscReal second, PetscReal ratio)
 {
   if (first * ratio <= second) return 0;

@@ -3,9 +3,9 @@
 
 /* a vertex that is beside the mortar face by more than this fraction of the facet's size has no closest point */
 #define BORDER_MARGIN 0.05
-/* a vertex on the border of the nonmortar face: the area about it still lies over the mortar face, so this fraction of
-   that area's size is allowed as well. Otherwise vertices that bulge outwards where faces end together would lose their
-   rows under pressure */
+/* for a vertex on the border of the nonmortar face this fraction of the size of its area is allowed in addition,
+   because most of that area still lies over the mortar face. Otherwise vertices that bulge outwards where both faces
+   end would lose their rows under pressure */
 #define RIM_MARGIN 0.2
 
 /* Whether the closest point is on the border of the mortar face */

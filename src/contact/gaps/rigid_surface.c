@@ -1,11 +1,11 @@
 /*
-   Nonmortar vertices against a rigid surface that a formula describes. The gap is the distance of the vertex, its
-   derivative the gradient. The closest point moves as the rigid body does: its displacement is a combination, with
-   weights of sum 1, of those of four corners of the body's cube.
+   Nonmortar vertices against a rigid surface that is given by a formula. The gap of a vertex is its distance from the
+   surface, and its derivative is the gradient of the distance. The closest point moves with the rigid body. Its
+   displacement is a weighted sum of those of four corners of the body's cell; the weights sum to 1.
 */
 #include "gapsimpl.h"
 
-/* Collective. Finds the four corners of the cube, whichever ranks have them */
+/* Collective. Finds the four corners of the cell, which any ranks may have */
 PetscErrorCode ContactSurfacePlace(MPI_Comm comm, ContactPairData *pair)
 {
   const ContactSurface *s = &pair->mortar;

@@ -28,8 +28,8 @@ static PetscBool PolygonEdgeCreate(PetscInt n, const PetscReal p[][2], PetscInt 
   return PETSC_TRUE;
 }
 
-/* How far the segment from p to q reaches beyond a line, where it is beside the edge on that line. Neighbouring mortar
-   facets then see nearly the same where they meet. *beside: whether any of it is */
+/* How far the segment from p to q reaches beyond the line of an edge, for the part of the segment that lies beside the
+   edge. Neighbouring mortar facets get nearly the same value where they meet. *beside: whether any part does */
 static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], const PetscReal q[2], PetscBool *beside)
 {
   const PetscReal along[2] = {-edge->out[1], edge->out[0]}, low = -EXTEND_BESIDE * edge->length;
@@ -51,9 +51,8 @@ static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], con
   return overhang;
 }
 
-/* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border where the two are apart by less
-   than the margin, else not at all. No corner of an overlap lies on a moved edge then, so derivatives need not know
-   it */
+/* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border if both are closer than the
+   margin, else not at all. No corner of an overlap lies on a moved edge, so that derivatives need not include it. */
 static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], PetscInt border1)
 {
   PetscReal by = 0.0;

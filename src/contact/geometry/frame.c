@@ -21,8 +21,8 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
   if (!ContactFacetNormal(x, n)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) {
     f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
-    t[c]         = x[6 + c] - x[c]; /* a diagonal lies in the plane, as the normal is the cross product of the
-                                       diagonals */
+    t[c]         = x[6 + c] - x[c]; /* axis 0 is along a diagonal, which lies in the plane because the normal is the
+                                       cross product of the diagonals */
   }
   length = VectorNorm(t);
   for (PetscInt c = 0; c < 3; ++c) t[c] /= length;

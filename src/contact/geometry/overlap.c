@@ -54,8 +54,9 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
-/* Removes edges whose length is rounding, next to vertices of one facet on a line of the other: whether there is one
-   would be left to rounding, and with it the derivative. size: of the facets. Returns the number of vertices left */
+/* Removes edges as short as rounding beside vertices of one facet that lie on a line of the other: rounding would
+   decide whether such an edge exists, and the derivative would depend on that. size: of the facets. Returns the number
+   of vertices left */
 static PetscInt OverlapMergeVertices(PetscInt n, PetscReal size, PetscReal polygon[][2], PetscInt edge[][2])
 {
   PetscInt i = 0;
@@ -75,7 +76,7 @@ static PetscInt OverlapMergeVertices(PetscInt n, PetscReal size, PetscReal polyg
         edge[k][d]    = edge[k + 1][d];
       }
     }
-    if (!next) i = n; /* the last vertex took the place of the first: all others have been seen */
+    if (!next) i = n; /* the last vertex has replaced the first: all others have been tested */
     --n;
   }
   return n;
@@ -133,9 +134,9 @@ static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], c
   return nearest;
 }
 
-/* Adds the quadrature points of the triangles between a vertex of the polygon and its other edges, with this sign.
-   Where the mortar facet is continued (most > 1), rounding would choose the first vertex, so it is the nearest one to a
-   nonmortar vertex. first: number of the first corner; most: bound of the parameters on the mortar facet */
+/* Adds the quadrature points of the triangles between one vertex of the polygon and its edges, with this sign. If the
+   mortar facet is continued (most > 1), this vertex is the one nearest to a nonmortar vertex, so that rounding does
+   not choose it. first: number of the first corner; most: bound of the parameters on the mortar facet */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
   PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal most, ContactOverlap *o)
 {
@@ -181,8 +182,8 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
   return gap / o->area;
 }
 
-/* The mortar facet in the plane, counterclockwise: it is seen from inside its body, so its vertices are reversed. Where
-   both facets are at the borders of their faces it is continued a little beyond its own; returns whether it was.
+/* The mortar facet in the plane, counterclockwise. It is seen from inside its body, so its vertices are reversed. If
+   both facets are at the borders of their faces, it is continued a little beyond its border; returns whether it was.
    Triangles are not continued. */
 static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, PetscInt nmortar,
   const PetscReal p2[4][2], PetscInt border2, PetscReal reversed[4][2])

@@ -75,7 +75,7 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscFunctionReturn(0);
 }
 
-/* The only corner whose edge has the same nodes in opposite order; negative: none or several */
+/* The corner whose edge has the same nodes in opposite order; negative: there is none, or several */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
   const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
