@@ -352,8 +352,8 @@ typedef struct {
 PETSC_EXTERN void SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
 /* Distance of a point from an undeformed rigid surface, negative inside [length], and its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
-/* The material of the body that a face belongs to */
-PETSC_EXTERN const Material *SceneFaceMaterial(Scene, const char face[]);
+/* The body that a face belongs to */
+PETSC_EXTERN const SceneBody *SceneFaceBody(Scene, const char face[]);
 /* Evaluates an expression in x, y, z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 

@@ -18,7 +18,7 @@ typedef struct {
 
 static PetscInt ArcFindBody(Scene scene, const char face[])
 {
-  const Material *material = SceneFaceMaterial(scene, face);
+  const Material *material = &SceneFaceBody(scene, face)->material;
   PetscInt        body     = 0;
 
   while (material != &scene->bodies[body].material) ++body;

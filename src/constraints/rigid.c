@@ -162,8 +162,9 @@ static PetscBool RigidIsTiedToSmallStrain(Scene scene, PetscInt body)
   PetscBool small = PETSC_FALSE;
 
   for (PetscInt t = 0; t < scene->nties; ++t) {
-    const Material *mortar = SceneFaceMaterial(scene, scene->ties[t].mortar),
-                   *other = SceneFaceMaterial(scene, scene->ties[t].nonmortar), *own = &scene->bodies[body].material;
+    const Material *mortar = &SceneFaceBody(scene, scene->ties[t].mortar)->material,
+                   *other  = &SceneFaceBody(scene, scene->ties[t].nonmortar)->material,
+                   *own    = &scene->bodies[body].material;
 
     if (mortar != own && other != own) continue;
     if (mortar == own) mortar = other;

@@ -15,7 +15,8 @@ static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
     PetscInt        n;
     IS              is;
 
-    if (SceneContactPairHasFriction(&scene->pairs[k / 2]) || SceneFaceMaterial(scene, face)->type == MATERIAL_RIGID)
+    if (SceneContactPairHasFriction(&scene->pairs[k / 2]) ||
+        SceneFaceBody(scene, face)->material.type == MATERIAL_RIGID)
       continue;
     PetscCall(MeshGetFaceDofs(c->bodies.dm, face, 0, &is));
     PetscCall(ISGetLocalSize(is, &n));

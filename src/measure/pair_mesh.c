@@ -182,8 +182,8 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
 static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
-  const Material         *nonmortar = SceneFaceMaterial(sim->scene, pair->nonmortar),
-                 *mortar            = SceneFaceMaterial(sim->scene, pair->mortar);
+  const Material         *nonmortar = &SceneFaceBody(sim->scene, pair->nonmortar)->material,
+                 *mortar            = &SceneFaceBody(sim->scene, pair->mortar)->material;
   const PetscBool softer            = (PetscBool)(nonmortar->type != MATERIAL_RIGID &&
                                        (mortar->type == MATERIAL_RIGID || nonmortar->young < mortar->young));
   PetscReal       coarseness        = 0.0;

@@ -14,7 +14,7 @@ static const PetscReal resolve_enclosed = 0.4; /* about 0.57 at a straight borde
 /* Young's modulus of the body behind the mortar face; PETSC_INFINITY: rigid */
 static PetscReal ResolveModulus(Scene scene, PetscInt pair)
 {
-  const Material *material = SceneFaceMaterial(scene, scene->pairs[pair].mortar);
+  const Material *material = &SceneFaceBody(scene, scene->pairs[pair].mortar)->material;
 
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }

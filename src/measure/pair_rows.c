@@ -71,8 +71,8 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
   PetscFunctionBegin;
   *rows       = (PairRows){.n = n,
           .frictional         = (PetscBool)(sim->solved->linearization->slip && SceneContactPairHasFriction(faces))};
-  rows->young = PetscMin(SceneFaceMaterial(sim->scene, faces->mortar)->young,
-    SceneFaceMaterial(sim->scene, faces->nonmortar)->young);
+  rows->young = PetscMin(SceneFaceBody(sim->scene, faces->mortar)->material.young,
+    SceneFaceBody(sim->scene, faces->nonmortar)->material.young);
   PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
     &rows->closed, n, &rows->length));
   PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));

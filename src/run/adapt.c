@@ -21,7 +21,8 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
     PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP,
       "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
       body->name, body->order);
-    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX, sim->comm, PETSC_ERR_SUP,
+    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX || SceneBodyIsSurface(body), sim->comm,
+      PETSC_ERR_SUP,
       "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: "
       "leave the option out",
       body->name);

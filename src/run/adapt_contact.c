@@ -199,7 +199,12 @@ PetscErrorCode AdaptMarkContact(Simulation sim)
     PetscCall(VecZeroEntries(facts));
     PetscCall(AdaptSetClosed(sim, p, facts));
     PetscCall(AdaptSetHanging(sim, facts));
-    for (PetscInt k = 0; k < 2; ++k) PetscCall(AdaptMeasureFace(sim, face[k], facts, &plane[k]));
+    for (PetscInt k = 0; k < 2; ++k) {
+      const SceneBody *body = SceneFaceBody(sim->scene, face[k]);
+
+      if (SceneBodyIsSurface(body)) plane[k] = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
+      else PetscCall(AdaptMeasureFace(sim, face[k], facts, &plane[k]));
+    }
     PetscCall(DMGetLocalVector(sim->dm, &local));
     PetscCall(DMGlobalToLocal(sim->dm, facts, INSERT_VALUES, local));
     PetscCall(DMRestoreGlobalVector(sim->dm, &facts));

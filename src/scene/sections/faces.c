@@ -19,12 +19,12 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
   return PETSC_DECIDE;
 }
 
-/* Gets the material of the body that a face belongs to. face: "<body>.<face>" of a body of the scene. */
-const Material *SceneFaceMaterial(Scene scene, const char face[])
+/* The body that a face belongs to. face: "<body>.<face>" of a body of the scene */
+const SceneBody *SceneFaceBody(Scene scene, const char face[])
 {
   const char *name;
 
-  return &scene->bodies[SceneFindBody(scene, face, &name)].material;
+  return &scene->bodies[SceneFindBody(scene, face, &name)];
 }
 
 /* Reads the list and adds each entry to its body */
