@@ -32,6 +32,8 @@ def calls():
     print("load steps:", run.steps, "; displacement as in the file:", same)
     print("energy of the history is that of the summary:", np.allclose(run.history["energy"], [step["energy"] for step in run.summary["steps"]], rtol=1e-13))
     print("one pair's force under its last word:", np.array_equal(run.history["normal_force"], run.history["blocks.normal_force"]))
+    print("its force as vectors:", np.array_equal(run.history["force"][:, 2], run.history["blocks.force_z"]), run.history["force"].shape)
+    print(run)
     print("cells and points fit:", len(run.field("von_mises")) == len(run.cells), len(run.field("pressure")) == len(run.points))
     two = contact.run("two_block.yaml", output="two", ranks=2, refine=0, error_estimate=0)
     print("two ranks: the same energy:", np.allclose(two.history["energy"], run.history["energy"], rtol=1e-8))

@@ -3,7 +3,7 @@
     import contact
 
     run = contact.run("press.yaml", refine=1)        # contact press.yaml -refine 1
-    run.history["contact.force"]                      # a numpy array, one number a load step
+    run.history["force"]                             # a numpy array, one vector a load step
     run.plot("pressure", "press.png")
     old = contact.load("results/press")              # the files that contact -output results/press wrote
 

@@ -33,12 +33,19 @@ def read_table(path):
 
 
 class Table(dict):
-    """{column: array}. A name without its first words serves if only one column ends in it: force_z for block.force_z"""
+    """{column: array}. A name without its first words serves if only one column ends in it: force_z for block.force_z.
+    A name without _x, _y, _z gives the three columns as vectors: force for block.force_x, block.force_y, block.force_z"""
 
     def __missing__(self, name):
+        if name + "_x" in self:
+            return np.stack([self[f"{name}_{axis}"] for axis in "xyz"], axis=-1)
         found = [column for column in self if column.endswith("." + name)]
         if len(found) == 1:
             return self[found[0]]
+        vectors = [column[:-2] for column in self if column.endswith(f".{name}_x")]
+        if not found and len(vectors) == 1:
+            return self[vectors[0]]
+        found = found or vectors
         near = ", ".join(found or [column for column in self if name.split(".")[-1] in column][:12] or list(self)[:12])
         raise ContactError(f"the table has {'several columns' if found else 'no column'} \"{name}\": {near}")
 
@@ -59,6 +66,12 @@ class Run:
         if name not in self._cache:
             self._cache[name] = make()
         return self._cache[name]
+
+    def __repr__(self):
+        """One line: scene, size, how the run ended"""
+        summary = self.summary
+        steps = [step for step in summary["steps"] if step["converged"]]
+        return f"<run of {summary['problem']}: {summary['dofs']:,} unknowns, {len(steps)} load steps done, exit code {self.exit_code}, {len(self.warnings)} warnings>"
 
     @property
     def summary(self):
