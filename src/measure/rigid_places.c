@@ -23,8 +23,17 @@ static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
   for (PetscInt i = 0; i < 3; ++i) rotation[i] = size * axis[i];
 }
 
-/* Positions and rotations at the last state: about the axes that the scene gives, or else about the centre of the
-   body */
+/* Of a body's points the one whose position is reported: on the axis that the scene gives; else the point of a rigid
+   surface; else the centre of the body */
+static const PetscReal *RigidPlacesFindPoint(Scene scene, PetscInt body, const BodyPose *pose)
+{
+  const PetscReal *center = PoseFindCenter(scene, body);
+
+  if (center) return center;
+  return SceneBodyIsSurface(&scene->bodies[body]) ? scene->bodies[body].own + SURFACE_POINT : pose->from;
+}
+
+/* Positions and rotations at the last state */
 PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
 {
   const Bodies       bodies  = SimulationBodies(sim);
@@ -43,12 +52,11 @@ PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
   PetscCall(PosesFind(&bodies, NULL, sim->path->u, poses));
   n = 0;
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
-    const PetscReal *center = PoseFindCenter(sim->scene, b);
-    RigidReport     *body   = &report->rigid_bodies[n];
+    RigidReport *body = &report->rigid_bodies[n];
 
     if (!RigidPlacesHas(sim->scene, b)) continue;
     *body = (RigidReport){.name = sim->scene->bodies[b].name};
-    PosePlace(&poses[b], center ? center : poses[b].from, body->position);
+    PosePlace(&poses[b], RigidPlacesFindPoint(sim->scene, b, &poses[b]), body->position);
     PoseGetVector((const PetscReal(*)[3])poses[b].Q, body->rotation);
     for (PetscInt i = 0; i < 3; ++i) body->rotation[i] *= 180.0 / PETSC_PI;
     RigidPlacesUnwind(before ? before[n].rotation : none, body->rotation);

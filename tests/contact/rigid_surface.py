@@ -101,6 +101,8 @@ elif sys.argv[1:] == ["exact"]:
 else:
     seen = pair("pressed")
     say("plane: uniform pressure of 10", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
+    place = load("pressed")["steps"][-1]["rigid_bodies"][0]["position"]
+    say("plane: its position is that of its point", all(abs(a - b) < 1e-12 for a, b in zip(place, (0.3, 0.2, 0.99))), place)
     seen = pair("driven")
     say("plane that a force and a moment drive: they are carried", within(-seen["force"][2], 4, 1e-8) and within(seen["moment"][1], 0.4, 5e-3), seen)
     mesh = load("rubber_mesh")["steps"][-1]
