@@ -41,7 +41,7 @@ contact:
 BOTTOM = "displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]}\n  - pin: {point: [-1, -1, 0], body: block, value: [0, 0, 0]}\n  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n"
 RUBBER = """problem: rubber
 bodies:
-  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 2, 8], material: neohookean, young: 1, poisson: 0.4, order: {order}}}
+  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4, order: {order}}}
   - tool: {{{tool}, material: rigid}}
 load_steps: 3
 displacements:
@@ -88,6 +88,11 @@ def pair(name):
     return load(name)["steps"][-1]["pairs"][0]
 
 
+def same_on_three_ranks(order):
+    one, three = (load(f"rubber_{order}{ranks}")["steps"][-1]["energy"] for ranks in ("", "_3"))
+    say(f"cylinder in rubber, order {order}: the same on three ranks", within(three, one, 1e-8), (three, one))
+
+
 if sys.argv[1:] == ["scenes"]:
     for name, text in SCENES.items():
         with open(name + ".yaml", "w") as file:
@@ -98,6 +103,7 @@ elif sys.argv[1:] == ["exact"]:
     for name, force, energy in ("sphere", hertz, 0.4 * hertz * APPROACH), ("cone", sneddon, sneddon * DEPTH / 3):
         seen = (-pair(name)["force"][2] / force - 1, load(name)["steps"][-1]["energy"] / energy - 1)
         say(f"{name}: force within 0.5 % of the closed form, energy within 0.2 %", abs(seen[0]) < 5e-3 and abs(seen[1]) < 2e-3, seen)
+    same_on_three_ranks(2)
 else:
     seen = pair("pressed")
     say("plane: uniform pressure of 10", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
@@ -107,7 +113,8 @@ else:
     say("plane that a force and a moment drive: they are carried", within(-seen["force"][2], 4, 1e-8) and within(seen["moment"][1], 0.4, 5e-3), seen)
     mesh = load("rubber_mesh")["steps"][-1]
     for order in 1, 2:
-        one, three = (load(f"rubber_{order}{ranks}")["steps"][-1] for ranks in ("", "_3"))
+        one = load(f"rubber_{order}")["steps"][-1]
         say(f"cylinder in rubber, order {order}: within 1 % of a cylinder with facets", within(one["pairs"][0]["force"][2], mesh["pairs"][0]["force"][2], 1e-2) and within(one["energy"], mesh["energy"], 5e-3), (one, mesh))
         say(f"cylinder in rubber, order {order}: no vertex is inside", one["pairs"][0]["penetration"] < 1e-8, one["pairs"])
-        say(f"cylinder in rubber, order {order}: the same on three ranks", within(three["energy"], one["energy"], 1e-8), (three["energy"], one["energy"]))
+        if order == 1:
+            same_on_three_ranks(order)

@@ -2,7 +2,7 @@
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/contact/rigid_surface.py" scenes
 for scene in pressed driven rubber_1 rubber_2 rubber_mesh; do "$contact" $scene.yaml -quiet -summary $scene.json 2> /dev/null || echo "$scene: exit code $?"; done
-for scene in rubber_1 rubber_2; do mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json || echo "$scene, three ranks: exit code $?"; done
+mpiexec --oversubscribe -n 3 "$contact" rubber_1.yaml -quiet -summary rubber_1_3.json || echo "rubber_1, three ranks: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/contact/rigid_surface.py"
 
 try() {
