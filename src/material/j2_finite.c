@@ -36,7 +36,8 @@ static void J2Multiply(const PetscReal M[9], const PetscReal N[9], PetscBool tra
   }
 }
 
-/* Of a step: Fe* - I, det F - 1 and its derivative by Fe*, E*, and the deviator of E* plus p_n */
+/* The elastic trial state of a step: H = Fe* - I; theta = det F - 1 and its derivative C by Fe*; the logarithmic
+   strain E*; and strain = dev E* + p_n */
 typedef struct {
   PetscReal   H[9], theta, C[9], strain[9];
   Logarithmic log;

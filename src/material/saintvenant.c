@@ -18,7 +18,7 @@ static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
   return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* S = lambda tr E I + 2 mu E, whether det F > 0 (or not a number) */
+/* S = lambda tr E I + 2 mu E. Returns true if det F > 0, or if it is not a number */
 static PetscBool SaintVenantStress(const MaterialModuli *m, const PetscReal H[9], PetscReal S[9], PetscReal *J)
 {
   PetscReal E[9];

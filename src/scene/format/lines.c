@@ -52,8 +52,9 @@ static const char *LineGetList(const char text[], const char *end)
   return NULL;
 }
 
-/* Line of what a message is about; 0: unknown, or the value is not that of the file. First an entry that is named, as
-   body "slab", then the key that the message begins with, then the quotation, as in: the key "bodies" is missing */
+/* Finds the line of the file that a message is about; 0: unknown, or the value does not come from the file. It looks
+   for a named entry, such as body "slab"; else for the key that the message begins with; else for the quoted word, as
+   in: the key "bodies" is missing */
 static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t *line)
 {
   const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
