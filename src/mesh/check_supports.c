@@ -10,7 +10,7 @@
 
 /* A link: the restraint rows of one displacement, spring, pair or tie */
 typedef struct {
-  PetscInt body[2]; /* the second is negative if the first is held to the ground */
+  PetscInt body[2]; /* the second is negative if the first is held by the ground */
 } SupportLink;
 
 typedef struct {
@@ -144,7 +144,7 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscFunctionReturn(0);
 }
 
-/* Adds the motions of a rigid body that are not free, if others are; on the first rank */
+/* Adds the motions of a rigid body that are not free, if some are free; on the first rank */
 static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
   PetscBool *released)
 {
@@ -456,8 +456,8 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
-/* Chooses a free motion for the message: a mode that is free by itself; else a rotation (about an unknown axis);
-   else a translation. PETSC_DECIDE: none */
+/* Chooses a free motion for the message: one of the six modes if it is free by itself; else a rotation (about an
+   unknown axis); else a translation. PETSC_DECIDE: none */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -495,7 +495,8 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Checks that a face's facets bound its body; a surface of a Gmsh file may not */
+/* Checks that the facets of a face are on the boundary of its body, which those of a surface in a Gmsh file may
+   not be */
 static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
 {
   IS       facets;

@@ -16,7 +16,8 @@ static PetscErrorCode SurfacesPlaceVertices(const SceneBody *body, const ShapeGr
   PetscFunctionReturn(0);
 }
 
-/* Names the regions: by the face that is the same, else by their numbers. nfaces: those of the shape or the file */
+/* Names the regions of a body's boundary: like the face of the shape or file that consists of the same facets, else
+   "surface_1", "surface_2", ... nfaces: number of faces of the shape or file */
 static PetscErrorCode SurfacesName(const SceneBody *body, const MeshBody *mesh, PetscInt nfaces,
   const ShapeBoundary *boundary, MeshSurfaces *s)
 {

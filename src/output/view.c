@@ -117,7 +117,7 @@ static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "error over the energy",
-    "error in the energy norm over that of the displacement, and the bodies' parts of it"));
+    "error in the energy norm relative to the displacement's norm, and parts of the bodies"));
   PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
   PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
   PetscFunctionReturn(0);

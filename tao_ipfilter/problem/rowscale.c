@@ -22,8 +22,8 @@ static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
 {
   PetscScalar *a;
   PetscInt     rstart, rend;
-  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* minus the smallest, and the largest row, over all
-                                                                   ranks */
+  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* minus the smallest row, and the largest row, over
+                                                                   all ranks */
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(layout, d));

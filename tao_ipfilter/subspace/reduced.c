@@ -248,7 +248,7 @@ static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Entries of v on the first rank's array a of n */
+/* Gathers the entries of v into the array a of length n on the first rank */
 static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, PetscInt n, PetscReal a[])
 {
   const PetscScalar *values;

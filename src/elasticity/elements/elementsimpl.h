@@ -83,7 +83,8 @@ static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MA
 
 /* stiffness.c: stiffness of a cell from the tangents at its points, for all elements. K[(3 a + i) 3 n + 3 b + k] */
 typedef struct {
-  PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b], k >= i */
+  PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b]: entry of component i at node a and
+                                                          component k >= i at node b */
 } CellSums;
 
 /* Stiffness of a law with constant tangent */

@@ -97,7 +97,8 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Selects remaining bodies, removes them, and recovers their strains; more: whether others remain */
+/* Selects the next bodies, removes them from the remaining ones, and recovers their strains. more: whether some
+   remain */
 PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {

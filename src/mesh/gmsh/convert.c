@@ -8,7 +8,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-/* By the ending of its name. A file with another ending must be one of Gmsh */
+/* Whether a file needs conversion, by the ending of its name. A file with an unknown ending must be a Gmsh file. */
 static PetscBool GmshMustConvert(const SceneBody *body)
 {
   static const char *const endings[] = {".inp", ".med", ".e", ".exo", ".ex2", ".vtu", ".vtk"};
@@ -61,7 +61,7 @@ static PetscErrorCode GmshConvertFile(SceneBody *body, size_t length, char path[
   PetscFunctionReturn(0);
 }
 
-/* The body before this one that has the same file at the same scale; this body if there is none */
+/* An earlier body with the same file and scale; this body itself if there is none */
 static PetscInt GmshFindSame(const SceneBody bodies[], PetscInt b)
 {
   for (PetscInt a = 0; a < b; ++a) {

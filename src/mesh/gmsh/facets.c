@@ -88,8 +88,8 @@ void GmshFacetsSort(GmshFacets *facets)
   if (facets->n) qsort(facets->list, (size_t)facets->n, sizeof(*facets->list), GmshCompareFacets);
 }
 
-/* Call with sorted facets. Whether cells that meet in all nodes of a side have the same facet there, and no more
-   than two cells meet */
+/* Checks that cells that share the nodes of a side have the same facet there, and that at most two cells share it. The
+   facets must be sorted. */
 PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 {
   for (PetscInt64 i = 1; i < facets->n; ++i) {
@@ -106,8 +106,8 @@ PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
   return PETSC_TRUE;
 }
 
-/* Call with sorted facets. Whether exactly one facet has these corners, in this slice; a facet between two cells is
-   inside */
+/* Whether exactly one facet of this slice has these corners; a facet between two cells is inside the body. The facets
+   must be sorted. */
 PetscBool GmshFacetsBound(const GmshFacets *facets, PetscInt ncorners, const PetscInt64 corners[])
 {
   const GmshFacet  wanted = GmshFacetOf((int)ncorners, corners, 0);

@@ -18,8 +18,8 @@ static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
   return place / step[d] % 3 == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Sum over the nodes that are at an end in the directions `ends` in which this one is in the middle, and agree with
-   it in the others */
+/* Sum over certain nodes: in the directions `ends`, in which this node is in the middle, they are at an end; in the
+   other directions they agree with it */
 static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
 {
   sum[0] = sum[1] = sum[2] = 0;
