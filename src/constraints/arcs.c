@@ -1,10 +1,8 @@
 /*
-   Slip of bodies that turn is measured along arcs. A displacement increment is the chord: of a wheel that rolls by an
-   angle t it is off by R t^3/6 in the contact. In place of the chord stands the motion at the end of the increment,
-
-     d = dc + t x (x1 - c1) + Q e,   e = c0 + Q^T (x1 - c1) - x0,
-
-   of the centres c0 and c1, the rotation vector t of Q, and the deformation e.
+   Slip of bodies that turn, measured along arcs. A displacement increment is the chord of the way. For a wheel that
+   rolls by an angle t its error is R t^3/6 in the contact. Instead of the chord the motion at the end of the increment
+   is used: d = dc + t x (x1 - c1) + Q e, e = c0 + Q^T (x1 - c1) - x0, with the centres c0 and c1, the rotation vector t
+   of Q, and the deformation e.
 */
 #include "constraintsimpl.h"
 
@@ -25,7 +23,7 @@ static PetscInt ArcFindBody(Scene scene, const char face[])
   return body;
 }
 
-/* Of two bodies that touch and turn alike one takes the centre of the other, if that has one */
+/* If two bodies touch and turn alike, the one without a centre of its own takes that of the other */
 static void ArcsShareCenter(BodyArc *one, BodyArc *other)
 {
   PetscReal apart = 0.0;
@@ -39,8 +37,8 @@ static void ArcsShareCenter(BodyArc *one, BodyArc *other)
   one->centred = other->centred = PETSC_TRUE;
 }
 
-/* That which the scene turns a rigid body about; of others that of a body which they are carried along by, as a tyre by
-   its hub; or else the mean of their places */
+/* The centre of rotation. For a rigid body: the one in the scene. For another body: that of the body that carries it
+   along, as a hub carries a tyre; or else the mean of its nodes' positions */
 static PetscErrorCode ArcsFindCenters(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[])
 {
   Scene     scene = b->scene;
@@ -104,7 +102,8 @@ static void ArcGetExcess(const BodyArc *arc, const PetscReal Q[3][3], const Pets
   }
 }
 
-/* What the way along arcs from displacement u0 to u1 is beside the chord; any: 0 and not set where no body turns */
+/* Difference between the way along arcs from displacement u0 to u1 and the chord. any: whether any body turns; if not,
+   the difference is 0 and not set */
 PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscBool *any)
 {
   BodyPose          *poses;
@@ -143,8 +142,9 @@ PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscB
   PetscFunctionReturn(0);
 }
 
-/* The ways from displacement u0 to u1 along the chord, to multiply forces at u0 with, way[0], and at u1, way[1]; where
-   bodies turn along arcs: forces in balance do no work on a body that turns as a whole */
+/* The ways from displacement u0 to u1 by which forces are multiplied to get work: way[0] for forces at u0, way[1] for
+   forces at u1. They are chords, or arcs where bodies turn: forces in balance then do no work on a body that turns as
+   a whole */
 PetscErrorCode ArcsGetIncrements(const Bodies *b, Vec u0, Vec u1, Vec increment[2])
 {
   PetscBool any;

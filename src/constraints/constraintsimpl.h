@@ -8,8 +8,8 @@
 #include "src/loads/loadsimpl.h"
 #include "src/report/reportimpl.h"
 
-/* motions.c: rigid motions of faces and bodies at given factors of the ramps. The scene's first displacement of a
-   face or body is its leader */
+/* motions.c: rigid motions of faces and bodies for given factors of the ramps. The leader of a face or body is the
+   scene's first displacement for it */
 typedef struct {
   PetscReal t[3], center[3]; /* [length] */
   PetscReal turn[3][3];      /* rotation matrix minus identity */
@@ -57,7 +57,7 @@ PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, V
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
 
-/* Of rigid.c: a rigid body some of whose motions are free. Free rotations are finite. Its nodes are linearized about
+/* rigid.c: a rigid body with free motions. Free rotations are finite. The positions of its nodes are linearized about
    a place and an angle, which is counted from the last state: x = place + exp(angle) last (X - center) */
 typedef struct {
   PetscInt  leader;        /* displacement of the scene */
@@ -66,10 +66,10 @@ typedef struct {
   PetscReal place[3];      /* of the center [length] */
   PetscReal angle[3];      /* rotation vector since the last state [rad] */
   PetscReal last[3][3];    /* rotation up to there */
-  PetscReal axis[3][3];    /* what the rotation changes by when an angle about an axis does */
+  PetscReal axis[3][3];    /* derivative of the rotation by an angle about each axis */
   PetscInt  n, motion[6];  /* those that are free: along, and about, the axes */
   PetscInt  row[6];        /* global rows whose displacements carry them */
-  PetscReal inverse[6][6]; /* motions by the displacements of these rows; angles times size */
+  PetscReal inverse[6][6]; /* the motions as functions of the displacements of these rows; angles times size */
   PetscReal size;          /* [length] */
 } RigidBody;
 
@@ -77,12 +77,13 @@ typedef struct {
   PetscInt   n;
   RigidBody *bodies;
   PetscBool  turns;   /* any of them */
-  Vec        x;       /* places where the bodies are linearized, of elastic ones undeformed [length] */
-  Mat        R;       /* displacements of the rows that follow in terms of those that carry; NULL: no motion is free */
+  Vec        x;       /* positions about which the bodies are linearized; undeformed for elastic bodies [length] */
+  Mat        R;       /* displacements of the dependent rows as functions of the carrying rows; NULL: no motion is
+                         free */
   Vec        elastic; /* 0 in the rows of these bodies, else 1 */
-  Vec given; /* what the motions that are prescribed displace their rows by, but those that are prescribed as rows
+  Vec        given; /* displacements of the rows due to prescribed motions, except those that are prescribed row by row
                 [length] */
-  Vec held;  /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
+  Vec        held;  /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
 } RigidBodies;
 
 /* ties.c: displacements of dependent rows in terms of the others; C NULL: no dependent rows */
@@ -90,13 +91,13 @@ typedef struct {
   Mat      C, K;    /* C: u = C x + o; K: stiffness of the bodies, while the simulation's is C^T K C */
   Mat      hanging; /* the part of C for hanging vertices; NULL: none */
   Mat      joined;  /* C = joined R if forces drive rigid bodies; NULL: C = R */
-  Mat      elastic; /* C without the rows of such bodies, which have no stiffness; NULL: no such bodies */
+  Mat      elastic; /* C without the rows of rigid bodies, which have no stiffness; NULL: there are none */
   Vec      o;       /* o [length]; NULL: 0 */
   PetscInt n, *rows;
   Vec      work;
 } Ties;
 
-/* Arguments of the functions from here on: the bodies, and their constraints */
+/* Arguments of the functions below: the bodies, and their constraints */
 typedef struct {
   Bodies         bodies;
   Prescribed    *prescribed;

@@ -37,7 +37,7 @@ static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rst
   PetscFunctionReturn(0);
 }
 
-/* pivot[plane]: the dependent component; negative: none is left */
+/* pivot[plane]: the dependent component; negative: no component is left for this plane */
 static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], PetscInt pivot[3])
 {
   const PetscReal rounding = 1e-10;

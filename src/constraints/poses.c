@@ -1,6 +1,7 @@
 /*
-   The rigid motions nearest to those of bodies: x1 = c1 + Q (x0 - c0) of the nodes' places before and after, c0 and c1
-   their means weighted with the mass. Q is the rotation of the polar decomposition of the mean deformation gradient.
+   The rigid motion nearest to that of each body, x1 = c1 + Q (x0 - c0), from the positions of its nodes before and
+   after. c0 and c1 are their means, weighted with the mass. Q is the rotation in the polar decomposition of the mean
+   deformation gradient.
 */
 #include "constraintsimpl.h"
 #include <string.h>
@@ -63,7 +64,7 @@ void PoseGetVector(const PetscReal Q[3][3], PetscReal r[3])
   for (int k = 0; k < 3; ++k) r[k] = sine > 0.0 ? angle * q[1 + k] / sine : 0.0;
 }
 
-/* Sums of m, m x0, m x1, or about the means of m dx1 dx0^T and m dx0 dx0^T, of each body; u0 NULL: zero */
+/* Sums for each body: of m, m x0, m x1; or, about the means, of m dx1 dx0^T and m dx0 dx0^T. u0 NULL: zero */
 static PetscErrorCode PosesSum(const Bodies *b, Vec u0, Vec u1, const BodyPose poses[], PetscReal sums[][18])
 {
   const PetscScalar *x, *m, *a0 = NULL, *a1;
@@ -97,7 +98,7 @@ static PetscErrorCode PosesSum(const Bodies *b, Vec u0, Vec u1, const BodyPose p
   PetscFunctionReturn(0);
 }
 
-/* Of all bodies, from displacement u0 (NULL: undeformed) to u1 */
+/* The rigid motions of all bodies from displacement u0 (NULL: undeformed) to u1 */
 PetscErrorCode PosesFind(const Bodies *b, Vec u0, Vec u1, BodyPose poses[])
 {
   PetscReal(*sums)[18];
@@ -132,7 +133,7 @@ void PosePlace(const BodyPose *pose, const PetscReal x0[3], PetscReal x1[3])
   }
 }
 
-/* The centre that the scene turns a rigid body about; NULL: it does not turn it */
+/* The centre of rotation that the scene gives for a rigid body; NULL: it does not turn the body */
 const PetscReal *PoseFindCenter(Scene scene, PetscInt body)
 {
   const size_t     n      = strlen(scene->bodies[body].name);

@@ -163,8 +163,8 @@ PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sums each component over driven rows, whose prescribed value is not zero; over all prescribed rows if none is
-   driven. The sum over all rows would always vanish in equilibrium */
+/* Sums each component of the reaction over driven rows, those with a prescribed value that is not zero; if no row is
+   driven, over all prescribed rows. (In equilibrium the sum over all rows would vanish.) */
 PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
 {
   const PetscScalar *a;

@@ -7,7 +7,8 @@
 #include "constraintsimpl.h"
 #include <string.h>
 
-/* Between two states. Where the gap is linearized once, so are rotations, with an error of 6e-4 of the arm then */
+/* Largest rotation between two states. If the gap is linearized only once, so are rotations; the error is then 6e-4 of
+   the distance from the centre */
 static const PetscReal largest_angle = 45.0, largest_linearized = 2.0; /* [degrees] */
 
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
@@ -18,7 +19,7 @@ static PetscBool RigidIsReleased(const SceneDisplacement *d)
   return released;
 }
 
-/* Component c at the place x of the body's free motions; angles times the body's size */
+/* Component c of the body's free motions at the position x; angles times the body's size */
 static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt c, PetscReal row[6])
 {
   const PetscInt next = (c + 1) % 3, last = (c + 2) % 3;
@@ -208,7 +209,7 @@ static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, Rig
   PetscFunctionReturn(0);
 }
 
-/* The rows of one body; anew: other ones carry its motions than did before */
+/* Sets the rows of one body. anew: other rows than before carry its motions */
 static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool prescribed[], PetscBool mine[],
   PetscBool follows[], RigidBody *body, PetscBool *anew)
 {
@@ -238,7 +239,7 @@ static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool pr
   PetscFunctionReturn(0);
 }
 
-/* R where the bodies are linearized. prescribed and follows: of this rank's rows */
+/* R at the positions about which the bodies are linearized. prescribed, follows: flags of this rank's rows */
 PetscErrorCode RigidMakeRows(const Constraints *c, const PetscBool prescribed[], PetscBool follows[], PetscBool *anew)
 {
   RigidBodies *rigid = c->rigid;
@@ -267,7 +268,7 @@ PetscErrorCode RigidMakeRows(const Constraints *c, const PetscBool prescribed[],
   PetscFunctionReturn(0);
 }
 
-/* After the prescribed rows; without such bodies nothing is created */
+/* Sets up the rigid bodies that forces drive; call after the prescribed rows. Without such bodies nothing is created */
 PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
 {
   RigidBodies *rigid = c->rigid;
@@ -294,7 +295,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscFunctionReturn(0);
 }
 
-/* d exp(angle) / d angle exp(-angle), by columns: the rotation that one more angle about each axis adds */
+/* d exp(angle) / d angle exp(-angle), by columns: the rotation that a further angle about each axis adds */
 static void RigidGetAxes(const PetscReal r[3], PetscReal axis[3][3])
 {
   const PetscReal square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], angle = PetscSqrtReal(square), small = 1e-3;
@@ -323,7 +324,7 @@ void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
   }
 }
 
-/* The body's nodes go to its place and angle, in a displacement u */
+/* Sets the displacement u of the body's nodes to its place and angle */
 static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Vec u)
 {
   const PetscReal   *center = c->bodies.scene->displacements[body->leader].center;
@@ -407,7 +408,8 @@ PetscErrorCode RigidTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u
   PetscFunctionReturn(0);
 }
 
-/* What the free motions of a body are in a displacement u, beside where it is linearized; angles times its size */
+/* The free motions of a body in a displacement u, relative to the position about which it is linearized; angles times
+   its size */
 static PetscErrorCode RigidGetMotion(const Constraints *c, const RigidBody *body, Vec u, PetscReal motion[6])
 {
   PetscReal          moved[6] = {0.0};
@@ -432,8 +434,8 @@ static PetscErrorCode RigidGetMotion(const Constraints *c, const RigidBody *body
   PetscFunctionReturn(0);
 }
 
-/* Bodies that turn freely go from the linearized motions of u to the finite ones; change: the largest displacement of
-   these [length] */
+/* Moves bodies that turn freely from the linearized motions in u to the finite ones. change: the largest change of
+   displacement [length] */
 PetscErrorCode RigidStraighten(const Constraints *c, Vec u, PetscReal *change)
 {
   RigidBodies *rigid = c->rigid;
@@ -460,7 +462,7 @@ PetscErrorCode RigidStraighten(const Constraints *c, Vec u, PetscReal *change)
   PetscFunctionReturn(0);
 }
 
-/* o, what the motions that are prescribed displace the rows that follow by */
+/* o: displacements of the dependent rows due to prescribed motions */
 PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
 {
   RigidBodies       *rigid = c->rigid;
@@ -502,7 +504,7 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
   PetscFunctionReturn(0);
 }
 
-/* Adds springs on rigid bodies, whose own rows have no other stiffness; C: u = C x */
+/* Adds springs on rigid bodies, the only stiffness of their rows; C: u = C x */
 static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness)
 {
   PetscInt n;
@@ -525,12 +527,13 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
   PetscFunctionReturn(0);
 }
 
-/* Added to a matrix with a place for every diagonal entry: springs, and what holds the free motions, where nothing
-   elastic does, to the centre of proximal.c */
+/* Adds to a matrix in which all diagonal entries are allocated: springs, and, if nothing elastic resists a free
+   motion, the stiffness that holds it to the centre of proximal.c */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
   const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
-  const PetscReal    none  = 1e-6; /* of it: elastic bodies that are tied to the rigid one hold the motion */
+  const PetscReal    none  = 1e-6; /* below this fraction of the stiffness: elastic bodies tied to the rigid one hold
+                                      the motion */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;
@@ -558,8 +561,8 @@ PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat 
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged if a free rotation is larger than its linearization allows; finite: it is linearized again
-   until it is true */
+/* A solve has not converged if a free rotation is larger than its linearization allows. finite: rotations are
+   linearized again until they agree */
 PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepReport *report)
 {
   PetscFunctionBegin;

@@ -1,8 +1,8 @@
 /*
-   Forces and moments on rigid bodies that turn freely. A force keeps its direction and acts where its point is now; a
-   moment keeps its axis. Dead loads at the nodes have the moment of the undeformed body, m0 = moment + arm x force.
-   Here the nodes are given in its place that of now, m = moment + (Q arm) x force, by the same forces turned with the
-   body: Q f(Q^T m) of the nodal forces f(m0).
+   Forces and moments on rigid bodies that turn freely. A force keeps its direction and acts at the present position of
+   its point; a moment keeps its axis. The dead loads at the nodes have the moment about the undeformed body, m0 =
+   moment + arm x force. This file replaces it by the present one, m = moment + (Q arm) x force. For that the nodal
+   forces f(m0) are turned with the body: Q f(Q^T m).
 */
 #include "constraintsimpl.h"
 
@@ -38,7 +38,7 @@ static PetscErrorCode RigidLoadGetArm(const Constraints *c, const SceneTraction 
   PetscFunctionReturn(0);
 }
 
-/* load += factor times the nodal forces of one load as they are now, less those of the undeformed body */
+/* load += factor times the difference between the present nodal forces of one load and those of the undeformed body */
 static PetscErrorCode RigidLoadTurn(const Constraints *c, const SceneTraction *load, const PetscReal Q[3][3],
   PetscReal factor, Vec total)
 {
@@ -74,7 +74,8 @@ static PetscErrorCode RigidLoadTurn(const Constraints *c, const SceneTraction *l
   PetscFunctionReturn(0);
 }
 
-/* Added to the dead load of a time, where the bodies are linearized; NULL: the scene has none. sign -1: taken away */
+/* Adds the change of these loads to the dead load of a time, at the positions about which the bodies are linearized.
+   load NULL: the scene has no loads. sign -1: subtracts it */
 PetscErrorCode RigidTurnLoads(const Constraints *c, PetscReal sign, PetscReal time, Vec load)
 {
   Scene     scene = c->bodies.scene;

@@ -176,8 +176,8 @@ PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* The same about a displacement u since the last state, where rigid bodies turn freely. anew: the tangent of linear
-   bodies changes with that */
+/* Updates C and o for a displacement u since the last state, if rigid bodies turn freely. anew: the tangent of linear
+   bodies changes with C */
 PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u, PetscBool *anew)
 {
   PetscInt   n, rstart;
@@ -201,8 +201,8 @@ PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u,
   PetscFunctionReturn(0);
 }
 
-/* u of the linearized motions becomes that of the finite ones; change: what it moves by, 0 where no body turns freely
-   [length] */
+/* Replaces the linearized motions in u by the finite ones. change: the largest change of displacement; 0 if no body
+   turns freely [length] */
 PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
 {
   PetscFunctionBegin;
@@ -304,8 +304,8 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
   PetscFunctionReturn(0);
 }
 
-/* tied = C^T K C, with all diagonal entries allocated: those of dependent rows are not in the product. inert: rigid
-   bodies have entries in K */
+/* tied = C^T K C, with all diagonal entries allocated: the product has none in dependent rows. inert: rigid bodies
+   have entries in K */
 static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagonal, Mat *tied)
 {
   PetscBool aij;

@@ -1,9 +1,6 @@
 /*
-   Inertia. In a time step the energy of the bodies has the term
-
-     c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u + viscosity E(u - viscous)
-
-   whose gradient is the force that mass and damping take; every file builds on those before it.
+   Inertia. In a time step the energy of the bodies gets the term c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u
+   + viscosity E(u - viscous). Its gradient is the force of inertia and damping. Each file uses those listed before it.
 */
 #ifndef DYNAMICSIMPL_H
 #define DYNAMICSIMPL_H
@@ -15,13 +12,12 @@ typedef struct {
   Vec       velocity, acceleration; /* at the last state [length/time], [length/time^2] */
   Vec       auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
   Vec       inert;                  /* 1 in rows with mass that move freely, else 0 */
-  Vec       rest;    /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
-  Vec       turn;    /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
-  PetscReal inertia; /* c of the time step under way [1/time^2] */
-  Vec       centre;  /* of this step [length] */
-  PetscReal
-      viscosity; /* part of the elastic energy of u - viscous that damping by stiffness adds to this step; 0: none */
-  Vec viscous;   /* NULL: none [length] */
+  Vec       rest;      /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
+  Vec       turn;      /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
+  PetscReal inertia;   /* c of the time step under way [1/time^2] */
+  Vec       centre;    /* of this step [length] */
+  PetscReal viscosity; /* factor of the elastic energy of u - viscous, for damping by stiffness in this step; 0: none */
+  Vec       viscous;   /* NULL: none [length] */
   Elasticity elasticity; /* borrowed */
   PetscReal  kinetic;    /* energy at time 0 [force length] */
   PetscReal  damped;     /* work that damping has taken up [force length] */
@@ -32,7 +28,7 @@ static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
   return (PetscBool)(scene->time_step > 0.0 && scene->scheme == SCHEME_IMPACT);
 }
 
-/* Contact forces are this part of the multipliers of a time step */
+/* Contact forces are this fraction of the multipliers of a time step */
 static inline PetscReal SchemeShare(const SceneDynamics *scene)
 {
   return SchemeIsImpact(scene) ? 0.5 : 1.0;
@@ -49,7 +45,7 @@ PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads 
 PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsDestroy(Dynamics *);
 
-/* scheme.c: of a step of this length in time from the displacement u */
+/* scheme.c: the scheme's terms for a time step of this length from the displacement u */
 PETSC_INTERN PetscErrorCode SchemeBegin(const SceneDynamics *, PetscReal dt, Vec u, Dynamics *);
 PETSC_INTERN PetscErrorCode SchemePredict(const Dynamics *, PetscReal dt, Vec u, Vec predicted);
 PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *energy, Vec force);

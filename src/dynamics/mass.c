@@ -2,7 +2,7 @@
 #include "dynamicsimpl.h"
 #include <mesh.h>
 
-/* 1 at the nodes of elastic bodies on the faces of contact pairs without friction */
+/* Sets 1 at the nodes of elastic bodies on the faces of contact pairs without friction */
 static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
 {
   Scene scene = c->bodies.scene;
@@ -101,7 +101,8 @@ PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* Of all bodies displaced by u: energy v^T M v/2, momentum sum M v, and its moment about the origin */
+/* Kinetic energy v^T M v/2, momentum sum M v, and angular momentum about the origin, of all bodies at the displacement
+   u */
 PetscErrorCode MassMeasure(const Constraints *c, const Dynamics *d, Vec u, PetscReal *kinetic, PetscReal momentum[3],
   PetscReal spin[3])
 {

@@ -160,7 +160,7 @@ PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, V
   PetscFunctionReturn(0);
 }
 
-/* Work that damping takes up on the way to u, by the trapezoidal rule; v: velocity there */
+/* Work that damping dissipates on the way to u, by the trapezoidal rule; v: velocity there */
 static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, Vec u, Vec v, Dynamics *d)
 {
   PetscScalar product;
@@ -180,7 +180,7 @@ static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, V
   PetscFunctionReturn(0);
 }
 
-/* Velocity and accelerations at the end of a step that has led to u */
+/* Velocity and accelerations at u, the end of a time step */
 PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec before, Vec u, Dynamics *d)
 {
   const SchemeNumbers s = SchemeGetNumbers(scene);

@@ -61,7 +61,7 @@ static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat 
   PetscFunctionReturn(0);
 }
 
-/* M a = f - dE/du - damping at time 0; no acceleration where there is no mass */
+/* Accelerations at time 0: M a = f - dE/du - damping; zero where there is no mass */
 static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   PetscReal size;
@@ -109,7 +109,7 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
   PetscFunctionReturn(0);
 }
 
-/* Internal, damping and dead forces at u, which is the state, at a time in load steps */
+/* Internal, damping and dead forces at the state u, at a time in load steps */
 PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, PetscReal time, Vec u, Dynamics *d)
 {
   Vec add;
@@ -127,7 +127,7 @@ PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, Pet
   PetscFunctionReturn(0);
 }
 
-/* After the ties, before the stiffness, which has the mass of the first time step then */
+/* Call after the ties and before the stiffness, which contains the mass term of the first time step */
 PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   const SceneDynamics *scene = &c->bodies.scene->dynamics;

@@ -1,13 +1,14 @@
 /*
-   Rigid bodies that turn freely, in the impact scheme. The solver balances moments with the arms x' of the end of a
-   step, so that the forces that keep the body rigid do work: energy is lost to first order. With the arms of the mean
-   of both ends they do none, for x' - x is normal to them, and energy and angular momentum stay. Nodal forces with the
-   difference of both moments, and no resultant, are added; they are those of the last iterate.
+   Rigid bodies that turn freely, in the impact scheme. The solver balances moments with the arms x' at the end of a
+   step. The forces that keep the body rigid then do work, and energy is lost to first order. With the arms of the mean
+   of both ends they do none, because x' - x is normal to them; energy and angular momentum are then conserved.
+   Therefore nodal forces are added that have the difference of both moments and no resultant. They are computed at the
+   last iterate.
 */
 #include "dynamicsimpl.h"
 
-/* Of a body: where its centre of rotation was and is; the moment that is missing, sum w r r^T of the arms r about the
-   mean of its places, and from these w x r is the force by weight */
+/* For a body: its centre of rotation before and after; the missing moment; sum w r r^T of the arms r about the mean
+   position. From these, w x r is the force per weight */
 typedef struct {
   PetscBool turns;
   PetscReal before[3], after[3], moment[3], arms[6], w[3];
@@ -35,7 +36,7 @@ static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodi
   }
 }
 
-/* The rows of each node: places before and after, and its part of a vector */
+/* For the rows of each node: positions before and after, and the node's part of a vector */
 static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal before[3], PetscReal after[3],
   PetscReal f[3])
 {
@@ -46,7 +47,7 @@ static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal befo
   }
 }
 
-/* Adds -1/2 (way of each node beside that of the centre) x force, and the arms */
+/* Adds -1/2 (way of each node relative to the centre) x force, and the arms */
 static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force, const BodyPose poses[],
   TurnBody bodies[])
 {
@@ -120,7 +121,8 @@ static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose pos
   PetscFunctionReturn(0);
 }
 
-/* The forces of a step from a displacement to u, where its rigid bodies are; load: dead ones at its end, NULL: none */
+/* These forces for a step from a displacement to u, with the rigid bodies at their positions in u. load: dead loads at
+   the end of the step, NULL: none */
 PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Dynamics *d)
 {
   const PetscInt nbodies = c->bodies.scene->nbodies;

@@ -9,7 +9,7 @@
 
 static const PetscInt max_solves = 40;
 
-/* The sections and, for the first shortenings, the compliance of the cut cells alone */
+/* Creates the sections, and the compliance of the cut cells alone, which is used for the first shortenings */
 PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
 {
   Scene          scene = bodies->scene;
@@ -38,7 +38,7 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
   PetscFunctionReturn(0);
 }
 
-/* The compliance of the cut cells, by a difference; u: any displacement */
+/* Computes the compliance of the cut cells by a difference; u: any displacement */
 static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
 {
   const PetscReal part = 1e-6, lengths = 10.0; /* of the cube root of a body's volume */
@@ -78,7 +78,7 @@ static PetscErrorCode BoltsApply(const Bodies *bodies, const Bolts *bolts)
   PetscFunctionReturn(0);
 }
 
-/* Forces and shortenings of a load step that ends at `time`, from those of the last state, u */
+/* Sets forces and shortenings for a load step that ends at `time`, from those of the last state u */
 PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Vec u)
 {
   const PetscReal rounding = 1e-9;
@@ -101,11 +101,12 @@ PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Ve
   PetscFunctionReturn(0);
 }
 
-/* Improves the compliance by what the last two solves of this problem show */
+/* Updates the compliance with the changes of force and shortening between the last two solves of this problem */
 static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
 {
   const PetscInt  n    = bolts->n;
-  const PetscReal most = 30.0; /* by what the compliance grows at most: bolts that are not clamped yet */
+  const PetscReal most = 30.0; /* largest factor by which the compliance grows in one update: the bolts do not clamp
+                                  yet */
   PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, scale;
 
   PetscFunctionBegin;
@@ -136,9 +137,9 @@ static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
 }
 
 /*
-   After a solve with solution u: whether another one must follow, with other shortenings, since a force is not the
-   given one within the relative tolerance. failed: the name of a bolt whose force is not reached in max_solves, or
-   without a shortening that is longer than the bolt; NULL: none
+   After a solve with solution u: whether another one must follow with other shortenings, because a force differs from
+   the given one by more than the relative tolerance. failed: name of a bolt whose force is not reached in max_solves,
+   or only with a shortening longer than the bolt; NULL: none
 */
 PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolerance, Vec u, PetscBool *again,
   const char **failed)
@@ -173,7 +174,7 @@ PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolera
   PetscFunctionReturn(0);
 }
 
-/* Forces and shortenings at u become those of the last state. work: what pretension does on the way from the last one
+/* Makes the forces and shortenings at u those of the last state. work: done by the pretension since the state before
    [force length] */
 PetscErrorCode BoltsSettle(const Bodies *bodies, Bolts *bolts, Vec u, PetscReal *work)
 {

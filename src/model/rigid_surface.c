@@ -1,4 +1,4 @@
-/* Rigid surfaces that a formula describes: distance of a point, and the cube that carries the rigid motion */
+/* Rigid surfaces given by a formula: distance of a point, and the cube whose corners carry the rigid motion */
 #include "modelimpl.h"
 #include <vector3.h>
 
@@ -35,7 +35,7 @@ void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
   }
 }
 
-/* Distance and gradient in the half plane of a point: across the axis and along it */
+/* Distance and gradient in the half plane through the axis and a point: coordinates across and along the axis */
 static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscReal along, PetscReal slope[2])
 {
   const PetscReal radius = body->own[SURFACE_RADIUS], angle = body->own[SURFACE_ANGLE] * PETSC_PI / 180.0;

@@ -7,7 +7,7 @@ static PetscReal InertiaStep(Simulation sim, PetscReal time)
   return (time - sim->path->time) * SceneTimeStep(sim->scene);
 }
 
-/* The term of this step; changed: its part of the tangent is not that of the step before */
+/* Sets the inertia term for this step. changed: its tangent differs from that of the step before */
 PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
 {
   Dynamics *d = &sim->dynamics;
@@ -18,8 +18,8 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Forces of inertia and damping at u, in a new vector, without contact forces of the impact scheme that are not
-   multipliers; NULL in a static analysis */
+/* Forces of inertia and damping at u, in a new vector; NULL in a static analysis. In the impact scheme they exclude
+   the part of the contact forces that is not in the multipliers */
 PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
 {
   PetscReal energy = 0.0;

@@ -25,8 +25,8 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
   PetscFunctionReturn(0);
 }
 
-/* u: the path extrapolated to a time, in dynamics with its accelerations, with the prescribed displacements of that
-   time */
+/* u: the path extrapolated to a time (in dynamics by velocities and accelerations), with the prescribed displacements
+   of that time */
 PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 {
   PetscReal ratio = 0.0;
