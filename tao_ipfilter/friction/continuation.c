@@ -102,22 +102,31 @@ static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s,
   PetscFunctionReturn(0);
 }
 
-/* What is tried after Newton's method has failed: Newton's method with the true compliances of the rows, continuation,
-   the convex problem. begin: forces and y at the start */
-static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
-  PetscInt *steps, PetscBool *solved)
+/* Newton's method from the start with compliances computed from C. begin: forces and y at the start */
+static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem *s, PetscBool held, PetscReal begin[],
+  PetscReal *first, PetscInt *steps, PetscBool *solved)
 {
   const PetscInt limit = 60;
   PetscBool      measured;
 
   PetscFunctionBegin;
-  PetscCall(IPTermDenseMeasure(&set->system, &measured));
-  if (measured) {
-    IPTermLawsResist(set);
-    PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
-    PetscCall(IPTermSetOff(set, s, &first));
-    PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
-  }
+  PetscCall(IPTermDenseMeasure(&set->system, held, &measured));
+  if (!measured) PetscFunctionReturn(0);
+  IPTermLawsResist(set);
+  PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+  PetscCall(IPTermSetOff(set, s, first));
+  PetscCall(IPTermSetIterate(set, s, limit, *first, steps, solved));
+  PetscFunctionReturn(0);
+}
+
+/* What is tried after Newton's method has failed: Newton's method with the true compliances of the rows, continuation,
+   the convex problem. begin: forces and y at the start */
+static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
+  PetscInt *steps, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
+  if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationSolve(set, s, first, steps, solved));
   set->met = *solved;
   if (*solved) PetscFunctionReturn(0);

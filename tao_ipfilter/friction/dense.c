@@ -190,21 +190,63 @@ PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Computes all columns of C, and from them the compliances of the rows. The estimates from the diagonal of K_WW are far
-   too small for bodies that bend. *measured: false if C is too large, or was measured before */
-PetscErrorCode IPTermDenseMeasure(IPTermSystem *t, PetscBool *measured)
+/* Inverse of C + shift I in rows scaled to a diagonal of 1. N: of m x m; the lower triangle is set. *inverted: false if
+   rounding makes it indefinite */
+static PetscErrorCode TermDenseInvert(const IPTermSystem *t, const PetscReal scale[], PetscReal N[],
+  PetscBool *inverted)
+{
+  const PetscReal shift = 1e-13;
+  const size_t    m     = (size_t)t->m;
+  PetscBLASInt    mb, info = 0;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(t->m, &mb));
+  for (size_t j = 0; j < m; j++) {
+    for (size_t i = j; i < m; i++)
+      N[i + j * m] = 0.5 * scale[i] * scale[j] * (t->C[i + j * m] + t->C[j + i * m]) + (i == j ? shift : 0.0);
+  }
+  if (mb) PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &mb, N, &mb, &info));
+  if (mb && !info) PetscCallBLAS("LAPACKpotri", LAPACKpotri_("L", &mb, N, &mb, &info));
+  *inverted = (PetscBool)!info;
+  PetscFunctionReturn(0);
+}
+
+/* Compliances of rows whose neighbours are held: 1 / diag(C^-1). They are far smaller than diag(C) for bodies that bend
+   or move as a whole. */
+static PetscErrorCode TermDenseCondense(IPTermSystem *t)
+{
+  const PetscReal least = 1e-12; /* relative to diag(C): rounding */
+  PetscReal      *N, *scale;
+  PetscBool       inverted = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2((size_t)t->m * (size_t)t->m, &N, t->m, &scale));
+  for (PetscInt i = 0; i < t->m; i++) scale[i] = t->compliance[i] > 0.0 ? 1.0 / PetscSqrtReal(t->compliance[i]) : 0.0;
+  for (PetscInt i = 0; i < t->m; i++) scale[i] = PetscIsInfOrNanReal(scale[i]) ? 0.0 : scale[i];
+  PetscCall(TermDenseInvert(t, scale, N, &inverted));
+  for (PetscInt i = 0; i < t->m && inverted; i++)
+    t->compliance[i] *= PetscClipInterval(1.0 / N[(size_t)i * (size_t)(t->m + 1)], least, 1.0);
+  PetscCall(PetscFree2(N, scale));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the compliances of the rows from all columns of C: diag(C), or with `held` those of rows whose neighbours are
+   held. The estimates from the diagonal of K_WW are far too small for bodies that bend. *measured: false if C is too
+   large */
+PetscErrorCode IPTermDenseMeasure(IPTermSystem *t, PetscBool held, PetscBool *measured)
 {
   const PetscInt most = 1500;
   PetscInt      *rows;
 
   PetscFunctionBegin;
-  *measured = (PetscBool)(!t->measured && t->m <= most);
+  *measured = (PetscBool)(t->m <= most);
   if (!*measured) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(t->m, &rows));
   for (PetscInt i = 0; i < t->m; i++) rows[i] = i;
   PetscCall(TermDenseMakeColumns(t, t->m, rows));
   for (PetscInt i = 0; i < t->m; i++) t->compliance[i] = PetscMax(0.0, t->C[i + (size_t)i * (size_t)t->m]);
   PetscCall(PetscFree(rows));
-  t->measured = t->dense = PETSC_TRUE;
+  if (held) PetscCall(TermDenseCondense(t));
+  t->dense = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -25,7 +25,6 @@ typedef struct {
   PetscInt      fresh;       /* iterations that GMRES needed when the factors were new */
   PetscBool     stale;       /* the factors must be renewed */
   PetscBool     dense;       /* GMRES has failed: systems of all sizes are solved by dense.c */
-  PetscBool     measured;    /* compliance is the diagonal of C, not an estimate */
   PetscReal    *C;           /* columns of C, of length m; NULL: none is computed */
   PetscBool    *computed;    /* which columns are computed */
 } IPTermSystem;
@@ -64,7 +63,7 @@ PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[
 
 /* dense.c */
 PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);
-PETSC_INTERN PetscErrorCode IPTermDenseMeasure(IPTermSystem *, PetscBool *measured);
+PETSC_INTERN PetscErrorCode IPTermDenseMeasure(IPTermSystem *, PetscBool held, PetscBool *measured);
 PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscInt most, PetscReal rf[],
   PetscReal ry[], PetscBool *solved);
 

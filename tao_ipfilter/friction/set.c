@@ -274,6 +274,16 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
+/* Residual that rounding leaves, of forces that are large compared with their changes [square root of energy] */
+static PetscReal TermSetRounding(const IPTermSet *set, const IPReducedSystem *s)
+{
+  const PetscReal exact = 1e-13;
+  PetscReal       sum   = 0.0;
+
+  for (PetscInt r = 0; r < s->m; r++) sum += PetscSqr(s->lambda[r]) * IPTermLawsCompliance(set, r);
+  return exact * PetscSqrtReal(sum);
+}
+
 /* off: square root of the squared residuals of the laws and of the directions, weighted as an energy */
 PetscErrorCode IPTermSetOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *off)
 {
@@ -332,7 +342,7 @@ static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, Pe
     PetscBool changed;
 
     PetscCall(IPTermSetOff(set, s, &off));
-    *solved = (PetscBool)(k > 0 && off <= enough * first);
+    *solved = (PetscBool)(off <= (k > 0 ? PetscMax(enough * first, TermSetRounding(set, s)) : TermSetRounding(set, s)));
     if (off < state->off) {
       state->off = off;
       PetscCall(TermSetCopy(set, s, state, PETSC_FALSE));

@@ -59,6 +59,25 @@ def leaves(n, friction, thickness=0.3):
     return f"problem: leaves\nbodies:\n{bodies}displacements:\n{displacements}  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\ncontact:\n{pairs}"
 
 
+def tower(law):
+    """A block pressed on a floor and pushed along its top so that half of its base lifts off: vertices beside the part in contact would neither stick nor open"""
+    return f"""problem: tower
+bodies:
+  - floor: {{lower: [-2, -1, -1], upper: [2, 1, 0], cells: [12, 6, 2], young: 1e4, poisson: 0.3}}
+  - block: {{lower: [-0.5, -0.5, 0], upper: [0.5, 0.5, 2], cells: [6, 6, 7], young: 1e5, poisson: 0.45}}
+displacements:
+  - fix: {{face: floor.zmin, value: [0, 0, 0]}}
+pressures:
+  - press: {{face: block.zmax, value: {PRESS}}}
+tractions:
+  - push: {{face: block.zmax, value: [{PUSH}, 0, 0]}}
+{"contact" if law else "ties"}:
+  - base: {{mortar: floor.zmax, nonmortar: block.zmin{law}}}
+load: {{steps: 2}}
+"""
+
+
+PRESS, PUSH = 100, 20
 SCENES = {
     "tied": pad(""),
     "sticks": pad(", stick: true"),
@@ -70,7 +89,7 @@ SCENES = {
     "finite_quarter": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean", QUARTER),
     "leaves": leaves(5, 0.1),
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
-} | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true")}
+} | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true"), "tower": tower(", friction: 0.6"), "tower_sticks": tower(", stick: true"), "tower_tied": tower("")}
 
 
 def load(name):
@@ -105,6 +124,12 @@ else:
         for pair in step["pairs"]:
             most = coefficient * pair["normal_force"]
             say(f"{name}, {pair['name']}: pressed, and friction within its law", 0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
+    energies = [load(name)["energy"] for name in ("tower_tied", "tower_sticks", "tower")]
+    say("tower_sticks: softer than what is tied, stiffer than what slides", energies == sorted(energies), energies)
+    for name in "tower", "tower_sticks":
+        pair = load(name)["pairs"][0]
+        off = max(abs(abs(found) - applied) for found, applied in zip(pair["force"], (PUSH, 0, PRESS)))
+        say(f"{name}: carries what is applied, and part of the base is open", off < 1e-6 * PRESS and 0.1 < pair["area"] < 0.9, pair)
     for name, blocks in (STACKS | {"unlike_sticks": UNLIKE}).items():
         for i, pair in enumerate(load(name)["pairs"]):
             weight = sum(width**2 * height for width, height, _, _ in blocks[i:])
