@@ -11,7 +11,7 @@
 
 /* fraction of a facet that may stay uncovered, in total and around a vertex: rounding, or facets that cut the corners
    of curved faces */
-static const PetscReal tie_uncovered = 1e-3, tie_uncovered_vertex = 0.3;
+static const PetscReal tie_uncovered = 2e-2, tie_uncovered_vertex = 0.3;
 
 /* Sums: matrix entries of nodes, and for each node its covered and its whole area */
 typedef struct {

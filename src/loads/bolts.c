@@ -5,7 +5,7 @@
    that it learns, the compliance of bolts and clamped parts, is kept for all solves of the run.
 */
 #include "loadsimpl.h"
-#include <math.h>
+#include <vector3.h>
 
 static const PetscInt max_solves = 40;
 
@@ -38,10 +38,35 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
   PetscFunctionReturn(0);
 }
 
-/* Computes the compliance of the cut cells by a difference; u: any displacement */
+/* Length of a body along an axis [length] */
+static PetscErrorCode BoltsMeasureLength(const Bodies *bodies, const SceneBolt *bolt, PetscReal *length)
+{
+  const PetscScalar *x;
+  PetscReal          ends[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* largest place along the axis, and against it */
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(bodies->places.x, &n));
+  PetscCall(VecGetArrayRead(bodies->places.x, &x));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal place[3] = {PetscRealPart(x[i]), PetscRealPart(x[i + 1]), PetscRealPart(x[i + 2])};
+    const PetscReal along    = VectorDot(place, bolt->axis) / VectorNorm(bolt->axis);
+
+    if (bodies->places.body[i / 3] != bolt->body) continue;
+    ends[0] = PetscMax(ends[0], along);
+    ends[1] = PetscMax(ends[1], -along);
+  }
+  PetscCall(VecRestoreArrayRead(bodies->places.x, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPIU_REAL, MPIU_MAX, bodies->comm));
+  *length = ends[0] + ends[1];
+  PetscFunctionReturn(0);
+}
+
+/* The compliance that is tried first: that of a bar with length and volume of the body, or of the cut cells if that is
+   larger. u: any displacement */
 static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
 {
-  const PetscReal part = 1e-6, lengths = 10.0; /* of the cube root of a body's volume */
+  const PetscReal part = 1e-6;
   PetscReal      *volume, *before, *after;
 
   PetscFunctionBegin;
@@ -49,13 +74,17 @@ static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
   PetscCall(SpringsMeasureVolumes(bodies, volume));
   PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, before));
   for (PetscInt b = 0; b < bolts->n; ++b) {
-    const PetscReal size = part * PetscCbrtReal(volume[bodies->scene->bolts[b].body]);
+    const SceneBolt *bolt  = &bodies->scene->bolts[b];
+    const PetscReal  young = bodies->scene->bodies[bolt->body].material.young;
+    PetscReal        length, layer;
 
-    PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b] + size));
+    PetscCall(BoltsMeasureLength(bodies, bolt, &length));
+    PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b] + part * length));
     PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, after));
     PetscCall(ElasticitySetShortening(bodies->elasticity, b, bolts->now[b]));
-    bolts->compliance[b * bolts->n + b] = size / (after[b] - before[b]);
-    bolts->most[b]                      = lengths / part * size;
+    layer                               = part * length / (after[b] - before[b]);
+    bolts->compliance[b * bolts->n + b] = PetscMax(layer, length * length / (young * volume[bolt->body]));
+    bolts->most[b]                      = length;
   }
   PetscCall(PetscFree3(volume, before, after));
   PetscFunctionReturn(0);
