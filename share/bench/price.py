@@ -4,8 +4,8 @@
     share/bench/price.py [SCENE=REFINE ...]      by default the six scenes below
 
 Each scene runs three times. The load step as chosen is compared with CG by BoomerAMG's own cycle, which is a run of
-its own; the load step by AMG alone with CG by the default cycle of the same run. Times are wall times: use an idle
-machine.
+one load step; the load step by AMG alone with CG by the default cycle of the same run. Times are wall times: use an
+idle machine, or LD_PRELOAD=build/published/cpuclock.so, which makes them processor times.
 """
 import json
 import os
@@ -15,7 +15,7 @@ import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 CASES = ["two_block=1", "ironing=1", "beam_sphere_linear=1", "hertz_sphere=0", "hertz_cylinder=1", "press_fit=2"]
-HYPRE = ["-tao_ipfilter_amgf_amg_pc_type", "hypre"]
+HYPRE = ["-tao_ipfilter_amgf_amg_pc_type", "hypre", "-load_steps", "1", "-contact_updates", "1"]
 
 
 def run(scene, refine, folder, *options):
