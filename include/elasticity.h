@@ -34,6 +34,8 @@ PETSC_EXTERN PetscErrorCode ElasticityGetAssemblies(Elasticity, PetscInt body, P
 PETSC_EXTERN PetscErrorCode ElasticityEnergy(Elasticity, Vec u, PetscReal *);
 /* Internal force dE/du at u on all rows, the prescribed ones too (there it is the reaction) [force] */
 PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
+/* By how much the mean force of a step, which keeps energy and momentum, exceeds the mean of the forces at its ends */
+PETSC_EXTERN PetscErrorCode ElasticityExcess(Elasticity, Vec from, Vec to, Vec excess, PetscBool *valid);
 /* Add dead loads to a global vector [force]: -pressure x reference normal over a face; a force per reference volume
    in a body (PETSC_DECIDE: in every body) */
 PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);

@@ -45,7 +45,7 @@ static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[
   PetscFunctionReturn(0);
 }
 
-/* At path.u and path.time, which are set before. Temperatures of that time are part of the forces */
+/* At path.u and path.time, which are set before, as plastic strains are. Forces have the temperatures of that time */
 static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
 {
   const Constraints constraints = SimulationConstraints(sim);
@@ -188,9 +188,9 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
   if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
-  if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetPlastic(sim->scene, sim->comm, sim->elasticity, checkpoint));
+  if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
   PetscCall(FrictionRecall(sim));
   PetscFunctionReturn(0);

@@ -1,6 +1,9 @@
 /*
-   Inertia. In a time step the energy of the bodies gets the term c/2 (u - centre)^T M (u - centre) + (rest + turn)^T u
-   + viscosity E(u - viscous). Its gradient is the force of inertia and damping. Each file uses those listed before it.
+   Inertia. In a time step the energy of the bodies gets the term
+
+     c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u - viscous)
+
+   Its gradient is the force of inertia and damping. Each file uses those listed before it.
 */
 #ifndef DYNAMICSIMPL_H
 #define DYNAMICSIMPL_H
@@ -12,10 +15,12 @@ typedef struct {
   Vec       velocity, acceleration; /* at the last state [length/time], [length/time^2] */
   Vec       auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
   Vec       inert;                  /* 1 in rows with mass that move freely, else 0 */
-  Vec       rest;      /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
-  Vec       turn;      /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
-  PetscReal inertia;   /* c of the time step under way [1/time^2] */
-  Vec       centre;    /* of this step [length] */
+  Vec       rest;    /* impact scheme: internal, damping and dead forces at the last state; else NULL [force] */
+  Vec       turn;    /* impact scheme: forces of turn.c; NULL: no rigid body turns freely [force] */
+  Vec       excess;  /* impact scheme: twice that of the mean internal force, of the last iterate; NULL: all bodies have
+                          a quadratic energy [force] */
+  PetscReal inertia; /* c of the time step under way [1/time^2] */
+  Vec       centre;  /* of this step [length] */
   PetscReal viscosity; /* factor of the elastic energy of u - viscous, for damping by stiffness in this step; 0: none */
   Vec       viscous;   /* NULL: none [length] */
   Elasticity elasticity; /* borrowed */

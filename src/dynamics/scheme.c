@@ -104,12 +104,12 @@ static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *ener
 /* Adds the term of this step at u; force may be NULL */
 PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
-  const Vec constant[2] = {d->rest, d->turn};
+  const Vec constant[] = {d->rest, d->turn, d->excess};
 
   PetscFunctionBegin;
   if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
   if (d->viscous) PetscCall(SchemeAddViscous(d, u, energy, force));
-  for (int k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(constant); ++k) {
     PetscScalar work;
 
     if (!constant[k]) continue;

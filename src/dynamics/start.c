@@ -170,5 +170,6 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->viscous));
   PetscCall(VecDestroy(&d->rest));
   PetscCall(VecDestroy(&d->turn));
+  PetscCall(VecDestroy(&d->excess));
   PetscFunctionReturn(0);
 }

@@ -18,6 +18,19 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
+/* Sets the excess of the mean internal force to that of a step to u */
+PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
+{
+  Dynamics *d = &sim->dynamics;
+  PetscBool valid;
+
+  PetscFunctionBegin;
+  if (!d->excess) PetscCall(VecDuplicate(u, &d->excess));
+  PetscCall(ElasticityExcess(sim->elasticity, sim->path->u, u, d->excess, &valid));
+  PetscCall(VecScale(d->excess, 2.0));
+  PetscFunctionReturn(0);
+}
+
 /* Forces of inertia and damping at u, in a new vector; NULL in a static analysis. In the impact scheme they exclude
    the part of the contact forces that is not in the multipliers */
 PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
@@ -31,6 +44,30 @@ PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
   PetscCall(VecZeroEntries(*force));
   PetscCall(SchemeAddForce(&sim->dynamics, u, &energy, *force));
   PetscCall(VecScale(*force, -1.0));
+  PetscFunctionReturn(0);
+}
+
+/* change: of the excess, on free rows, to that of a step to u, relative to the larger of the internal forces at both
+   ends; 0 where it is below their rounding */
+PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, PetscReal *change)
+{
+  Dynamics *d = &sim->dynamics;
+  PetscReal before, after;
+  Vec       force, last;
+
+  PetscFunctionBegin;
+  PetscCall(InertiaGetForce(sim, u, &force));
+  PetscCall(VecNorm(force, NORM_2, &after));
+  PetscCall(VecNorm(d->rest, NORM_2, &before));
+  last      = d->excess;
+  d->excess = force;
+  PetscCall(InertiaSetExcess(sim, u));
+  PetscCall(VecAXPY(d->excess, -1.0, last));
+  PetscCall(PrescribedSet(&sim->prescribed, 0.0, d->excess));
+  PetscCall(VecNorm(d->excess, NORM_2, change));
+  *change = *change > rounding ? *change / PetscMax(rounding, PetscMax(before, after)) : 0.0;
+  PetscCall(VecDestroy(&d->excess));
+  d->excess = last;
   PetscFunctionReturn(0);
 }
 

@@ -52,6 +52,7 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
     PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
     PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
     PetscCall(StepProblemAdvanceBolts(p, u, report, &again));
+    PetscCall(FollowersAdvanceMean(p, u, nsolves, report, &again));
     PetscCall(ProximalRescue(p, u, report, &rescued));
     if (rescued) nsolves = 0;
   } while (again || rescued);

@@ -1,4 +1,6 @@
 /*
+   Forces that depend on the solution. In time steps: the mean of the internal forces (src/elasticity/mean_force.c).
+
    Pressures that follow their faces (follower loads). Within a solve the load is linear in the displacement: its value
    at a centre plus the symmetric part of its derivative there, so that it has a potential. After each solve the centre
    moves towards the solution, until the linearized load agrees with the load at the solution. Where the derivative is
@@ -6,6 +8,7 @@
 */
 #include "stepimpl.h"
 #include "src/state/control.h"
+#include "src/state/path.h"
 
 static const PetscInt max_followed = 50;
 
@@ -129,5 +132,41 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   } else
     PetscCall(ReportReason(report, PETSC_FALSE,
       "no equilibrium was found with the pressures that follow their faces; use smaller load steps"));
+  PetscFunctionReturn(0);
+}
+
+/* In time steps of the impact scheme: starts with the mean internal force of one whose accelerations stay */
+PetscErrorCode FollowersForesee(StepProblem *p)
+{
+  PetscFunctionBegin;
+  if (!p->sim->dynamics.rest || p->sim->quadratic) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->base, &p->meant));
+  if (p->sim->contact) PetscCall(VecCopy(p->sim->path->u, p->meant));
+  else PetscCall(PathContinue(p->sim, p->time, p->meant));
+  PetscCall(InertiaSetExcess(p->sim, p->meant));
+  PetscFunctionReturn(0);
+}
+
+/* Whether another solve with another mean internal force must follow; early contact updates go on with it */
+PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
+{
+  Simulation      sim       = p->sim;
+  const PetscReal tolerance = 1e-4; /* the error of the energy is of second order in it */
+  const PetscInt  most      = 15;
+  PetscReal       size, change;
+  PetscBool       damped;
+
+  PetscFunctionBegin;
+  if (!p->meant || !report->converged) PetscFunctionReturn(0);
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  PetscCall(InertiaMeasureExcess(sim, u, MEASURE_ROUNDING * sim->stiffness * size, &change));
+  if (change <= tolerance) PetscFunctionReturn(0);
+  if (nsolves < most) {
+    PetscCall(ContactUpdateSecantsAdvance(&p->mean_secants, change, u, p->meant, &damped));
+    PetscCall(InertiaSetExcess(sim, p->meant));
+    *again = (PetscBool)(*again || !p->ended_early);
+  } else
+    PetscCall(ReportReason(report, PETSC_FALSE,
+      "no mean of the internal forces of the time step keeps its energy; use smaller time steps"));
   PetscFunctionReturn(0);
 }

@@ -69,6 +69,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
   if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
+  PetscCall(FollowersForesee(p));
   if (!sim->quadratic) PetscFunctionReturn(0);
 
   PetscCall(VecDuplicate(sim->path->u, &p->force));
@@ -164,6 +165,8 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->base));
   PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));
+  PetscCall(VecDestroy(&p->meant));
+  PetscCall(ContactUpdateSecantsDestroy(&p->mean_secants));
   PetscCall(ContactUpdateSecantsDestroy(&p->secants));
   PetscCall(VecDestroy(&p->load));
   PetscCall(VecDestroy(&p->force));

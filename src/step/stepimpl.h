@@ -60,6 +60,8 @@ typedef struct {
   Vec                  lower, upper; /* NULL without bounds */
   ContactUpdateSecants secants;      /* of the follower loads */
   Vec                  followed;     /* centre at which follower loads are linearized; NULL: no follower loads */
+  Vec                  meant;        /* where the mean internal force of a time step is evaluated; NULL: needless */
+  ContactUpdateSecants mean_secants; /* of it */
   Vec                  centre, held; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
                                         proximal term; NULL: none */
   PetscBool            unheld;       /* proven: contact cannot hold the loads with the bodies in the positions of the
@@ -100,6 +102,9 @@ PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersTurn(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersForget(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode FollowersForesee(StepProblem *);
+PETSC_INTERN PetscErrorCode FollowersAdvanceMean(StepProblem *, Vec u, PetscInt nsolves, StepReport *,
+  PetscBool *again);
 PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
 /* proximal.c */

@@ -41,6 +41,7 @@ SPIN = """bodies:
   - rod: {lower: [-1, -0.1, -0.1], upper: [1, 0.1, 0.1], cells: [6, 1, 1], material: neohookean, young: 1e3, poisson: 0.3, density: 1, initial_spin: [0, 0, 2]}
 dynamics: {time_step: 0.05, end_time: 5, scheme: generalized_alpha, spectral_radius: 0.9, mass: consistent}
 """
+SPIN_IMPACT = SPIN.replace(", scheme: generalized_alpha, spectral_radius: 0.9", "")
 RIGID = """bodies:
   - ball: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: rigid, density: 2, initial_velocity: [3, 0, 1]}
   - other: {lower: [5, 0, 0], upper: [6, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0, density: 1}
@@ -67,7 +68,7 @@ PENDULUM = TURN.replace("lower: [0, 0, 0], upper: [1, 1, 1]", "lower: [0, 0, -1]
     "[free, free, free], rotation: [free, free, free], center: [0.5, 0.5, 0.5]", "[0, 0, 0], rotation: [0, free, 0], center: [0.1, 0.1, 0]").replace(
     "dynamics: {time_step: 0.02, end_time: 1.6}", "body_forces:\n  - weight: {body: cube, value: [5, 0, -9.81]}\nload: {expression: \"1\"}\ndynamics: {time_step: 0.05, end_time: 3}")
 SCENES = {"tumble": TUMBLE, "pendulum": PENDULUM, "turn": TURN, "massless": TURN.replace("material: rigid, density: 1", "material: rigid"), "bars": BARS, "bars_alpha": BARS.replace("80e-6", "80e-6, scheme: generalized_alpha"), "slide": SLIDE, "bounce": BOUNCE,
-          "bounce_damped": BOUNCE.replace("end_time: 0.4", "end_time: 0.4, damping_mass: 2"), "spin": SPIN, "rigid": RIGID}
+          "bounce_damped": BOUNCE.replace("end_time: 0.4", "end_time: 0.4, damping_mass: 2"), "spin": SPIN, "spin_impact": SPIN_IMPACT, "rigid": RIGID}
 
 
 def differ(one, other, keys):
@@ -110,6 +111,9 @@ else:
     spin, total = run["dynamics.angular_momentum_z"], run["dynamics.total_energy"]
     say("spin: angular momentum within 1 %", all(within(value, spin[0], 0.01) for value in spin), spin)
     say("spin: energy within 2 %, and it does not grow", all(within(value, total[0], 0.02) for value in total), total)
+    run = history("spin_impact")
+    spin, total = run["dynamics.angular_momentum_z"], run["dynamics.total_energy"]
+    say("spin, impact scheme: angular momentum and energy to 1e-5", max(abs(value / values[0] - 1) for values in (spin, total) for value in values) < 1e-5, (spin, total))
     run = history("rigid")
     say("rigid: x = 3 t, z = t - 5 t^2", all(abs(x - 3 * t) < 1e-8 and abs(z - (t - 5 * t * t)) < 1e-6 for t, x, z in zip(run["time"], run["middle.displacement_x"], run["middle.displacement_z"])),
         (run["middle.displacement_x"][-1], run["middle.displacement_z"][-1]))

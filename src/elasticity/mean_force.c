@@ -1,0 +1,196 @@
+/*
+   Mean force f of a step from U to U', whose work f (U' - U) is the change of a cell's energy, plastic work included,
+   and which has no moment about the mean of its places (Simo and Tarnow, The discrete energy-momentum method, 1992;
+   Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000):
+
+     f = int F_m (S_m + alpha dE) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F)
+
+   with the means F_m and S_m of both ends, and one alpha for the cell. Laws of small strain have F_m = I, S = P. The
+   mean of the forces at both ends would not do: where a metal begins to yield, its stress is concave in the strain, so
+   that the mean takes too little energy.
+*/
+#include "elasticityimpl.h"
+
+/* At a point: weight, gradients, F_m; at both ends F - I, P; then S_m, and dE */
+typedef struct {
+  PetscReal w, G[3][CELL_MAX_NODES], F[3][3], H[2][9], P[2][9], S[3][3], dE[3][3];
+} MeanPoint;
+
+/* Energy density and stress at an element's strains */
+static PetscBool MeanEvaluate(const BodyMaterial *m, PetscInt q, const PetscReal H[ELEMENT_STRAINS], PetscReal P[9],
+  PetscReal *energy)
+{
+  PetscReal             C[9];
+  MaterialModuli        own;
+  const MaterialModuli *moduli = CellModuli(&m->isochoric, q, &own);
+
+  *energy = m->law->energy(moduli, H) + 0.5 * m->moduli.bulk * H[9] * H[9];
+  if (!m->law->stress(moduli, H, P)) return PETSC_FALSE;
+  (void)m->law->dilatation(H, C);
+  for (int i = 0; i < 9; ++i) P[i] += m->moduli.bulk * H[9] * C[i];
+  return PETSC_TRUE;
+}
+
+static void MeanSetGradient(const PetscReal H[9], PetscReal F[3][3])
+{
+  for (int i = 0; i < 9; ++i) F[i / 3][i % 3] = H[i] + (i % 4 ? 0 : 1);
+}
+
+/* Sets F_m, S_m and dE. change: F' - F of the nodes */
+static void MeanSetPoint(PetscBool finite, const PetscReal change[9], MeanPoint *p)
+{
+  PetscReal identity[9] = {0}, F[3][3], C[3][3];
+
+  for (int i = 0; i < 9; ++i) p->S[i / 3][i % 3] = p->dE[i / 3][i % 3] = 0;
+  MeanSetGradient(identity, p->F);
+  for (int end = 0; end < 2; ++end) {
+    PetscReal det;
+
+    MeanSetGradient(finite ? p->H[end] : identity, F);
+    det = MatrixCofactors(F, C);
+    for (int i = 0; i < 9; ++i) {
+      if (finite) p->F[i / 3][i % 3] += 0.5 * p->H[end][i];
+      for (int k = 0; k < 3; ++k) {
+        const PetscReal S = 0.25 * C[k][i / 3] * p->P[end][3 * k + i % 3] / det;
+
+        p->S[i / 3][i % 3] += S;
+        p->S[i % 3][i / 3] += S;
+      }
+    }
+  }
+  for (int i = 0; i < 9; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      p->dE[i / 3][i % 3] += 0.5 * p->F[k][i / 3] * change[3 * k + i % 3];
+      p->dE[i % 3][i / 3] += 0.5 * p->F[k][i / 3] * change[3 * k + i % 3];
+    }
+  }
+}
+
+/* alpha: 0 where what is missing is rounding */
+static PetscReal MeanGetFactor(PetscInt npoints, const MeanPoint points[], PetscReal gained, PetscReal size)
+{
+  const PetscReal rounding = 1e3 * PETSC_MACHINE_EPSILON;
+  PetscReal       work = 0, square = 0;
+
+  for (PetscInt q = 0; q < npoints; ++q) {
+    for (int i = 0; i < 9; ++i) {
+      work += points[q].w * points[q].S[i / 3][i % 3] * points[q].dE[i / 3][i % 3];
+      square += points[q].w * PetscSqr(points[q].dE[i / 3][i % 3]);
+    }
+  }
+  return PetscAbsReal(gained - work) > rounding * size ? (gained - work) / square : 0;
+}
+
+/* F += factor int F_m (S_m + alpha dE) : dN/dX - the mean of the forces at both ends */
+static void MeanAddForce(PetscInt n, const MeanPoint *p, PetscReal alpha, PetscReal F[3][CELL_MAX_NODES])
+{
+  PetscReal P[9];
+
+  for (int i = 0; i < 9; ++i) {
+    P[i] = -0.5 * (p->P[0][i] + p->P[1][i]);
+    for (int k = 0; k < 3; ++k) P[i] += p->F[i / 3][k] * (p->S[k][i % 3] + alpha * p->dE[k][i % 3]);
+  }
+  CellForceAdd((int)n, p->w, (PetscReal(*)[CELL_MAX_NODES])p->G, P, F);
+}
+
+/* Of a cell: mean force less the mean of the forces at its displacements U[0] and U[1] */
+static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
+{
+  const CellBasis *basis = cell->body->basis;
+  PetscReal        w[CELL_MAX_POINTS], H[2][CELL_MAX_POINTS][ELEMENT_STRAINS], way[3][CELL_MAX_NODES];
+  PetscReal        gained = 0, size = 0, alpha;
+  MeanPoint        points[CELL_MAX_POINTS];
+
+  for (int end = 0; end < 2; ++end)
+    cell->body->element->strains(basis, cell->material, cell->X, cell[end].U, w, H[end]);
+  for (int i = 0; i < 3; ++i) {
+    for (PetscInt a = 0; a < cell->n; ++a) {
+      way[i][a] = cell[1].U[i][a] - cell[0].U[i][a];
+      F[i][a]   = 0;
+    }
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    MeanPoint *p = &points[q];
+    PetscReal  change[9];
+
+    p->w = CellGradients((int)cell->n, basis, q, cell->X, p->G);
+    CellDisplacementGradient((int)cell->n, way, p->G, change);
+    for (int end = 0; end < 2; ++end) {
+      PetscReal energy;
+
+      if (!MeanEvaluate(cell->material, q, H[end][q], p->P[end], &energy)) return PETSC_FALSE;
+      for (int i = 0; i < 9; ++i) p->H[end][i] = H[end][q][i];
+      gained += (end ? 1 : -1) * p->w * energy;
+      size += p->w * energy;
+    }
+    MeanSetPoint(cell->material->law->finite, change, p);
+  }
+  alpha = MeanGetFactor(basis->npoints, points, gained, size);
+  for (PetscInt q = 0; q < basis->npoints; ++q) MeanAddForce(cell->n, &points[q], alpha, F);
+  return PETSC_TRUE;
+}
+
+/*@
+  ElasticityExcess - Computes by how much the mean force of a step, which keeps energy and momentum, exceeds the mean of
+  the forces at its ends
+
+  Collective
+
+  Input Parameters:
++ elasticity - the context
+. from       - displacement at the start, a state of equilibrium, global, 3 components per node [length]
+- to         - displacement at the end [length]
+
+  Output Parameters:
++ excess - on all rows; zero if a cell is turned inside out [force]
+- valid  - whether none is
+
+  Level: intermediate
+
+  Notes:
+  The work of mean force is the change of the energy, `ElasticityEnergy()`, which has the plastic work in it. It has
+  neither resultant nor moment about the mean of the places. For bodies with a constant tangent the excess is zero.
+
+  References:
+. * - Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000.
+
+.seealso: `ElasticityForce()`, `ElasticityCommit()`
+@*/
+PetscErrorCode ElasticityExcess(Elasticity e, Vec from, Vec to, Vec excess, PetscBool *valid)
+{
+  Vec                locals[2], flocal;
+  const PetscScalar *ul[2], *x;
+  PetscScalar       *fl;
+
+  PetscFunctionBegin;
+  *valid = PETSC_TRUE;
+  PetscCall(PetscLogEventBegin(ELASTICITY_Force, to, excess, 0, 0));
+  PetscCall(ElasticityGetLocals(e, from, &locals[0], &ul[0], &x));
+  PetscCall(DMGetLocalVector(e->dm, &locals[1]));
+  PetscCall(DMGlobalToLocal(e->dm, to, INSERT_VALUES, locals[1]));
+  PetscCall(VecGetArrayRead(locals[1], &ul[1]));
+  PetscCall(DMGetLocalVector(e->dm, &flocal));
+  PetscCall(VecZeroEntries(flocal));
+  PetscCall(VecGetArray(flocal, &fl));
+  for (PetscInt c = 0; c < e->ncells && *valid; ++c) {
+    CellState cells[2];
+    PetscReal F[3][CELL_MAX_NODES];
+
+    if (e->bodies[e->cellbody[c]].material.law->constant) continue;
+    for (int end = 0; end < 2; ++end) ElasticityGetCell(e, c, x, ul[end], &cells[end]);
+    *valid = CellExcess(cells, F);
+    for (int a = 0; a < cells->n && *valid; ++a) {
+      for (int i = 0; i < 3; ++i) fl[3 * cells->nodes[a] + i] += F[i][a];
+    }
+  }
+  PetscCall(VecRestoreArray(flocal, &fl));
+  PetscCall(VecRestoreArrayRead(locals[1], &ul[1]));
+  PetscCall(DMRestoreLocalVector(e->dm, &locals[1]));
+  PetscCall(ElasticityRestoreLocals(e, &locals[0], &ul[0], &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, valid, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)e->dm)));
+  PetscCall(VecZeroEntries(excess));
+  if (*valid) PetscCall(DMLocalToGlobal(e->dm, flocal, ADD_VALUES, excess));
+  PetscCall(DMRestoreLocalVector(e->dm, &flocal));
+  PetscCall(PetscLogEventEnd(ELASTICITY_Force, to, excess, 0, 0));
+  PetscFunctionReturn(0);
+}
