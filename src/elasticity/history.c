@@ -141,7 +141,7 @@ PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, Pet
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* of each body, and behind them the elastic energy */
+  PetscReal         *sums; /* plastic work of each body, then the elastic energy of all */
   PetscBool          flows = PETSC_FALSE;
 
   PetscFunctionBegin;

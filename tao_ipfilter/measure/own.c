@@ -46,9 +46,9 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscReal *own)
 {
   const PetscScalar *a[5];
-  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* followed by J x, the sums, the largest entries */
-  PetscReal          local = 0.0, xsize;
-  PetscInt           n;
+  Vec       v[5]  = {c, violation, NULL, NULL, NULL}; /* c, the violation, J x, and the results of IPOwnTerms() */
+  PetscReal local = 0.0, xsize;
+  PetscInt  n;
 
   PetscFunctionBegin;
   for (PetscInt k = 2; k < 5; k++) PetscCall(IPGetWork(tao, space, &v[k]));
