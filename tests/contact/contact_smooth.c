@@ -533,7 +533,7 @@ int main(int argc, char **argv)
 /*TEST
 
    test:
-      nsize: {{1 2 3}}
+      nsize: {{1 3 2}}
       output_file: output/contact_smooth_1.out
 
 TEST*/

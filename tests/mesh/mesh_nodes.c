@@ -78,7 +78,12 @@ int main(int argc, char **argv)
 
    test:
       suffix: shapes
-      nsize: {{1 3}}
+      nsize: 3
+      args: -scene ${AMGF_DIR}/tests/mesh/mesh_shapes.yaml
+
+   test:
+      suffix: shapes_long
+      output_file: output/mesh_nodes_shapes.out
       args: -scene ${AMGF_DIR}/tests/mesh/mesh_shapes.yaml
 
 TEST*/
