@@ -197,6 +197,16 @@ typedef struct {
   PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
+/* A spring between a point of a body and the ground, or a point of another body */
+typedef struct {
+  char     *name;
+  PetscInt  body, to;    /* to: PETSC_DECIDE: the ground */
+  PetscReal point[2][3]; /* of the body, and of the other one [length] */
+  PetscBool axial;       /* the spring acts along the line between the points, not along the axes */
+  PetscReal stiffness;   /* then [force/length] */
+  PetscReal value[3];    /* else: along x, y, z [force/length] */
+} SceneConnector;
+
 /* Pretension of a bolt: a section through a body, with a force or a shortening */
 typedef struct {
   char     *name;
@@ -295,6 +305,8 @@ typedef struct _n_Scene {
   SceneSpring       *springs;
   PetscReal       weak_springs; /* stiffness of the weak springs on bodies that move freely, relative to Young's modulus
                              times the cube root of the volume; 0: none */
+  PetscInt        nconnectors;
+  SceneConnector *connectors;
   PetscInt        nbolts;
   SceneBolt      *bolts;
   PetscInt        nforces;

@@ -43,6 +43,13 @@ typedef struct {
   PetscReal   rotation[3]; /* [degrees] */
 } RigidReport;
 
+/* A spring between two points */
+typedef struct {
+  const char *name;
+  PetscReal   force[3];  /* on the first body [force] */
+  PetscReal   offset[3]; /* displacement of the second point relative to the first [length] */
+} ConnectorReport;
+
 /* Pretension of a bolt */
 typedef struct {
   const char *name;
@@ -110,70 +117,72 @@ typedef struct {
   PetscReal            energy; /* strain energy, elastic [force length] */
   PetscReal            plastic_work;   /* work of the stresses on the plastic strains since the start [force length] */
   PetscReal            plastic_strain; /* largest equivalent plastic strain of all bodies */
-  PetscReal    work; /* work of the dead loads and of the reactions on driven faces since the start, by the trapezoidal
+  PetscReal   work; /* work of the dead loads and of the reactions on driven faces since the start, by the trapezoidal
                      rule over all solves [force length] */
-  PetscReal    contact_work; /* work taken up by the contacts since the start, by the same rule: friction and normal
+  PetscReal   contact_work; /* work taken up by the contacts since the start, by the same rule: friction and normal
                              forces; 0 if no pair has friction [force length] */
-  PetscReal    normal_work;  /* the part of contact_work that is not friction: gaps that close within a step, and the
+  PetscReal   normal_work;  /* the part of contact_work that is not friction: gaps that close within a step, and the
                              error of the linearized contact [force length] */
-  PetscReal    imbalance; /* energy balance of this load step: work that is neither stored nor taken up by the contacts,
+  PetscReal   imbalance; /* energy balance of this load step: work that is neither stored nor taken up by the contacts,
                           over the largest of the three. NaN: no pair has friction, or bodies expand by heat */
-  PetscReal    potential; /* minimized function: strain energy - work of dead loads, or its quadratic model [force
+  PetscReal   potential; /* minimized function: strain energy - work of dead loads, or its quadratic model [force
                           length] */
-  PetscReal    equilibrium; /* norm of (internal + contact - dead forces) on free rows / norm of all internal forces */
-  PetscReal    kkt_error;   /* scaled, dimensionless */
-  PetscReal    kkt_error_unscaled;
-  PetscReal    gap_min;    /* smallest linearized gap, negative: penetration [length]; NaN: no contact rows */
-  PetscReal    gap_true;   /* smallest gap of the deformed bodies [length]; NaN: no faces within the search distance */
-  PetscReal    gap_change; /* largest difference between these two gaps, where there is pressure or penetration
+  PetscReal   equilibrium; /* norm of (internal + contact - dead forces) on free rows / norm of all internal forces */
+  PetscReal   kkt_error;   /* scaled, dimensionless */
+  PetscReal   kkt_error_unscaled;
+  PetscReal   gap_min;      /* smallest linearized gap, negative: penetration [length]; NaN: no contact rows */
+  PetscReal   gap_true;     /* smallest gap of the deformed bodies [length]; NaN: no faces within the search distance */
+  PetscReal   gap_change;   /* largest difference between these two gaps, where there is pressure or penetration
                              [length] */
-  PetscReal    normals_turn; /* rotation of the normals since the last contact update, weighted with the pressures; of
+  PetscReal   normals_turn; /* rotation of the normals since the last contact update, weighted with the pressures; of
                              the worst pair */
-  PetscReal    slip_change;  /* largest difference between the linearized slip and the slip at the state, where there is
+  PetscReal   slip_change;  /* largest difference between the linearized slip and the slip at the state, where there is
                              pressure [length] */
-  PetscReal    straightened; /* correction of the last linearized rotations of rigid bodies [length] */
-  PetscReal    update_error; /* largest of gap_change, slip_change and the length equivalent of normals_turn [length] */
-  PetscBool    gap_unconverged;  /* update_error exceeds the tolerance: contact_updates was reached first */
-  PetscInt     gap_damped;       /* contact updates that were damped because they did not converge */
-  PetscReal    complementarity;  /* max s z [force/length] */
-  PetscReal    algebraic_error;  /* relative error in energy from the solver: products of gap and pressure, force
+  PetscReal   straightened; /* correction of the last linearized rotations of rigid bodies [length] */
+  PetscReal   update_error; /* largest of gap_change, slip_change and the length equivalent of normals_turn [length] */
+  PetscBool   gap_unconverged;  /* update_error exceeds the tolerance: contact_updates was reached first */
+  PetscInt    gap_damped;       /* contact updates that were damped because they did not converge */
+  PetscReal   complementarity;  /* max s z [force/length] */
+  PetscReal   algebraic_error;  /* relative error in energy from the solver: products of gap and pressure, force
                                  residual, inconsistent gap */
-  PetscReal    gap_error;        /* the part of algebraic_error due to the inconsistent gap */
-  PetscReal    action_reaction;  /* |sum of the contact forces of both sides| / sum of the magnitudes of the vertices'
+  PetscReal   gap_error;        /* the part of algebraic_error due to the inconsistent gap */
+  PetscReal   action_reaction;  /* |sum of the contact forces of both sides| / sum of the magnitudes of the vertices'
                                  forces */
-  PetscReal    error_estimate;   /* discretization error in the energy norm / sqrt(2 energy). Its square is the relative
+  PetscReal   error_estimate;   /* discretization error in the energy norm / sqrt(2 energy). Its square is the relative
                                  error in energy. NaN: not estimated */
-  PetscReal    motion;           /* largest component of the displacement; 0 without contact [length] */
-  PetscReal   *body_errors;      /* error_estimate by bodies; their squares add up to its square. NULL: not estimated */
-  PetscReal    contact_force[3]; /* vector sum of the pairs' forces on their nonmortar sides [force] */
-  PetscReal    reaction[3];      /* sum of the reactions on driven rows (non-zero prescribed displacement); on all
+  PetscReal   motion;           /* largest component of the displacement; 0 without contact [length] */
+  PetscReal  *body_errors;      /* error_estimate by bodies; their squares add up to its square. NULL: not estimated */
+  PetscReal   contact_force[3]; /* vector sum of the pairs' forces on their nonmortar sides [force] */
+  PetscReal   reaction[3];      /* sum of the reactions on driven rows (non-zero prescribed displacement); on all
                                  prescribed rows if none is driven [force] */
-  PetscInt     nramps;           /* number of the scene's ramps; the load is the first */
-  RampReport  *ramps;
-  PetscInt     npairs; /* number of the scene's contact pairs, in its order; 0 before the first converged solve */
-  PairReport  *pairs;
-  PetscInt     nfaces; /* number of faces with prescribed displacements, in the order of their first mention in the
+  PetscInt    nramps;           /* number of the scene's ramps; the load is the first */
+  RampReport *ramps;
+  PetscInt    npairs; /* number of the scene's contact pairs, in its order; 0 before the first converged solve */
+  PairReport *pairs;
+  PetscInt    nfaces; /* number of faces with prescribed displacements, in the order of their first mention in the
                             scene */
-  FaceReport  *faces;
-  PetscInt     nbodies;
-  BodyReport  *bodies;
-  PetscInt     nbolts; /* number of the scene's bolts */
-  BoltReport  *bolts;
-  PetscInt     nrigid_bodies; /* number of the scene's rigid bodies */
-  RigidReport *rigid_bodies;
-  PetscInt     nmotions; /* 1 in dynamics, else 0 */
-  MotionReport  *motions;
-  PetscReal      dissipated;        /* work of friction of all pairs since the start [force length] */
-  PetscReal      balance;           /* largest balance of all bodies */
-  PetscReal      weak_spring_force; /* sum of the magnitudes of the weak springs' nodal forces [force] */
-  PetscInt       nprobes;           /* number of the scene's point probes */
-  ProbeReport   *probes;
-  PetscInt       nlines; /* number of points of all line probes */
-  ProbeReport   *lines;
-  PetscLogDouble solve_time; /* time of the optimizer, including its linear solves [s] */
-  PetscLogDouble step_time;  /* time of the load step without its output [s] */
-  PetscBool      converged;
-  const char    *reason;
+  FaceReport *faces;
+  PetscInt    nbodies;
+  BodyReport *bodies;
+  PetscInt    nconnectors; /* number of the scene's connectors */
+  ConnectorReport *connectors;
+  PetscInt         nbolts; /* number of the scene's bolts */
+  BoltReport      *bolts;
+  PetscInt         nrigid_bodies; /* number of the scene's rigid bodies */
+  RigidReport     *rigid_bodies;
+  PetscInt         nmotions; /* 1 in dynamics, else 0 */
+  MotionReport    *motions;
+  PetscReal        dissipated;        /* work of friction of all pairs since the start [force length] */
+  PetscReal        balance;           /* largest balance of all bodies */
+  PetscReal        weak_spring_force; /* sum of the magnitudes of the weak springs' nodal forces [force] */
+  PetscInt         nprobes;           /* number of the scene's point probes */
+  ProbeReport     *probes;
+  PetscInt         nlines; /* number of points of all line probes */
+  ProbeReport     *lines;
+  PetscLogDouble   solve_time; /* time of the optimizer, including its linear solves [s] */
+  PetscLogDouble   step_time;  /* time of the load step without its output [s] */
+  PetscBool        converged;
+  const char      *reason;
 } StepReport;
 
 /*

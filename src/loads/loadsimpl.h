@@ -46,11 +46,20 @@ PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
 PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
 PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
 
+/* connectors.c: springs between points. Nodes of the cells of both points, known on all ranks, with the values of their
+   shape functions */
+typedef struct {
+  PetscInt  n[2], node[2][MESH_MAX_NODES]; /* global */
+  PetscReal N[2][MESH_MAX_NODES];
+  PetscReal k[3][3]; /* force by offset [force/length] */
+} Connector;
+
 /* springs.c: stiffness per row; NULL: none */
 typedef struct {
-  Vec      stiffness, weak; /* of all springs to the ground; of the weak springs alone [force/length] */
-  Mat      between;         /* of springs between faces; NULL: none */
-  PetscInt nweak;           /* number of bodies with weak springs */
+  Vec        stiffness, weak; /* of all springs to the ground; of the weak springs alone [force/length] */
+  Mat        between;         /* of springs between faces; NULL: none */
+  Connector *connectors;      /* one for each of the scene */
+  PetscInt   nweak;           /* number of bodies with weak springs */
 } Springs;
 
 /* springs.c */
@@ -86,6 +95,11 @@ PETSC_INTERN PetscErrorCode BoltsDestroy(Bolts *);
 PETSC_INTERN PetscErrorCode CouplingsReserve(const Bodies *, Mat nodes, Mat *);
 PETSC_INTERN PetscErrorCode CouplingsCreate(const Bodies *, Mat *stiffness);
 PETSC_INTERN PetscErrorCode CouplingsAddStiffness(const Springs *, Mat C, Mat stiffness);
+
+/* connectors.c */
+PETSC_INTERN PetscErrorCode ConnectorsCreate(const Bodies *, Springs *);
+PETSC_INTERN PetscErrorCode ConnectorMeasure(const Bodies *, const Springs *, PetscInt c, Vec u, PetscReal offset[3],
+  PetscReal force[3]);
 
 /* centred.c */
 PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy,

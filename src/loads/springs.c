@@ -85,7 +85,7 @@ static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 {
   PetscFunctionBegin;
-  if (!bodies->scene->nsprings && !bodies->scene->weak_springs) PetscFunctionReturn(0);
+  if (!bodies->scene->nsprings && !bodies->scene->nconnectors && !bodies->scene->weak_springs) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(bodies->mass, &springs->stiffness));
   PetscCall(VecZeroEntries(springs->stiffness));
   for (PetscInt s = 0; s < bodies->scene->nsprings; ++s) {
@@ -94,6 +94,7 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
         bodies->scene->springs[s].value, springs->stiffness));
   }
   PetscCall(CouplingsCreate(bodies, &springs->between));
+  PetscCall(ConnectorsCreate(bodies, springs));
   if (bodies->scene->weak_springs) {
     PetscCall(SpringsCreateWeak(bodies, springs));
     PetscCall(VecAXPY(springs->stiffness, 1.0, springs->weak));
@@ -145,5 +146,6 @@ PetscErrorCode SpringsDestroy(Springs *springs)
   PetscCall(VecDestroy(&springs->stiffness));
   PetscCall(VecDestroy(&springs->weak));
   PetscCall(MatDestroy(&springs->between));
+  PetscCall(PetscFree(springs->connectors));
   PetscFunctionReturn(0);
 }

@@ -270,6 +270,23 @@ static BodyReport *ForcesFindBody(StepReport *report, const char face[])
   return NULL;
 }
 
+static PetscErrorCode ForcesMeasureConnectors(Simulation sim, Vec u, StepReport *report)
+{
+  const Bodies bodies = SimulationBodies(sim);
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(report->connectors));
+  report->nconnectors = sim->scene->nconnectors;
+  PetscCall(PetscCalloc1(report->nconnectors, &report->connectors));
+  for (PetscInt c = 0; c < report->nconnectors; ++c) {
+    ConnectorReport *connector = &report->connectors[c];
+
+    connector->name = sim->scene->connectors[c].name;
+    PetscCall(ConnectorMeasure(&bodies, &sim->springs, c, u, connector->offset, connector->force));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Adds to one of the body's sums, and its magnitude to balance, which is normalized at the end */
 static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3])
 {
@@ -309,6 +326,7 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
   PetscCall(SpringsMeasure(&bodies, &sim->springs, u, sums, &report->weak_spring_force));
+  PetscCall(ForcesMeasureConnectors(sim, u, report));
   for (PetscInt b = 0; b < report->nbodies; ++b)
     PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
   PetscCall(PetscFree(sums));

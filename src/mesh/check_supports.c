@@ -5,6 +5,7 @@
    stiffness is singular for it.
 */
 #include "meshimpl.h"
+#include <vector3.h>
 
 #define SUPPORT_BLOCK 12 /* modes of two bodies */
 
@@ -456,6 +457,27 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscFunctionReturn(0);
 }
 
+/* Adds a spring between points; on the first rank */
+static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector *connector)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  SupportBeginLink(support, connector->body, connector->to);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  for (int m = 0; !rank && m < (connector->axial ? 1 : 3); ++m) {
+    PetscReal along[3] = {m == 0, m == 1, m == 2};
+
+    if (!connector->axial && connector->value[m] == 0.0) continue;
+    for (int d = 0; d < 3 && connector->axial; ++d) along[d] = connector->point[1][d] - connector->point[0][d];
+    (void)VectorScaleToUnit(along);
+    SupportAddMotion(support, connector->body, along, connector->point[0], 1);
+    if (connector->to >= 0) SupportAddMotion(support, connector->to, along, connector->point[1], -1);
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Chooses a free motion for the message: one of the six modes if it is free by itself; else a rotation (about an
    unknown axis); else a translation. PETSC_DECIDE: none */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
@@ -517,10 +539,10 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
    held */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
-  static const PetscBool all[3]  = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  const PetscInt         nlinks  = scene->ndisplacements + scene->nsprings + scene->npairs + scene->nties;
-  Support                support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
-  PetscReal             *outside;
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  const PetscInt nlinks  = scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties;
+  Support        support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
+  PetscReal     *outside;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, nlinks, &support.links, nlinks,
@@ -539,6 +561,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
         &(SceneDisplacement){.face = spring->face,
           .fixed                   = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0}}));
   }
+  for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(SupportAddConnector(&support, &scene->connectors[c]));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 

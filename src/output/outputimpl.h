@@ -112,6 +112,7 @@ typedef enum {
   TABLE_FACES,
   TABLE_RIGID,
   TABLE_BOLTS,
+  TABLE_CONNECTORS,
   TABLE_BALANCE,
   TABLE_PLASTICITY,
   TABLE_TRUTH,
@@ -162,7 +163,7 @@ struct _n_ReportRecord {
 };
 
 PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaBolts,
-  SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
+  SchemaConnectors, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
 PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);

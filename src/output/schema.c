@@ -77,6 +77,14 @@ static const ReportField rigid_fields[] = {
 };
 const ReportRecord SchemaRigid = {sizeof(RigidReport), PETSC_TRUE, rigid_fields};
 
+static const ReportField connector_fields[] = {
+  FIELD(ConnectorReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_CONNECTORS, "connector", "", -24)}),
+  FIELD(ConnectorReport, force, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_CONNECTORS, "force", "", -41)}),
+  FIELD(ConnectorReport, offset, FIELD_VECTOR, "length", .columns = {COLUMN(TABLE_CONNECTORS, "offset", "", -41)}),
+  END,
+};
+const ReportRecord SchemaConnectors = {sizeof(ConnectorReport), PETSC_TRUE, connector_fields};
+
 static const ReportField bolt_fields[] = {
   FIELD(BoltReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_BOLTS, "bolt", "", -24)}),
   FIELD(BoltReport, force, FIELD_REAL, "force", .columns = {COLUMN(TABLE_BOLTS, "tension", "", 14, .format = "%.8e")}),
@@ -211,6 +219,8 @@ static const ReportField step_fields[] = {
   FIELD(StepReport, ramps, FIELD_LIST, "", .count = offsetof(StepReport, nramps), .record = &SchemaRamps),
   FIELD(StepReport, pairs, FIELD_LIST, "", .count = offsetof(StepReport, npairs), .record = &SchemaPairs),
   FIELD(StepReport, faces, FIELD_LIST, "", .count = offsetof(StepReport, nfaces), .record = &SchemaFaces),
+  FIELD(StepReport, connectors, FIELD_LIST, "", .count = offsetof(StepReport, nconnectors),
+    .record = &SchemaConnectors),
   FIELD(StepReport, bolts, FIELD_LIST, "", .count = offsetof(StepReport, nbolts), .record = &SchemaBolts),
   FIELD(StepReport, rigid_bodies, FIELD_LIST, "", .count = offsetof(StepReport, nrigid_bodies), .record = &SchemaRigid),
   FIELD(StepReport, bodies, FIELD_LIST, "", .count = offsetof(StepReport, nbodies), .record = &SchemaBodies),

@@ -29,6 +29,11 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
     PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
     PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
   }
+  if (last && last->nconnectors) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(TableViewHead(report, TABLE_CONNECTORS, &SchemaConnectors, 0, viewer));
+    PetscCall(TableViewRows(report, TABLE_CONNECTORS, &SchemaConnectors, last->nconnectors, last->connectors, viewer));
+  }
   if (last && last->nbolts) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(TableViewHead(report, TABLE_BOLTS, &SchemaBolts, 0, viewer));

@@ -124,8 +124,8 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     scene->npressures));
   PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0),
     "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
-  PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings > 0), "%" PetscInt_FMT " springs on faces",
-    scene->nsprings));
+  PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings + scene->nconnectors > 0),
+    "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
   PetscCall(EffectSet(report, EFFECT_BOLTS, (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
   PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0),
     scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set",

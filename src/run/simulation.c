@@ -275,6 +275,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
     PetscCall(ForcesFree(&s->report.steps[i]));
     PetscCall(PetscFree(s->report.steps[i].rigid_bodies));
     PetscCall(PetscFree(s->report.steps[i].bolts));
+    PetscCall(PetscFree(s->report.steps[i].connectors));
     PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
   }
   PetscCall(PetscFree(s->report.steps));

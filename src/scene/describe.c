@@ -249,6 +249,17 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
       here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0],
       (double)here->value[1], (double)here->value[2]));
   }
+  for (PetscInt c = 0; c < scene->nconnectors; ++c) {
+    const SceneConnector *here = &scene->connectors[c];
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  connector %s: %s to %s, ", here->name, scene->bodies[here->body].name,
+      here->to < 0 ? "the ground" : scene->bodies[here->to].name));
+    if (here->axial)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness %.6g along the line\n", (double)here->stiffness));
+    else
+      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness (%.6g, %.6g, %.6g)\n", (double)here->value[0],
+        (double)here->value[1], (double)here->value[2]));
+  }
   for (PetscInt b = 0; b < scene->nbolts; ++b) {
     const SceneBolt *here = &scene->bolts[b];
 

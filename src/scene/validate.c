@@ -157,7 +157,7 @@ static PetscErrorCode SceneValidateDamping(MPI_Comm comm, const char file[], Sce
       file, (double)scene->dynamics.damping_stiffness, scene->bodies[b].name,
       MaterialTypes[scene->bodies[b].material.type]);
   }
-  SceneRequire(!scene->nsprings && scene->weak_springs == 0.0 && !scene->ntemperatures,
+  SceneRequire(!scene->nsprings && !scene->nconnectors && scene->weak_springs == 0.0 && !scene->ntemperatures,
     "%s: dynamics has damping_stiffness = %g, which does not go with springs, weak_springs or temperatures: take "
     "damping_mass",
     file, (double)scene->dynamics.damping_stiffness);

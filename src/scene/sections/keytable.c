@@ -47,6 +47,7 @@ static const SceneKey top_rows[] = {
   SECTION("tractions", "none", "list of loads per undeformed area on faces, with fixed direction"),
   SECTION("forces", "none", "list of resultant forces and moments on faces and rigid bodies, with fixed direction"),
   SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
+  SECTION("connectors", "none", "list of springs between points of bodies, or points and the ground"),
   SECTION("bolts", "none", "list of bolts with pretension"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
     "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
@@ -153,6 +154,17 @@ static const SceneKey spring_rows[] = {TEXT("face", NULL, SceneSpring, face, REQ
     "largest distance of facets that springs with `to` join"),
   REALS("value", NULL, 3, SceneSpring, value, REQUIRED, ANY, "F/L³", "",
     "stiffness along x, y, z per undeformed area, not negative"),
+  {NULL}};
+
+static const SceneKey connector_rows[] = {
+  NUMBER_OF("body", BODY, SceneConnector, body, "required", "the body at one end"),
+  REALS("point", NULL, 3, SceneConnector, point[0], REQUIRED, ANY, "L", "", "a point of it, in undeformed coordinates"),
+  NUMBER_OF("to", BODY, SceneConnector, to, "the ground", "the body at the other end"),
+  REALS("to_point", NULL, 3, SceneConnector, point[1], SHOWN, ANY, "L", "`point`", "a point of that, or of the ground"),
+  REALS("stiffness", NULL, 1, SceneConnector, stiffness, SHOWN, ABOVE_0, "F/L", "",
+    "stiffness along the undeformed line between the points. Required without `value`"),
+  REALS("value", NULL, 3, SceneConnector, value, SHOWN, FROM_0, "F/L", "",
+    "stiffness along x, y, z, instead of `stiffness`"),
   {NULL}};
 
 static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "required", "the body that is cut"),
@@ -280,6 +292,7 @@ static const SceneBody         body_initial         = {.element = ELEMENT_AUTO};
 static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
+static const SceneConnector    connector_initial    = {.body = PETSC_DECIDE, .to = PETSC_DECIDE};
 static const SceneBolt         bolt_initial         = {.body = PETSC_DECIDE};
 static const SceneBodyForce    body_force_initial   = {.body = PETSC_DECIDE};
 static const SceneTemperature  temperature_initial  = {.body = PETSC_DECIDE};
@@ -312,6 +325,8 @@ const SceneList SceneLists[] = {
   {"forces", force_rows, sizeof(SceneTraction), OF_SCENE(ntractions, tractions), .initial = &force_initial,
     .finish = SceneFinishForce, .holds = SceneTractionIsForce, .hides = SceneForceHides, .shared = PETSC_TRUE},
   {"springs", spring_rows, sizeof(SceneSpring), OF_SCENE(nsprings, springs), .finish = SceneFinishSpring},
+  {"connectors", connector_rows, sizeof(SceneConnector), OF_SCENE(nconnectors, connectors),
+    .initial = &connector_initial, .finish = SceneFinishConnector, .hides = SceneConnectorHides},
   {"bolts", bolt_rows, sizeof(SceneBolt), OF_SCENE(nbolts, bolts), .initial = &bolt_initial, .finish = SceneFinishBolt,
     .hides = SceneBoltHides},
   {"temperatures", temperature_rows, sizeof(SceneTemperature), OF_SCENE(ntemperatures, temperatures),

@@ -79,6 +79,10 @@ PETSC_INTERN PetscBool      SceneForceHides(const void *entry, const char key[])
 PETSC_INTERN PetscErrorCode SceneFinishForce(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, const char file[], Scene);
 
+/* connectors.c */
+PETSC_INTERN PetscBool      SceneConnectorHides(const void *entry, const char key[]);
+PETSC_INTERN PetscErrorCode SceneFinishConnector(SceneKeys, Scene, const char owner[], void *entry);
+
 /* bolts.c */
 PETSC_INTERN PetscBool      SceneBoltHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishBolt(SceneKeys, Scene, const char owner[], void *entry);

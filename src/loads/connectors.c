@@ -1,0 +1,139 @@
+/*
+   Connectors: springs between a point of a body and the ground, or a point of another body. The displacement of a point
+   is interpolated in the cell that contains it. The energy is quadratic in the offset, the displacement of the second
+   point relative to the first, and a part of the matrix of springs between unknowns.
+*/
+#include "loadsimpl.h"
+#include <mesh.h>
+#include <vector3.h>
+
+/* Sets the nodes of one point on all ranks */
+static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector *here, PetscInt end, Connector *c)
+{
+  const PetscReal tolerance = 0.1;
+  const PetscInt  body      = end ? here->to : here->body;
+  MeshPlace       place;
+  PetscSection    global;
+  PetscInt        nodes[MESH_MAX_NODES], offset;
+  PetscReal       off = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(MeshLocate(bodies->dm, 1, (const PetscReal(*)[3])here->point[end], &body, &place));
+  if (place.cell >= 0) off = place.distance / place.size;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_REAL, MPIU_MAX, bodies->comm));
+  PetscCall(PetscArrayzero(c->node[end], MESH_MAX_NODES));
+  PetscCall(PetscArrayzero(c->N[end], MESH_MAX_NODES));
+  c->n[end] = 0;
+  if (place.cell >= 0) {
+    PetscCall(DMGetGlobalSection(bodies->dm, &global));
+    PetscCall(MeshGetCellNodes(bodies->dm, place.cell, &c->n[end], nodes));
+    for (PetscInt a = 0; a < c->n[end]; ++a) {
+      PetscCall(PetscSectionGetOffset(global, nodes[a], &offset));
+      c->node[end][a] = (offset < 0 ? -(offset + 1) : offset) / 3;
+      c->N[end][a]    = place.N[a];
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->n[end], 1, MPIU_INT, MPI_SUM, bodies->comm));
+  PetscCheck(c->n[end] && off <= tolerance, bodies->comm, PETSC_ERR_USER_INPUT,
+    "connector \"%s\": its point (%g, %g, %g) is outside of its body \"%s\"", here->name, (double)here->point[end][0],
+    (double)here->point[end][1], (double)here->point[end][2], bodies->scene->bodies[body].name);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->node[end], MESH_MAX_NODES, MPIU_INT, MPI_SUM, bodies->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->N[end], MESH_MAX_NODES, MPIU_REAL, MPIU_SUM, bodies->comm));
+  PetscFunctionReturn(0);
+}
+
+static void ConnectorSetStiffness(const SceneConnector *here, Connector *c)
+{
+  PetscReal line[3];
+
+  for (int d = 0; d < 3; ++d) line[d] = here->point[1][d] - here->point[0][d];
+  (void)VectorScaleToUnit(line);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      c->k[i][j] = here->axial ? here->stiffness * line[i] * line[j] : (i == j) * here->value[i];
+  }
+}
+
+/* Entries of the stiffness, on the first rank; entries: 9 for each two nodes. Returns their number */
+static PetscInt ConnectorFill(const Connector *c, PetscInt row[], PetscInt column[], PetscScalar value[])
+{
+  PetscInt n = 0;
+
+  for (int e = 0; e < 2; ++e) {
+    for (int f = 0; f < 2; ++f) {
+      for (PetscInt k = 0; k < 9 * c->n[e] * c->n[f]; ++k, ++n) {
+        const PetscInt a = k / 9 / c->n[f], b = k / 9 % c->n[f], i = k % 9 / 3, j = k % 3;
+
+        if (!row) continue;
+        row[n]    = 3 * c->node[e][a] + i;
+        column[n] = 3 * c->node[f][b] + j;
+        value[n]  = (e == f ? 1.0 : -1.0) * c->k[i][j] * c->N[e][a] * c->N[f][b];
+      }
+    }
+  }
+  return n;
+}
+
+/* Adds the connectors to the springs between unknowns */
+PetscErrorCode ConnectorsCreate(const Bodies *bodies, Springs *springs)
+{
+  const PetscInt m = bodies->scene->nconnectors;
+  PetscInt       n = 0, at = 0, nlocal, *row, *column;
+  PetscScalar   *value;
+  PetscMPIInt    rank;
+  Mat            A;
+
+  PetscFunctionBegin;
+  if (!m) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Comm_rank(bodies->comm, &rank));
+  PetscCall(PetscCalloc1(m, &springs->connectors));
+  for (PetscInt c = 0; c < m; ++c) {
+    const SceneConnector *here = &bodies->scene->connectors[c];
+
+    for (PetscInt end = 0; end < (here->to < 0 ? 1 : 2); ++end)
+      PetscCall(ConnectorLocate(bodies, here, end, &springs->connectors[c]));
+    ConnectorSetStiffness(here, &springs->connectors[c]);
+    if (!rank) n += ConnectorFill(&springs->connectors[c], NULL, NULL, NULL);
+  }
+  PetscCall(PetscMalloc3(n, &row, n, &column, n, &value));
+  for (PetscInt c = 0; !rank && c < m; ++c)
+    at += ConnectorFill(&springs->connectors[c], row + at, column + at, value + at);
+  PetscCall(VecGetLocalSize(bodies->mass, &nlocal));
+  PetscCall(MatCreate(bodies->comm, &A));
+  PetscCall(MatSetSizes(A, nlocal, nlocal, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(A, MATAIJ));
+  PetscCall(MatSetPreallocationCOO(A, n, row, column));
+  PetscCall(MatSetValuesCOO(A, value, INSERT_VALUES));
+  PetscCall(PetscFree3(row, column, value));
+  if (springs->between) {
+    PetscCall(MatAXPY(springs->between, 1.0, A, DIFFERENT_NONZERO_PATTERN));
+    PetscCall(MatDestroy(&A));
+  } else springs->between = A;
+  PetscFunctionReturn(0);
+}
+
+/* Of a connector at u: the displacement of its second point relative to the first, and the force on the first */
+PetscErrorCode ConnectorMeasure(const Bodies *bodies, const Springs *springs, PetscInt c, Vec u, PetscReal offset[3],
+  PetscReal force[3])
+{
+  const Connector   *here = &springs->connectors[c];
+  const PetscScalar *v;
+  PetscInt           start, end;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(offset, 3));
+  PetscCall(VecGetOwnershipRange(u, &start, &end));
+  PetscCall(VecGetArrayRead(u, &v));
+  for (int e = 0; e < 2; ++e) {
+    for (PetscInt a = 0; a < here->n[e]; ++a) {
+      const PetscInt row = 3 * here->node[e][a];
+
+      for (int d = 0; d < 3 && row >= start && row < end; ++d)
+        offset[d] += (e ? 1.0 : -1.0) * here->N[e][a] * PetscRealPart(v[row - start + d]);
+    }
+  }
+  PetscCall(VecRestoreArrayRead(u, &v));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, offset, 3, MPIU_REAL, MPIU_SUM, bodies->comm));
+  for (int i = 0; i < 3; ++i) force[i] = VectorDot(here->k[i], offset);
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,40 @@
+/* connectors: keys that depend on one another */
+#include "sectionsimpl.h"
+#include <string.h>
+#include <vector3.h>
+
+PetscBool SceneConnectorHides(const void *entry, const char key[])
+{
+  const SceneConnector *connector = entry;
+
+  return (PetscBool)(!strcmp(key, "value") ? connector->axial : !strcmp(key, "stiffness") && !connector->axial);
+}
+
+PetscErrorCode SceneFinishConnector(SceneKeys keys, Scene scene, const char owner[], void *entry)
+{
+  SceneConnector *connector = entry;
+  const char     *text;
+  PetscReal       line[3];
+  PetscBool       value, there;
+
+  PetscFunctionBegin;
+  (void)scene;
+  PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_body", owner));
+  PetscCall(SceneHasKey(keys, owner, "value", &value));
+  PetscCall(SceneHasKey(keys, owner, "stiffness", &connector->axial));
+  PetscCall(SceneHasKey(keys, owner, "to_point", &there));
+  if (value == connector->axial)
+    PetscCall(SceneKeysError(keys, "%s has %s; a connector has one of the two", owner,
+      value ? "stiffness and value" : "neither stiffness nor value"));
+  if (!there) PetscCall(PetscArraycpy(connector->point[1], connector->point[0], 3));
+  for (int d = 0; d < 3; ++d) line[d] = connector->point[1][d] - connector->point[0][d];
+  if (connector->axial && VectorNorm(line) == 0.0)
+    PetscCall(
+      SceneKeysError(keys, "%s_stiffness needs a to_point that is not the point: they give its direction", owner));
+  if (value && VectorNorm(connector->value) == 0.0)
+    PetscCall(SceneKeysError(keys, "%s_value is (0, 0, 0): such a connector holds nothing", owner));
+  if (connector->to == connector->body)
+    PetscCall(
+      SceneKeysError(keys, "%s_to is its body, %s; a connector joins two bodies, or one to the ground", owner, text));
+  PetscFunctionReturn(0);
+}

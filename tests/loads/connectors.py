@@ -1,0 +1,70 @@
+"""Scenes of connectors.sh, and what must hold of their results."""
+import csv
+import json
+import sys
+
+LEVER = """bodies:
+  - arm: {lower: [0, 0, 0], upper: [10, 1, 1], cells: [4, 1, 1], material: rigid}
+  - block: {lower: [0, 0, -3], upper: [10, 1, -2], cells: [4, 1, 1], young: 2e5, poisson: 0}
+displacements:
+  - free: {body: arm, value: [free, free, free], rotation: [free, free, free], center: [5, 0.5, 0.5]}
+  - ground: {face: block.zmin, value: [0, 0, 0]}
+connectors:
+  - hinge1: {body: arm, point: [0, 0, 0.5], value: [1e6, 1e6, 1e6]}
+  - hinge2: {body: arm, point: [0, 1, 0.5], value: [1e6, 1e6, 1e6]}
+  - rod: {body: arm, point: [10, 0.5, 0], to: block, to_point: [10, 0.5, -2], stiffness: 1000}
+forces:
+  - weight: {body: arm, value: [0, 0, -1], point: [5, 0.5, 0.5]}
+load: {steps: 1}
+"""
+
+# a cube on three springs at each of two opposite corners
+HUNG = """bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], young: 1e9, poisson: 0.3}
+connectors:
+  - low: {body: cube, point: [0, 0, 0], value: [10, 20, 40]}
+  - high: {body: cube, point: [1, 1, 1], value: [10, 20, 40]}
+  - stay: {body: cube, point: [1, 0, 0], to_point: [1, 0, -5], stiffness: 40}
+  - guy: {body: cube, point: [0, 1, 0], to_point: [0, 1, -5], stiffness: 40}
+body_forces:
+  - weight: {body: cube, value: [0, 0, -16]}
+load: {steps: 1}
+"""
+
+
+def load(name):
+    with open(name + ".json") as file:
+        return json.load(file)["steps"][-1]
+
+
+def say(what, off, allowed):
+    print(f"{what}: {'sound' if abs(off) <= allowed else f'off by {off:g}'}")
+
+
+def judge():
+    for name in ("lever", "lever_3"):
+        step = load(name)
+        forces = {c["name"]: c["force"] for c in step["connectors"]}
+        say(f"{name}: the rod has half of the weight", forces["rod"][2] - 0.5, 1e-5)
+        say(f"{name}: the hinge has the rest", forces["hinge1"][2] + forces["hinge2"][2] - 0.5, 1e-5)
+        say(f"{name}: bodies are in equilibrium", step["balance"], 1e-8)
+        say(f"{name}: work is stored", step["work"] / (2 * step["energy"] - step["energy"]) - 1, 1e-6)
+    for name in ("hung", "hung_3"):
+        step = load(name)
+        springs = [sum(c["force"][d] for c in step["connectors"]) for d in range(3)]
+        say(f"{name}: springs carry the weight", max(abs(springs[0]), abs(springs[1]), abs(springs[2] - 16)), 1e-6)
+        say(f"{name}: forces are stiffness times offset",
+            max(abs(c["force"][2] + 40 * -c["offset"][2]) for c in step["connectors"]), 1e-9)
+    # all four springs along z have the same stiffness, and stand around the middle of the cube
+    say("hung: each carries a quarter", max(abs(c["force"][2] - 4) for c in load("hung")["connectors"]), 1e-6)
+    with open("lever.csv") as file:
+        row = list(csv.DictReader(file))[-1]
+    say("history has the force", float(row["rod.force_z"]) - 0.5, 1e-5)
+
+
+if sys.argv[1] == "write":
+    for scene, text in (("lever", LEVER), ("hung", HUNG)):
+        with open(scene + ".yaml", "w") as out:
+            out.write(text)
+else:
+    judge()
