@@ -7,7 +7,7 @@
 #include "tao_ipfilter/solver/terms.h"
 
 /* Whether nothing has told so far that the matrix is positive definite: a factorization of the caller's choice solves
-   with any matrix */
+   with any matrix, and where constraints were relaxed no factorization was asked for its inertia */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -16,11 +16,12 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
   *unknown = PETSC_FALSE;
   if (ip->me || ip->hess->products) PetscFunctionReturn(0);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
+  *unknown = (PetscBool)(*unknown || ip->relax->times);
   PetscFunctionReturn(0);
 }
 
 /* At a point that is about to end the solve: whether it is left, along a direction of negative curvature, or beyond a
-   point of inflection. Beside the weights of relaxed constraints rounding decides. */
+   point of inflection. Relaxed constraints are so curved that the search beyond the point does not apply to them. */
 PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
@@ -29,8 +30,8 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
 
   PetscFunctionBegin;
   *left = PETSC_FALSE;
-  if (ip->method->on || ip->terms->n || ip->relax->times || ip->rec->nsaddles >= most) PetscFunctionReturn(0);
-  if (!ip->method->constant) PetscCall(IPLineSearchBeyond(tao, left));
+  if (ip->method->on || ip->terms->n || ip->rec->nsaddles >= most) PetscFunctionReturn(0);
+  if (!ip->method->constant && !ip->relax->times) PetscCall(IPLineSearchBeyond(tao, left));
   if (!*left) {
     PetscCall(SaddleUnknown(tao, &unknown));
     if (unknown) PetscCall(IPNegativeCurvature(tao, &found));

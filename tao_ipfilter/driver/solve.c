@@ -128,6 +128,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
             .curved                    = (PetscBool)(ip->qn->B != NULL)};
   *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  *ip->watch       = (IPWatchdog){.left = 0};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};
   *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
@@ -253,13 +254,19 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
+/* Whether constraints are violated by more than what the last steps leave */
+static PetscBool StillViolated(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->kkt->primal > PetscMax(100.0 * ip->tol, 1e-6));
+}
+
 /* Called if there is no direction or no step along it. Remedies, in this order: suspend Mehrotra's choice of mu;
    relax constraints without an interior; reduce the violation alone (restoration) */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
   const PetscInt  iterations = 10;
-  const PetscBool violated   = (PetscBool)(ip->kkt->primal > PetscMax(100.0 * ip->tol, 1e-6));
+  const PetscBool violated   = StillViolated(ip);
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
@@ -316,6 +323,29 @@ static PetscErrorCode RenewMultipliers(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Reduces the violation alone where many steps in a row were cut to a small part and constraints are still violated */
+static PetscErrorCode RestoreIfCut(Tao tao)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 10;
+  PetscBool      ok, infeasible;
+
+  PetscFunctionBegin;
+  if (ip->search->ncut < patience) PetscFunctionReturn(0);
+  ip->search->ncut = 0;
+  PetscCall(IPComputeKKT(tao));
+  if (!StillViolated(ip)) PetscFunctionReturn(0);
+  PetscCall(IPWatchdogEnd(ip->watch));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(IPRestore(tao, &ok, &infeasible));
+  if (ok) ip->search->tag = 'R';
+  else {
+    PetscCall(IPComputeKKT(tao));
+    PetscCall(EndUnrestored(tao, PETSC_TRUE, PETSC_TRUE, infeasible));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
 static PetscErrorCode TakeNewtonStep(Tao tao)
 {
@@ -330,12 +360,14 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) PetscCall(IPWatchdogReturn(tao, &ok));
   if (!ok) {
     PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
   }
   tao->niter++;
   PetscCall(IPEvaluateDerivatives(tao));
+  PetscCall(RestoreIfCut(tao));
   PetscFunctionReturn(0);
 }
 
@@ -486,6 +518,7 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(ip->direct));
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   if (ip->relax->unknowns > 0.0) {

@@ -21,9 +21,19 @@ struct _n_IPSearch {
   PetscReal before; /* norm of the direction before the last one */
   PetscInt  ntrials;
   PetscBool blocked;              /* the last rejected trial point was rejected by the filter alone */
+  PetscInt  ncut;                 /* consecutive steps that were cut to a small part */
   PetscInt  nblocked, nunblocked; /* consecutive steps shortened by the filter; number of times it was cleared for
                                      that */
-  char      tag;                  /* how the step was accepted: f, h, F, H (second-order correction), R (restoration) */
+  char      tag; /* how the step was accepted: f, h, F, H (second-order correction), R (restoration), w (watchdog) */
+};
+
+/* watchdog.c: steps without test, and the iterate to return to */
+struct _n_IPWatchdog {
+  IPIterate from;
+  PetscReal mu, theta, phi, slope; /* there */
+  PetscReal alpha;                 /* length of the first step from there */
+  PetscInt  left;                  /* steps without test that are left; 0: none are taken */
+  PetscInt  nshort, patience;      /* consecutive shortened steps, and how many it takes */
 };
 
 #endif

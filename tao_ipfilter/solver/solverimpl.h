@@ -41,6 +41,7 @@ typedef struct _n_IPShift       IPShift;
 typedef struct _n_IPBarrier     IPBarrier;
 typedef struct _n_IPFilterSet   IPFilterSet;
 typedef struct _n_IPSearch      IPSearch;
+typedef struct _n_IPWatchdog    IPWatchdog;
 typedef struct _n_IPRelaxation  IPRelaxation;
 typedef struct _n_IPRestoration IPRestoration;
 typedef struct _n_IPMethod      IPMethod;
@@ -138,7 +139,8 @@ struct _n_TAO_IPFILTER {
   IPBarrier     *bar;     /* barrier.h: choice of mu, */
   IPShift       *shift;   /*            and the multiple of M_u added to the Hessian */
   IPFilterSet   *filter;  /* search.h: the filter, */
-  IPSearch      *search;  /*           and the line search */
+  IPSearch      *search;  /*           the line search, */
+  IPWatchdog    *watch;   /*           and its watchdog */
   IPRelaxation  *relax;   /* relaxation.h: constraints without an interior, */
   IPRestoration *restore; /*               and feasibility restoration */
   IPMethod      *method;  /* method.h: alternative to the interior point method */

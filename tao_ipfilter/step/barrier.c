@@ -4,6 +4,7 @@
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
 
 /* Weighted mean of t z over all pairs */
@@ -120,10 +121,12 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
+#define IP_BARRIER_SHORT 10 /* shortened steps in a row that end Mehrotra's rule, and iterations until it may return */
+
 /*
    Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives and linear
-   constraints, because the affine step then predicts mu. For other problems, and while the KKT error does not fall, the
-   monotone rule is used.
+   constraints, because the affine step then predicts mu. The monotone rule is used for other problems, while the KKT
+   error does not fall, and after many shortened steps in a row.
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
@@ -135,7 +138,8 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscCall(BarrierMonotone(tao));
     PetscFunctionReturn(0);
   }
-  was_free      = ip->bar->free;
+  was_free = ip->bar->free;
+  if (was_free && ip->watch->nshort >= IP_BARRIER_SHORT) ip->bar->hold = IP_BARRIER_SHORT;
   ip->bar->free = (PetscBool)(BarrierProgresses(ip) && ip->bar->hold == 0 && !ip->bar->curved);
   if (ip->bar->hold > 0) ip->bar->hold--;
   if (ip->bar->free) PetscFunctionReturn(0);

@@ -260,23 +260,55 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
   PetscFunctionReturn(0);
 }
 
+/* A step of the watchdog, if it is active: as long as the bounds allow, compared with the iterate at which such steps
+   began. *taken: whether there was a step, or the return to that iterate */
+static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, PetscReal dual, PetscBool *taken)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPWatchdog   *watch = ip->watch;
+  PetscReal     theta = 0.0, phi = 0.0;
+  PetscBool     finite = PETSC_FALSE, accepted = PETSC_FALSE, objective = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(IPWatchdogBegin(tao, alpha, slope));
+  *taken = (PetscBool)(watch->left > 0);
+  if (!*taken) PetscFunctionReturn(0);
+  ip->search->theta   = watch->theta;
+  ip->search->phi     = watch->phi;
+  ip->search->ntrials = 1;
+  PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+  if (finite) PetscCall(SearchAccepts(tao, watch->alpha, watch->slope, theta, phi, &accepted, &objective));
+  if (accepted) {
+    PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
+    PetscCall(IPWatchdogEnd(watch));
+  } else if (finite && watch->left > 1) {
+    PetscCall(SearchTakeStep(tao, alpha, dual));
+    ip->search->tag = 'w';
+    watch->left--;
+  } else PetscCall(IPWatchdogReturn(tao, taken));
+  PetscFunctionReturn(0);
+}
+
 /* Backtracks along the direction until the filter accepts; *ok: false if no step is acceptable */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal tau   = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale->product);
-  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
+  TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal tau = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale->product), small = 0.05;
+  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least, longest;
 
   PetscFunctionBegin;
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPMeritSlope(tao, &slope));
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
+  longest            = alpha;
   ip->search->before = ip->dir.norm;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least               = SearchSmallestStep(ip, slope);
   ip->search->ntrials = 0;
   ip->search->blocked = PETSC_FALSE;
   *ok                 = PETSC_FALSE;
+  PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
+  if (*ok) PetscFunctionReturn(0);
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
@@ -289,6 +321,8 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     else if (finite && ip->search->ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
   if (*ok) PetscCall(SearchUnblock(ip));
+  ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
+  ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;
   PetscFunctionReturn(0);
 }
 
@@ -327,6 +361,20 @@ static PetscErrorCode SearchFollow(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Raises the trial point's slacks to the values of their constraints, which curve away from their tangents */
+static PetscErrorCode SearchRaiseSlacks(Tao tao, PetscReal *theta, PetscReal *phi)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(VecPointwiseMax(ip->trial.s, ip->trial.s, ip->trial.c));
+  PetscCall(IPSlackKeepInside(tao, ip->trial.s, 1.0 - IP_TAU_MIN));
+  PetscCall(IPSlackDistance(tao, ip->trial.s, PETSC_TRUE));
+  PetscCall(IPMeritMeasureTrial(tao, theta, phi));
+  PetscFunctionReturn(0);
+}
+
 #define IP_LEAVE_MET 1e-2 /* violation, in its unit, that a point beside the path may have */
 
 /* Leaves a stationary point along dir.x, a direction of negative curvature. The step is as long as the barrier
@@ -356,6 +404,7 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
     PetscBool finite = PETSC_FALSE;
 
     PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    if (finite) PetscCall(SearchRaiseSlacks(tao, &theta, &phi));
     *left = (PetscBool)(finite && phi < ip->search->phi - ip->search->rounding &&
                         theta <= IP_LEAVE_MET * ip->search->theta_ref);
     if (*left) PetscCall(SearchStartAgain(tao, alpha));

@@ -11,6 +11,7 @@
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
+#include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
 
 #define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
@@ -115,6 +116,7 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   PetscReal       limit  = PETSC_INFINITY, gradient;
 
   PetscFunctionBegin;
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(RelaxChoose(tao, fraction));
   PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax->told));
   if (ip->mi) limit = ip->relax->by * ip->scale->balance;

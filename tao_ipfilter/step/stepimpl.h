@@ -36,6 +36,11 @@ PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
 PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
+/* watchdog.c */
+PETSC_INTERN PetscErrorCode IPWatchdogBegin(Tao, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPWatchdogReturn(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPWatchdogEnd(IPWatchdog *);
+
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPLineSearchLeave(Tao, PetscBool *);

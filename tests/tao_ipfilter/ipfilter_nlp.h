@@ -258,6 +258,17 @@ static const NLP problems[] = {
     "2*(x2-1)-1.5*x1+x3-0.5*x4+x5", "0: 0: : : :", "0 0 0 0 0", 17.0, NLP_REACHED, NULL},
   {"jr1", "(x1-1)^2+x2^2", "x2; x2-x1; -(x2)*(x2-x1)", "", "", "0 0", 0.5, NLP_REACHED, NULL},
   {"ralph1", "2*x1-x2", "x2; x2-x1; -(x2)*(x2-x1)", "", "0: :", "1 0", 0.0, NLP_REACHED, NULL},
+  /* from a symmetric start to a symmetric point that is a saddle */
+  {"scale4", "(100*x1-1)^2+(100*x2-1)^2", "x1; x2; -x1*x2", "", "", "0.01 0.01", 1.0, NLP_REACHED, NULL},
+  /* beside kinks there is no curvature, steps are far too long, and bounds or the line search cut them */
+  {"zigzag",
+    "sqrt((x1+0.845)^2+1e-6)+sqrt((x2-0.057)^2+1e-6)+sqrt((x3+1.12)^2+1e-6)+sqrt((x4+0.166)^2+1e-6)"
+    "+sqrt((x5+0.228)^2+1e-6)+sqrt((x6-1.71)^2+1e-6)+sqrt((x7-1.3)^2+1e-6)+sqrt((x8+0.254)^2+1e-6)+0.01*x1^2",
+    "1.42*x2-2.18*x6^2+0.71*x7+5.148; 1.42*x2-2.18*x6^2+0.71*x7+5.148; "
+    "-0.3*x3+1.56*x5*x6+1.58*x1*x3-1.425; -0.3*x3+1.56*x5*x6+1.58*x1*x3-1.425; "
+    "1.42*x5+2.81*x3+1.91*x7+0.7812; 1.42*x5+2.81*x3+1.91*x7+0.7812",
+    "", "-4:4 -4:4 -4:4 -4:4 -4:4 -4:4 -4:4 -4:4", "-1.6467 2.3125 -0.1972 -1.819 -0.16 1.1706 -1.4589 -2.0449",
+    0.15990086, NLP_SOLVED, NULL},
   /* the gradient of the constraint vanishes where it is met */
   {"x^2=0", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL},
   {"x^2=0 and y", "(x1-1)^2+(x2-2)^2", "", "x1^2", "", "1 1", 1.0, NLP_REACHED, NULL},
