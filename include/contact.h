@@ -42,6 +42,8 @@ PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
+/* Whether a face of a pair is curved before it deforms */
+PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);
 /* Number of nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact
    update; and number of all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);

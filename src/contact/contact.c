@@ -285,6 +285,17 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
   PetscFunctionReturn(0);
 }
 
+/* Known after the first linearization. contact: the contact; pair: its number; curved: whether a face of the pair is
+   curved before it deforms, and its gap is measured from a smooth surface */
+PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved)
+{
+  const ContactPairData *data = &contact->pairs[pair];
+
+  PetscFunctionBegin;
+  *curved = data->formula ? (PetscBool)(data->formula->shape != SHAPE_RIGID_PLANE) : data->mortar.patched;
+  PetscFunctionReturn(0);
+}
+
 /*@
   ContactGetFrictionless - Counts the nodes of a pair at which friction cannot act although the faces slide there
 

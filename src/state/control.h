@@ -34,6 +34,7 @@ struct _n_StepControl {
   StepObserver   observer;
   PetscInt       unheld;      /* consecutive attempts at this load step that contact could not hold */
   char          *cause;       /* reason of the first of these; NULL: none */
+  PetscReal      weak_share;  /* stiffness of the proximal term of bodies on weak springs; 0: none is needed */
   int            interrupted; /* the signal that was caught; 0: none */
 };
 

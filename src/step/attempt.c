@@ -7,6 +7,9 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
+/* largest force of the term that holds bodies on weak springs at the end, relative to those of the deformation */
+#define ATTEMPT_HELD 1e-5
+
 /* The gap at u for a load step that ends at `time`. Ramps of initial overlaps need J */
 static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
@@ -67,11 +70,12 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
 /* Measures the gap of the deformed faces at u, and how much it differs from the linearized gap of the solve that gave
    u. is_true: the difference is small enough to end the contact updates. report->gap_unconverged: it is too large for
    a converged step. */
-static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
-  StepReport *report, PetscBool *is_true)
+static PetscErrorCode AttemptMeasureGap(const StepProblem *p, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
-  PetscReal size;
-  PetscInt  nrows;
+  Simulation sim = p->sim;
+  PetscReal  size, held;
+  PetscInt   nrows;
 
   PetscFunctionBegin;
   report->gap_true = NAN;
@@ -84,6 +88,9 @@ static PetscErrorCode AttemptMeasureGap(Simulation sim, Vec u, const ContactSolu
   report->gap_unconverged =
     (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
                 PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size);
+  PetscCall(ProximalMeasureHeld(p, u, &held));
+  if (held > PetscMax(sim->control->tolerances.optimizer, 1e-10)) *is_true = PETSC_FALSE;
+  if (held > ATTEMPT_HELD) report->gap_unconverged = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -199,6 +206,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscCall(StepProblemTurn(p, u_linearized));
   do {
     PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
+    PetscCall(ProximalLinearize(p, u_linearized));
     if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
@@ -366,9 +374,16 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution;
+  PetscReal  held;
 
   PetscFunctionBegin;
-  PetscCall(ContactUpdateSecantsAdvance(secants, report->update_error, u, u_linearized, &damped));
+  PetscCall(ProximalMeasureHeld(p, u, &held)); /* falls with the motion of bodies on weak springs, the gap need not */
+  PetscCall(
+    ContactUpdateSecantsAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
+  if (damped && ProximalMayHoldWeak(p)) {
+    PetscCall(ReportReason(report, PETSC_FALSE, "bodies on weak springs do not come to rest in contact updates"));
+    PetscFunctionReturn(0);
+  }
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
   PetscCall(VecEqual(u, u_linearized, &at_solution));
@@ -405,7 +420,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   else PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* where the gap is linearized next */
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
+  PetscCall(AttemptMeasureGap(p, u, sol, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
   if (sim->control->monitor && sim->scene->contact_updates > 1)
     PetscCall(PetscPrintf(sim->comm,
@@ -481,7 +496,7 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
     PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
     sim->solved->linearization = undeformed;
     PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
-    PetscCall(AttemptMeasureGap(sim, u, sol, *at_u, report, &is_true));
+    PetscCall(AttemptMeasureGap(p, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
     report->gap_unconverged                                                                = PETSC_FALSE;
     report->contact_updates                                                                = 1;
@@ -525,6 +540,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   Simulation           sim     = p->sim;
   ContactUpdateSecants secants = {0};
   PetscBool            end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  PetscReal            held;
   Vec                  u_linearized;
 
   PetscFunctionBegin;
@@ -546,12 +562,20 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
     }
     if (end || report->contact_updates == sim->scene->contact_updates) break;
     PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
+    if (!report->converged) break;
   }
   PetscCall(VecDestroy(&u_linearized));
   PetscCall(ContactUpdateSecantsDestroy(&secants));
   report->gap_unconverged =
     (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
-  if (report->gap_unconverged) PetscCall(AttemptReportGapError(sim, slid, report));
+  if (report->gap_unconverged) {
+    PetscCall(AttemptReportGapError(sim, slid, report));
+    PetscCall(ProximalMeasureHeld(p, u, &held));
+    if (held > ATTEMPT_HELD) {
+      PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
+      report->gap_unconverged = PETSC_FALSE; /* there is no equilibrium */
+    }
+  }
   PetscFunctionReturn(0);
 }
 
@@ -619,6 +643,12 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->contact) {
     PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
+    while (!report->converged && ProximalMayHoldWeak(&p)) {
+      PetscCall(ContactLinearizationDestroy(&at_u));
+      PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+      PetscCall(ProximalHoldWeak(&p, u));
+      PetscCall(AttemptContact(&p, PETSC_FALSE, u, report, &sol, &at_u));
+    }
     PetscCall(AttemptFindPassed(sim, time, u, report));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 

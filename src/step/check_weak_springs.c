@@ -112,3 +112,31 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
   PetscCall(PetscFree2(volume, moved));
   PetscFunctionReturn(0);
 }
+
+/* Reports the body that moves farthest between u_linearized and u, relative to its size, after contact updates that do
+   not bring it to rest */
+PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
+{
+  const Bodies bodies   = SimulationBodies(p->sim);
+  Scene        scene    = p->sim->scene;
+  PetscInt     farthest = 0;
+  PetscReal   *volume, *moved;
+  char         reason[256];
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
+  PetscCall(SpringsMeasureVolumes(&bodies, volume));
+  PetscCall(WeakSpringsMeasureMotion(p->sim, u_linearized, u, moved));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    moved[b] = PetscSqrtReal(moved[b]) / PetscCbrtReal(volume[b]);
+    if (moved[b] > moved[farthest]) farthest = b;
+  }
+  PetscCall(PetscFree2(volume, moved));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "body \"%s\" slides or turns away: contact moves it on in each contact update, and only weak springs hold it; add "
+    "a "
+    "support, friction, or stiffer springs than weak_springs: %g",
+    scene->bodies[farthest].name, (double)scene->weak_springs));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}

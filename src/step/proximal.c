@@ -5,14 +5,24 @@
    convergence rate is the ratio of `held` to the stiffness of what holds the bodies.
 
    The same is done for all bodies if only friction holds an elastic body and the first solve failed.
+
+   Bodies on weak springs get a stiffer term if contact updates threw them off: a linearized gap does not resist turns,
+   as of a pin in a hole, which the true gap resists. At finite strain and between curved faces they get it at once. The
+   centre is then where the gap is linearized, so that the term vanishes as contact updates converge.
 */
 #include "stepimpl.h"
+#include <vector3.h>
 #include "src/state/control.h"
 
 /* max_centres: limit of solves. After `patience` solves the force of the proximal term must fall below `stuck` times
    its last value; otherwise neither contact nor springs hold the bodies. */
 static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
+
+/* Stiffness of the term, relative to that of the bodies: after a failed solve with friction; on weak springs. There it
+   must exceed the rotational stiffness of contact forces, which a linearized gap leaves out and which is of the size of
+   the strains: ten times as much in each further try */
+static const PetscReal friction_share = 1e-4, weak_share = 1e-2, weak_share_most = 1.0, weak_share_growth = 10.0;
 
 /* Adds the proximal term at x: its energy, and held (x - centre) to force, which may be NULL */
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
@@ -39,15 +49,104 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the proximal term of rigid bodies with the centre at base, where its energy and force are zero */
-PetscErrorCode ProximalBegin(StepProblem *p)
+/* Adds `held` to K after a failed solve; for rigid bodies the tangent contains it already */
+PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
   PetscFunctionBegin;
-  if (!p->sim->rigid.n || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
-  PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
-  p->held = p->sim->rigid.held;
+  if (p->failed || p->holds_weak) PetscCall(MatDiagonalSet(K, p->held, ADD_VALUES));
+  PetscFunctionReturn(0);
+}
+
+/* held: the share of the bodies' stiffness; with `weak` only of bodies on weak springs; none where u is prescribed */
+static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal share, Vec weak, Vec held)
+{
+  const Bodies       bodies = SimulationBodies(p->sim);
+  const PetscScalar *springs;
+  PetscScalar       *k;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(SpringsOfSize(&bodies, share, held));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, held));
+  PetscCall(TiesSet(&p->sim->ties, 0.0, held));
+  if (!weak) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(held, &n));
+  PetscCall(VecGetArrayRead(weak, &springs));
+  PetscCall(VecGetArray(held, &k));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (springs[i] == 0.0) k[i] = 0.0;
+  }
+  PetscCall(VecRestoreArray(held, &k));
+  PetscCall(VecRestoreArrayRead(weak, &springs));
+  PetscFunctionReturn(0);
+}
+
+/* Adds a proximal term, centred at base: to all bodies, or to those on weak springs */
+static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
+{
+  Mat K;
+
+  PetscFunctionBegin;
+  p->holds_weak = weak;
+  PetscCall(VecDuplicate(p->base, &p->held));
+  PetscCall(ProximalGetStiffness(p, weak ? p->sim->control->weak_share : friction_share,
+    weak ? p->sim->springs.weak : NULL, p->held));
+  if (p->sim->quadratic) {
+    PetscCall(MatDuplicate(p->sim->K, MAT_COPY_VALUES, &K));
+    PetscCall(ProximalAddStiffness(p, K));
+    PetscCall(MatDestroy(&p->K));
+    p->K = K;
+  }
   PetscCall(VecDuplicate(p->base, &p->centre));
   PetscCall(VecCopy(p->base, p->centre));
+  PetscFunctionReturn(0);
+}
+
+/* Whether bodies on weak springs may get a proximal term, or a stiffer one */
+PetscBool ProximalMayHoldWeak(const StepProblem *p)
+{
+  const Simulation sim = p->sim;
+
+  return (PetscBool)(sim->springs.weak && (!p->centre || p->holds_weak) && !p->lower && !p->unheld && !p->flowing &&
+                     sim->scene->contact_updates > 1 && sim->control->weak_share < weak_share_most &&
+                     !sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
+}
+
+/* Whether bodies on weak springs need the proximal term from the first contact update on */
+static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds)
+{
+  const Simulation sim = p->sim;
+
+  PetscFunctionBegin;
+  *holds = PETSC_FALSE;
+  if (!sim->contact || !sim->springs.weak || p->centre || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  *holds = (PetscBool)(sim->control->weak_share > 0.0);
+  if (sim->quadratic || *holds) PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
+    PetscBool curved;
+
+    PetscCall(ContactIsCurved(sim->contact, k, &curved));
+    if (curved && !SceneContactPairHasFriction(&sim->scene->pairs[k])) sim->control->weak_share = weak_share;
+  }
+  *holds = (PetscBool)(sim->control->weak_share > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* Sets up the proximal term of rigid bodies, or of bodies on weak springs, with the centre at base, where its energy
+   and force are zero */
+PetscErrorCode ProximalBegin(StepProblem *p)
+{
+  PetscBool holds;
+
+  PetscFunctionBegin;
+  if (p->sim->rigid.n && !SimulationIsDynamic(p->sim)) {
+    PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
+    p->held = p->sim->rigid.held;
+    PetscCall(VecDuplicate(p->base, &p->centre));
+    PetscCall(VecCopy(p->base, p->centre));
+  }
+  PetscCall(ProximalHoldsAtOnce(p, &holds));
+  if (holds) PetscCall(ProximalCreate(p, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -70,40 +169,97 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Adds `held` to K after a failed solve; for rigid bodies the tangent contains it already */
-PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
-{
-  PetscFunctionBegin;
-  if (p->failed) PetscCall(MatDiagonalSet(K, p->held, ADD_VALUES));
-  PetscFunctionReturn(0);
-}
-
 /* Prepares a second try after a failed solve with friction: all bodies get a proximal term, centred at base. again:
    try it. Done once per problem. */
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
-  const Bodies    bodies = SimulationBodies(p->sim);
-  const PetscReal share  = 1e-4;
-  Mat             K;
-
   PetscFunctionBegin;
   *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld && !p->flowing &&
                        !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
-  PetscCall(VecDuplicate(p->base, &p->held));
-  PetscCall(SpringsOfSize(&bodies, share, p->held));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, p->held));
-  PetscCall(TiesSet(&p->sim->ties, 0.0, p->held));
-  if (p->sim->quadratic) {
-    PetscCall(MatDuplicate(p->K, MAT_COPY_VALUES, &K));
-    PetscCall(ProximalAddStiffness(p, K));
-    PetscCall(MatDestroy(&p->K));
-    p->K = K;
-  }
-  PetscCall(VecDuplicate(p->base, &p->centre));
-  PetscCall(VecCopy(p->base, p->centre));
+  PetscCall(ProximalCreate(p, PETSC_FALSE));
   PetscCall(VecCopy(p->base, u));
+  PetscFunctionReturn(0);
+}
+
+/* Prepares the next try of contact updates, and later load steps */
+PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
+{
+  PetscReal *share = &p->sim->control->weak_share;
+
+  PetscFunctionBegin;
+  *share = *share > 0.0 ? *share * weak_share_growth : weak_share;
+  if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* takes the old term out of energy and force */
+  PetscCall(ProximalEnd(p));
+  PetscCall(ProximalCreate(p, PETSC_TRUE));
+  PetscCall(VecCopy(p->base, u));
+  PetscFunctionReturn(0);
+}
+
+/* The gap is linearized at u_linearized */
+PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
+{
+  PetscFunctionBegin;
+  if (p->holds_weak) PetscCall(ProximalCentre(p, u_linearized));
+  PetscFunctionReturn(0);
+}
+
+/* share: the largest resultant of `force` on a body, relative to the sum of the magnitudes of `all` on its nodes */
+static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *share)
+{
+  const Simulation   sim = p->sim;
+  const PetscScalar *f, *a;
+  PetscInt           n;
+  PetscReal         *sums; /* of each body: resultant, sum of magnitudes */
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(4 * sim->scene->nbodies, &sums));
+  PetscCall(VecGetLocalSize(force, &n));
+  PetscCall(VecGetArrayRead(force, &f));
+  PetscCall(VecGetArrayRead(all, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal *body = &sums[4 * sim->places.body[i / 3]], square = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      body[d] += PetscRealPart(f[i + d]);
+      square += PetscSqr(PetscRealPart(a[i + d]));
+    }
+    body[3] += PetscSqrtReal(square);
+  }
+  PetscCall(VecRestoreArrayRead(all, &a));
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  *share = 0.0;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    if (sums[4 * b + 3] > 0.0) *share = PetscMax(*share, VectorNorm(&sums[4 * b]) / sums[4 * b + 3]);
+  }
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/* share: force of the term that holds bodies on weak springs, relative to that of the deformation at u; ten times as
+   much of its resultants, which no torque of coarse facets explains; 0: there is no such term */
+PetscErrorCode ProximalMeasureHeld(const StepProblem *p, Vec u, PetscReal *share)
+{
+  PetscReal carried, size, resultant, energy = 0.0;
+  Vec       force, all;
+
+  PetscFunctionBegin;
+  *share = 0.0;
+  if (!p->holds_weak) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(VecDuplicate(u, &all));
+  PetscCall(ElasticityForce(p->sim->elasticity, u, all));
+  PetscCall(VecZeroEntries(force));
+  PetscCall(ProximalAdd(p, u, &energy, force));
+  PetscCall(VecNorm(all, NORM_2, &size));
+  PetscCall(VecNorm(force, NORM_2, &carried));
+  PetscCall(ProximalCompareResultants(p, force, all, &resultant));
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&all));
+  if (size > 0.0) *share = PetscMax(carried / size, 10.0 * resultant);
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +302,7 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   *again = PETSC_FALSE;
   if (p->failed && !report->converged && !p->sim->control->interrupted)
     PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
-  if (!p->centre || !report->converged) PetscFunctionReturn(0);
+  if (!p->centre || p->holds_weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityForce(p->sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));

@@ -69,6 +69,7 @@ typedef struct {
   PetscBool            moves_on;     /* a body that only friction holds did not come to rest in any solve */
   char                *failed;       /* reason of the failed solve before the proximal term was added; NULL: none
                                         failed */
+  PetscBool            holds_weak;   /* the proximal term holds bodies on weak springs */
   PetscReal            carried;      /* force of the proximal term after the last solve [force] */
   PetscReal            tolerance;    /* relative KKT error to which the present linearization is solved; 0: that of the
                                      load step */
@@ -111,6 +112,10 @@ PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsol
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
+PETSC_INTERN PetscBool      ProximalMayHoldWeak(const StepProblem *);
+PETSC_INTERN PetscErrorCode ProximalHoldWeak(StepProblem *, Vec u);
+PETSC_INTERN PetscErrorCode ProximalLinearize(StepProblem *, Vec u_linearized);
+PETSC_INTERN PetscErrorCode ProximalMeasureHeld(const StepProblem *, Vec u, PetscReal *share);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
 PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);
@@ -143,6 +148,7 @@ PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscRea
 
 /* check_weak_springs.c */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
 /* linear.c, optimizer.c, penalty.c: the three solvers. resume: start from u and from the pressures of the last solve */

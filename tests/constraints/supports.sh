@@ -10,11 +10,11 @@ for scene in float stack; do
   sed '/weak_springs/d' $scene.yaml > loose.yaml
   "$contact" loose.yaml -quiet 2>&1
 done
-# Loads that nothing but weak springs carries; a stack so soft that it slides apart, whichever of its bodies is seen first
+# Loads that nothing but weak springs carries; a stack so soft that a linearized gap lets it slide apart, though it stands
 { sed '/pressures:/,/probes:/d; /point/d' float.yaml && printf 'body_forces:\n  - weight: {value: [0, 0, -1]}\n'; } > drop.yaml
 sed 's/young: 100/young: 5/' soft.yaml > slide.yaml
 for scene in drop slide; do
-  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/springs carry .*;/springs carry ...;/; s/by [0-9.e+-]*, more than its size of [0-9.e+-]*/by ..., more than its size of .../; s/body "\(top\|middle\)"/a body of the stack/'
+  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/springs carry .*;/springs carry ...;/'
   echo "exit code ${PIPESTATUS[0]}"
 done
 # Squeezed out between larger blocks, which a little friction prevents

@@ -17,7 +17,14 @@ def write():
            "  - pin: {shape: cylinder, axis: z, radius: 1, extent: [0, 0.5], cells: [6, 2, 1], %s}\n"
            "contact: auto\nsymmetry: [ring.lmin, ring.lmax, pin.lmin, pin.lmax]\ndisplacements:\n  - rim: {face: ring.outer, value: [0, 0, 0]}\n"
            "  - axle: {body: pin, from: [0, 0, 0], to: [0, 0, 0.5], value: [0, 0.06, free]}\n  - turn: {body: pin, point: [1, 0, 0], value: [free, 0.06, free]}\n")
+    # A pin that is too large for its ring: nothing but the shape of the true contact surface resists that it turns
+    fit = ("bodies:\n  - pin: {shape: cylinder, axis: z, radius: 1.001, extent: [0, 2], cells: [3, 3, 5], %s}\n"
+           "  - ring: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 360], extent: [0, 2], cells: [3, 24, 5], %s}\n"
+           "symmetry: [ring.lmin, pin.lmin]\ncontact:\n  - fit: {mortar: ring.inner, nonmortar: pin.surface, interference: true}\nweak_springs: %s\n")
     for name, text in {
+        "fit": fit % (MATERIAL, MATERIAL, "true"),
+        "fit_finite": fit % (MATERIAL + ", material: neohookean", MATERIAL + ", material: neohookean", "true"),
+        "fit_springs": fit % (MATERIAL, MATERIAL, "1e-3"),
         "whole": tube % ("30, 390", 16, MATERIAL, ""),
         "quarter": tube % ("0, 90", 4, MATERIAL, ", tube.amin, tube.amax"),
         "rod": rod % "",
@@ -42,6 +49,10 @@ def judge():
         say(f"cylinder, refine {refine}: the volume of a prism of {n} sides", within(energy[f"rod_{refine}"], 0.5 * 1000 * 0.001**2 * polygon, 1e-7), energy)
     say("cylinder of order 2: the volume to 1e-4", within(energy["rod_order2_1"], 0.5 * 1000 * 0.001**2 * math.pi * 12, 1e-4), energy)
     say("two oblique motions of a face add up", within(energy["oblique_0"], energy["straight_0"], 1e-9), energy)
+    springs = load("fit_springs_0")["steps"][-1]
+    for name in "fit", "fit_finite":
+        step = load(name + "_0")["steps"][-1]
+        say(f"{name}: a pin that may turn is pressed as one on stiffer springs", within(step["pairs"][0]["normal_force"], springs["pairs"][0]["normal_force"], 1e-2) and within(step["energy"], springs["energy"], 1e-2), (step["pairs"][0]["normal_force"], springs["pairs"][0]["normal_force"], step["energy"], springs["energy"]))
     pair = load("pin_1")["steps"][-1]["pairs"][0]
     say("pin in a ring: it presses where it is pushed", abs(pair["force"][1]) > 0.1 and abs(pair["force"][0]) < 1e-3 * abs(pair["force"][1]), pair["force"])
 
