@@ -102,7 +102,8 @@ static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s,
   PetscFunctionReturn(0);
 }
 
-/* Newton's method from the start with compliances computed from C. begin: forces and y at the start */
+/* Newton's method from the start with compliances computed from C; held: those of rows whose neighbours are held, which
+   suit rows that stick. begin: forces and y at the start */
 static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem *s, PetscBool held, PetscReal begin[],
   PetscReal *first, PetscInt *steps, PetscBool *solved)
 {
@@ -137,12 +138,12 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
 
 /* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
    fraction of its start, since later directions will change the problem by more. set->met tells whether that was
-   reached. simply: by Newton's method alone. *steps: number of systems solved. *solved: false if nothing holds a moving
-   body */
+   reached. simply: by Newton's method alone, because W can be extended. *steps: number of systems solved. *solved:
+   false if nothing holds a moving body */
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBool simply, PetscInt *steps,
   PetscBool *solved)
 {
-  const PetscInt limit = 60;
+  const PetscInt limit = 60, few = 400; /* rows whose compliances are measured before W is extended */
   PetscReal      first, *begin;
 
   PetscFunctionBegin;
@@ -152,6 +153,8 @@ PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   PetscCall(PetscMalloc1(s->m + s->k, &begin));
   PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
   PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  if (!*solved && simply && set->system.m <= few)
+    PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   set->met = *solved;
   if (!*solved && !simply) PetscCall(ContinuationFallBack(set, s, begin, first, steps, solved));
   PetscCall(PetscFree(begin));
