@@ -18,6 +18,26 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
+/* Whether rounding of elastic forces is as large as what a solver may leave of the forces of inertia by the same
+   displacements */
+PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
+{
+  const PetscReal left = 1e-11; /* relative, with a margin of a hundred */
+  PetscReal       mass;
+  Vec             diagonal;
+
+  PetscFunctionBegin;
+  *small = PETSC_FALSE;
+  if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(sim->dynamics.inert, &diagonal));
+  PetscCall(MatGetDiagonal(sim->dynamics.mass, diagonal));
+  PetscCall(VecPointwiseMult(diagonal, diagonal, sim->dynamics.inert));
+  PetscCall(VecMax(diagonal, NULL, &mass));
+  PetscCall(VecDestroy(&diagonal));
+  *small = (PetscBool)(PETSC_MACHINE_EPSILON * sim->stiffness > left * sim->dynamics.inertia * mass);
+  PetscFunctionReturn(0);
+}
+
 /* Sets the excess of the mean internal force to that of a step to u */
 PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
 {

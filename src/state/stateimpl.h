@@ -66,6 +66,7 @@ static inline PetscBool SimulationIsDynamic(Simulation sim)
 
 /* inertia.c: of a load step that ends at this time */
 PETSC_INTERN PetscErrorCode InertiaBegin(Simulation, PetscReal time, PetscBool *changed);
+PETSC_INTERN PetscErrorCode InertiaIsSmall(Simulation, PetscBool *);
 PETSC_INTERN PetscErrorCode InertiaSetExcess(Simulation, Vec u);
 PETSC_INTERN PetscErrorCode InertiaMeasureExcess(Simulation, Vec u, PetscReal rounding, PetscReal *change);
 PETSC_INTERN PetscErrorCode InertiaGetForce(Simulation, Vec u, Vec *force);

@@ -3,6 +3,21 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
+/* base: the last state with the prescribed displacements of this time; or, for time steps so long that the products of
+   the stiffness and the way of a body that flies have rounding errors as large as inertia, the path continued */
+static PetscErrorCode StepProblemStartBase(StepProblem *p)
+{
+  Simulation sim   = p->sim;
+  PetscBool  small = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (sim->contact && sim->quadratic) PetscCall(InertiaIsSmall(sim, &small));
+  if (small) PetscCall(PathContinue(sim, p->time, p->base));
+  else PetscCall(VecCopy(sim->path->u, p->base));
+  PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
+  PetscFunctionReturn(0);
+}
+
 /* Where bodies turn freely, the base and the loads are those about u */
 static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
 {
@@ -10,8 +25,7 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   const Constraints constraints = SimulationConstraints(sim);
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(sim->path->u, p->base));
-  PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
+  PetscCall(StepProblemStartBase(p));
   PetscCall(TiesTurn(&constraints, p->time, sim->path->u, u, anew));
   PetscCall(TiesFollow(&sim->ties, p->base));
   PetscCall(VecDestroy(&p->load));

@@ -22,3 +22,21 @@ contact:
 dynamics: {time_step: 0.001, end_time: 0.12}
 YAML
 run three.yaml; cat err
+# a block flies 6 m in steps of 500 wave times towards a wall that it does not reach: each step takes few AMG applications
+cat > fly.yaml <<'YAML'
+bodies:
+  - wall: {lower: [-9, -5, -5], upper: [-8, 5, 5], cells: [1, 1, 1], material: rigid}
+  - block: {lower: [1, 0, 0], upper: [2, 1, 1], cells: [4, 4, 4], young: 2e11, poisson: 0.3, density: 8000, initial_velocity: [-20, 0, 0]}
+displacements:
+  - fix: {body: wall, value: [0, 0, 0]}
+contact:
+  - hit: {mortar: wall.xmax, nonmortar: block.xmin}
+dynamics: {time_step: 0.1, end_time: 0.3}
+YAML
+"$contact" fly.yaml -quiet -error_estimate 0 -tao_ipfilter_direct false -output fly 2> /dev/null || echo "exit $?"
+"$PYTHON" -c "
+from histories import history
+from summaries import say
+run = history('fly')
+say('fly: at most 200 AMG applications a step', max(run['amg_applications']) <= 200, run['amg_applications'])
+say('fly: momentum stays', max(abs(p / -160000 - 1) for p in run['dynamics.momentum_x']) < 1e-9, run['dynamics.momentum_x'])"
