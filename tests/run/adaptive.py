@@ -88,16 +88,13 @@ def judge():
     cylinder = load("cylinder")
     reached("cylinder of thin cells", cylinder, off(abs(cylinder["steps"][-1]["contact_force"][2]), Cylinder().share * Cylinder().loaded()[0]))
     for name, start, tolerance in (("cylinder", "cold", 1e-4), ("slide", "slide_cold", 2e-3)):
-        if not os.path.exists(start + ".json"):
-            continue  # the expected output says which must be there
         warm, cold = load(name), load(start)
         say(name + ": started from the mesh before, fewer applications of AMG, the same energies", later(warm) < 0.8 * later(cold) and all(within(a, b, tolerance) for a, b in zip(each(warm, "energy"), each(cold, "energy"))), (levels(warm), levels(cold)))
     beam, energy = load("cantilever"), load("energy")
     truth = cantilever.ENERGY + (cantilever.ENERGY - beam["steps"][-1]["energy"]) / 3
     reached("cantilever", beam, off(beam["steps"][-1]["energy"], truth))
     say("cantilever, by its energy: the same, there is no pair", [l["dofs"] for l in levels(beam)] == [l["dofs"] for l in levels(energy)], (levels(beam), levels(energy)))
-    if os.path.exists("edge.json"):
-        judge_edge(load("edge"))
+    judge_edge(load("edge"))
     tool = load("tool")
     reached("rigid sphere without facets", tool, off(pair(tool)["force"][2], -3.18))  # 3.12 and 3.167 by order 2 with 6,672 and 47,250 unknowns
     shrink = load("shrink")
@@ -110,7 +107,8 @@ def judge_edge(edge):
     truth = 0.418 / 2  # of half of the block: 0.4177 by a punch where the second load step touches, 0.416 to 0.420 by cells of order 2 graded towards its edges, smooth: false
     error = off(edge["steps"][-1]["energy"], truth)
     say("block with edges on a slab that is nearly incompressible: 0.7 to 1.5 times the true error is stated", 0.7 * error <= levels(edge)[-1]["error"] <= 1.5 * error, (error, levels(edge)))
-    say("its plane face is refined at the edge of contact, not all over", edge["steps"][-1]["constraints"] < 400, edge["steps"][-1])
+    if len(levels(edge)) > 3:  # adaptive_long
+        say("its plane face is refined at the edge of contact, not all over", edge["steps"][-1]["constraints"] < 400, edge["steps"][-1])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 # -accuracy_adaptive: Hertz's ball from 1,131 unknowns, a beam, rings whose facets err where stress recovery sees nothing, thin cells along a curve; the same
-# meshes on any ranks; starts from the mesh before; what is asked of; what is refused, in one sentence. adaptive_long: more ranks, a cold start with friction, a block with edges. adaptive.py holds the summaries against references.
+# meshes on any ranks; starts from the mesh before; what is asked of; what is refused, in one sentence; a cold start with friction; a block with edges. adaptive_long: more ranks, finer meshes. adaptive.py holds the summaries against references.
 contact=$AMGF_DIR/bin/contact
 long=${1-}
+if [ -n "$long" ]; then slide=3e-2 edge=50000; else slide=1e-1 edge=8000; fi
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests/run/adaptive.py" write
 "$PYTHON" "$AMGF_DIR/share/scenes/meshes.py" hertz_cylinder coarse > cylinder.yaml
 cp "$AMGF_DIR/share/scenes/cantilever.yaml" .
@@ -18,15 +19,15 @@ run small ball -accuracy 1e-3 -accuracy_max_dofs 5000 2> /dev/null
 for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -summary ranks_$ranks.json; done
 run cylinder cylinder -accuracy 3e-3
 run cold cylinder -accuracy 3e-3 -load_warm_start 0
-[ -z "$long" ] || run slide slide -accuracy 3e-2
-[ -z "$long" ] || run slide_cold slide -accuracy 3e-2 -load_warm_start 0
+run slide slide -accuracy $slide
+run slide_cold slide -accuracy $slide -load_warm_start 0
 run cantilever cantilever -accuracy 1e-2
 run energy cantilever -accuracy 1e-2 -accuracy_of energy
 run tool tool -accuracy 5e-2
 run shrink shrink -accuracy 3e-3 2> /dev/null
 sed '/element: full/d; s/^refine: 1/refine: 0/; s/lower: \[-4.5, -2, /lower: [-4.5, 0, /; s/lower: \[-3.5, -0.5, /lower: [-3.5, 0, /; s/cells: \[20, 6, 3\]/cells: [20, 3, 3]\n      element: bbar/; s/cells: \[4, 4, 4\]/cells: [4, 2, 4]/' "$AMGF_DIR/share/scenes/two_block.yaml" > edge.yaml
 echo 'symmetry: [slab.ymin, block.ymin]' >> edge.yaml
-[ -z "$long" ] || run edge edge -accuracy 1e-2 -accuracy_of energy -contact_updates 1 -accuracy_max_dofs 50000 2> /dev/null
+run edge edge -accuracy 1e-2 -accuracy_of energy -contact_updates 1 -accuracy_max_dofs $edge 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/scenes:$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests/run/adaptive.py" judge
 "$contact" cantilever.yaml -accuracy 1e-2 -accuracy_adaptive | grep -a '^Accuracy 0.01: a mesh' | sed 's/has an error of .*; the next/has an error of ...; the next/'
 # what is refused
