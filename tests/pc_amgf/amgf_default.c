@@ -165,7 +165,7 @@ int main(int argc, char **argv)
    # with debugging PETSc 3.18 ends in its own MatCreateGraph() on four ranks: "Some processors inserted others added"
    test:
       suffix: gamg
-      requires: !define(PETSC_USE_DEBUG)
+      requires: !debug
       nsize: {{1 2 4}}
       args: -gamg
 
