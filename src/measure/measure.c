@@ -114,6 +114,17 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* Reactions, which in the impact scheme are a part of what is unbalanced. ties, rigid: may be NULL */
+static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Vec rigid)
+{
+  const Vec forces[] = {force, ties, rigid};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(forces); ++k)
+    if (forces[k]) PetscCall(VecScale(forces[k], SchemeShare(&sim->scene->dynamics)));
+  PetscFunctionReturn(0);
+}
+
 /* Contact forces that a time step has beside those of its end */
 static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
 {
@@ -186,9 +197,10 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
+  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report));
+  PetscCall(MeasureShareForces(sim, force, ties, rigid));
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));

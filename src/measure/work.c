@@ -58,6 +58,22 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Adds the work of reactions in the impact scheme, which are those of the step as a whole; they are zero then */
+static PetscErrorCode WorkAddMean(Simulation sim, Vec increment[2], Vec reaction, PetscReal *work)
+{
+  const PetscReal share = SchemeShare(&sim->scene->dynamics);
+
+  PetscFunctionBegin;
+  for (int k = 0; k < 2; ++k) {
+    PetscScalar product;
+
+    PetscCall(VecDot(reaction, increment[k], &product));
+    *work += 0.5 * share * PetscRealPart(product);
+  }
+  PetscCall(VecZeroEntries(reaction));
+  PetscFunctionReturn(0);
+}
+
 /* Reports the pretension of bolts at u, and adds its work */
 static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 {
@@ -96,11 +112,12 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   PetscCall(VecCopy(unbalanced, outside));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
+  PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
+  if (SchemeIsImpact(&sim->scene->dynamics)) PetscCall(WorkAddMean(sim, increment, reaction, &path->work));
   if (load) PetscCall(VecWAXPY(outside, 1.0, load, reaction));
   else PetscCall(VecCopy(reaction, outside));
-  if (rigid) PetscCall(VecAXPY(outside, 1.0, rigid));
+  if (rigid) PetscCall(VecAXPY(outside, SchemeShare(&sim->scene->dynamics), rigid));
   PetscCall(VecDestroy(&reaction));
-  PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
   PetscCall(VecNorm(u, NORM_INFINITY, &place));
   PetscCall(VecNorm(increment[0], NORM_INFINITY, &way));
   PetscCall(WorkAddForce(increment, 0.5, &path->outside, &outside, &path->work));

@@ -40,3 +40,22 @@ from summaries import say
 run = history('fly')
 say('fly: at most 200 AMG applications a step', max(run['amg_applications']) <= 200, run['amg_applications'])
 say('fly: momentum stays', max(abs(p / -160000 - 1) for p in run['dynamics.momentum_x']) < 1e-9, run['dynamics.momentum_x'])"
+# the end of a bar is moved to and fro: reaction, and its work
+cat > pull.yaml <<'YAML'
+bodies:
+  - bar: {lower: [0, 0, 0], upper: [1, 0.1, 0.1], cells: [10, 1, 1], young: 1000, poisson: 0, element: full, density: 1}
+symmetry: [bar.ymin, bar.zmin]
+displacements:
+  - fix: {face: bar.xmin, value: [0, free, free]}
+  - pull: {face: bar.xmax, value: [0.01, free, free]}
+load: {expression: "sin(6*t)^2"}
+dynamics: {time_step: 0.005, end_time: 0.5}
+YAML
+for scheme in impact generalized_alpha; do sed "s/end_time: 0.5/end_time: 0.5, scheme: $scheme, spectral_radius: 1/" pull.yaml > $scheme.yaml; run $scheme.yaml -output $scheme; done
+"$PYTHON" -c "
+from histories import history
+from summaries import say
+for name in 'impact', 'generalized_alpha':
+    run = history(name)
+    say(name + ': reaction E A u/L of a bar that is moved slowly, to 10 %', all(abs(f - 0.1) < 0.01 for f in run['bar.xmax.reaction_x'][50:53]), run['bar.xmax.reaction_x'][50:53])
+    say(name + ': work of the moved end is energy, to 5 % of the largest', max(map(abs, run['dynamics.numerical_dissipation'])) < 0.05 * max(run['dynamics.total_energy']), run['dynamics.numerical_dissipation'])"
