@@ -11,7 +11,7 @@ folders=()
 for folder in friction subspace; do
   folders+=("$folder")
   rm -r "tao_ipfilter/$folder"
-  case $folder in friction) line='ip->laws *=' ;; *) line='ip->method.ops *=' ;; esac
+  case $folder in friction) line='ip->laws *=' ;; *) line='ip->method->ops *=' ;; esac
   sed -i -e "/$folder\//d" -e "/$line/d" tao_ipfilter/register.c
   mpicc -std=c11 -Wall -Wextra -fsyntax-only -Iinclude -I. $headers tao_ipfilter/*.c tao_ipfilter/*/*.c 2>&1 | grep -E 'error|warning' | grep -v "unused parameter 'ip'\|unused parameter ‘ip’"
   mpicc -std=c11 -fPIC -w -Iinclude -I. $headers -c tao_ipfilter/register.c -o register.o
