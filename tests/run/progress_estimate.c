@@ -3,6 +3,7 @@ static char help[] =
 and nothing where they are not.\n\n";
 
 #include "src/run/runimpl.h"
+#include "src/state/run.h"
 
 typedef PetscLogDouble (*Duration)(PetscInt step);
 
