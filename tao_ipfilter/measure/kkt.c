@@ -96,11 +96,13 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
-/* Scale for violations of successive iterates: the constraints' first values, or |J| |x| at the start */
-static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian)
+/* Scale for violations of successive iterates: the constraints' first values, or |J| |x| at the start; 1, as
+   where both are zero, if they are rounding */
+static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian, PetscReal now)
 {
-  const PetscReal size = PetscMax(values, jacobian * ip->first->x);
+  PetscReal size = PetscMax(values, jacobian * ip->first->x);
 
+  if (size <= PETSC_MACHINE_EPSILON * now) size = 0.0;
   return ip->opt->scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
@@ -116,7 +118,7 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   if (ip->mi) {
     PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
-    ip->kkt->violation = norm / FirstSize(ip, ip->first->length, ip->first->jacobian);
+    ip->kkt->violation = norm / FirstSize(ip, ip->first->length, ip->first->jacobian, ip->scale->length);
     PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->at.c));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
     *primal = norm / ip->scale->length;
@@ -124,9 +126,9 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   }
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &norm));
-    *primal = Larger(*primal, norm / ip->scale->equality);
-    ip->kkt->violation =
-      Larger(ip->kkt->violation, norm / FirstSize(ip, ip->first->equality, ip->first->equality_jacobian));
+    *primal            = Larger(*primal, norm / ip->scale->equality);
+    ip->kkt->violation = Larger(ip->kkt->violation,
+      norm / FirstSize(ip, ip->first->equality, ip->first->equality_jacobian, ip->scale->equality));
     PetscCall(IPRowScaleNorm(tao, IP_EQUALITIES, ip->at.ce, &norm));
     *largest = Larger(*largest, norm);
   }

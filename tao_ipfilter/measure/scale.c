@@ -12,10 +12,11 @@
 #define IP_STEEP   0.1   /* constraints that have become flatter than that started where they were steep */
 #define IP_RUNAWAY 100.0 /* limit of an iterate's size relative to its first size */
 
-/* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small */
+/* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small. A size
+   at the start that is rounding does not count */
 static PetscReal Within(PetscReal size, PetscReal limit)
 {
-  return limit > 0.0 ? PetscMin(size, limit) : size;
+  return limit > PETSC_MACHINE_EPSILON * size ? PetscMin(size, limit) : size;
 }
 
 /*
