@@ -119,6 +119,8 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSetNormTermForces(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetNormTermForces(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetSubspace(Tao, PetscContainer *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, PetscInt, PetscReal, Vec, Vec, PetscInt *,
+  PetscBool *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
 
 #endif

@@ -207,7 +207,8 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   do {
     PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
-    if (resume) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
+    if (resume && (p->friction.T || p->rough || p->holds_weak))
+      PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
@@ -369,23 +370,29 @@ static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
 
 /* Moves u_linearized to the point at which the gap is linearized next, and linearizes it there. at_u: on entry the
    linearization at the solution u, on exit the new one */
-static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants, Vec u, Vec u_linearized,
-  StepReport *report, ContactLinearization *at_u)
+static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants,
+  const ContactSolution *sol, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
   Simulation sim = p->sim;
-  PetscBool  damped, at_solution;
+  PetscBool  damped, at_solution, found = PETSC_FALSE;
   PetscReal  held;
+  Vec        next;
 
   PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &next));
+  if (!p->holds_weak) PetscCall(ContactUpdateNewton(p, sol, *at_u, u_linearized, u, next, report, &found));
   PetscCall(ProximalMeasureHeld(p, u, &held)); /* falls with the motion of bodies on weak springs, the gap need not */
   PetscCall(
     ContactUpdateSecantsAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
   if (damped && ProximalMayHoldWeak(p)) {
+    PetscCall(VecDestroy(&next));
     PetscCall(ReportReason(report, PETSC_FALSE, "bodies on weak springs do not come to rest in contact updates"));
     PetscFunctionReturn(0);
   }
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
+  if (found && !damped) PetscCall(VecCopy(next, u_linearized));
+  PetscCall(VecDestroy(&next));
   PetscCall(VecEqual(u, u_linearized, &at_solution));
   PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
   if (!at_solution || (*at_u)->gaps_only) {
@@ -416,8 +423,9 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (report->contact_updates) PetscCall(WeakSpringsTestMotion(p, u_linearized, u, report));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
-  if (report->contact_updates > 1) PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
-  else PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* where the gap is linearized next */
+  if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* where the gap is linearized next */
+  else PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(AttemptMeasureGap(p, u, sol, *at_u, report, &is_true));
@@ -561,7 +569,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
       continue;
     }
     if (end || report->contact_updates == sim->scene->contact_updates) break;
-    PetscCall(AttemptNextLinearization(p, &secants, u, u_linearized, report, at_u));
+    PetscCall(AttemptNextLinearization(p, &secants, sol, u, u_linearized, report, at_u));
     if (!report->converged) break;
   }
   PetscCall(VecDestroy(&u_linearized));

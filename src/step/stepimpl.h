@@ -75,6 +75,7 @@ typedef struct {
                                      load step */
   PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
   PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
+  PetscBool            rough;        /* a contact update made no progress: no Newton steps for now */
   PetscInt             nflows;       /* iterates that show plastic flow */
   const char          *flowing;      /* the body that flows, so that there is no equilibrium; NULL: none */
   Vec                  w, Kw;
@@ -94,7 +95,7 @@ PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLineariz
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemAdvanceBolts(StepProblem *, Vec u, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
-/* TAO callbacks, also in quadratic.c and energy.c; their context is a StepProblem */
+/* TAO callbacks, also in energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
@@ -127,11 +128,9 @@ PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
-/* quadratic.c */
+/* energy.c */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
-
-/* energy.c */
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
@@ -157,6 +156,10 @@ PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_lin
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
+
+/* contact_update_newton.c */
+PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolution *, ContactLinearization at_u,
+  Vec x, Vec u, Vec next, StepReport *, PetscBool *found);
 
 /* contact_update_anticipate.c */
 PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);

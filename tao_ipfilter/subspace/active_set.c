@@ -172,7 +172,7 @@ static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c
 }
 
 /* Solves for the present active set */
-static PetscErrorCode ActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscBool *solved)
+PetscErrorCode IPActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscBool *solved)
 {
   PetscFunctionBegin;
   *solved = PETSC_TRUE;
@@ -222,7 +222,7 @@ PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReduc
   for (*steps = 1; *steps <= limit; (*steps)++) {
     PetscInt misplaced = 0;
 
-    PetscCall(ActiveSetSolveRows(set, c, s, solved));
+    PetscCall(IPActiveSetSolveRows(set, c, s, solved));
     if (!*solved) PetscFunctionReturn(0);
     for (PetscInt i = 0; i < set->m; i++) misplaced += ActiveSetMisplaced(set, s, i);
     if (!misplaced) PetscFunctionReturn(0);

@@ -12,6 +12,7 @@
    nothing. P is reused in later solves with the same K, for any constraints and loads.
 */
 #include "subspaceimpl.h"
+#include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -398,8 +399,8 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   PetscFunctionReturn(0);
 }
 
-/* Ends the method at the end of a solve or if it makes no progress. Directions are kept; data of the constraints are
-   destroyed. */
+/* Ends the method at the end of a solve or if it makes no progress. Directions are kept, and constraints that
+   TaoIPFilterSolveActive() may use: without norm terms. */
 static PetscErrorCode FilteredEnd(Tao tao)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -409,6 +410,8 @@ static PetscErrorCode FilteredEnd(Tao tao)
   if (ip->method->on) {
     PetscCall(IPSubspaceStateGet(tao, &kept));
     kept->napplications = ip->rec->napplications;
+    if (ip->terms->n) PetscCall(IPReducedRelease(&kept->reduced));
+    else PetscCall(IPReducedScale(&kept->reduced, ip->rows->inequality));
   }
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscFunctionReturn(0);

@@ -186,6 +186,7 @@ PetscErrorCode IPReducedRelease(IPReduced *r)
   PetscFunctionBegin;
   PetscCall(VecScatterDestroy(&r->to_rows));
   PetscCall(VecDestroy(&r->on_rows));
+  PetscCall(VecDestroy(&r->scale));
   PetscCall(VecScatterDestroy(&r->to_terms));
   PetscCall(VecDestroy(&r->on_terms));
   if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
@@ -652,5 +653,59 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   r->nsteps  = counts[0];
   r->nactive = counts[1];
   r->met     = (PetscBool)counts[2];
+  PetscFunctionReturn(0);
+}
+
+/* t, h for the forces f on W and the motions c of the rows, then y and lambda for the present active set */
+static PetscErrorCode ReducedSolveActiveFirst(IPReduced *r, PetscBool *solved)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < r->n; i++) r->g[i] = -r->g[i];
+  PetscCall(IPComplianceSolve(&r->compliance, 1, r->g, r->x));
+  PetscCall(IPComplianceMultiply(&r->compliance, 1, r->x, s->h));
+  for (PetscInt i = 0; i < s->m; i++) s->h[i] += s->gap[i];
+  for (PetscInt j = 0; j < s->k; j++) s->t[j] = ReducedDot(r->n, &r->Z[(size_t)j * (size_t)r->n], r->g);
+  PetscCall(IPActiveSetSolveRows(&r->set, &r->compliance, s, solved));
+  PetscFunctionReturn(0);
+}
+
+/* Row scales d of the constraints: the problem is that with d J and multipliers lambda / d. NULL: 1 */
+PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)scale));
+  PetscCall(VecDestroy(&r->scale));
+  r->scale = scale;
+  PetscFunctionReturn(0);
+}
+
+/* Solves K v - J^T lambda = f on the subspace, J v = c in the rows that were active at the last solution, lambda = 0 in
+   the others. f counts on W only. *solved: false without constraints, or with norm terms */
+PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, Vec c, Vec v, Vec force,
+  PetscBool *solved)
+{
+  IPReducedSystem *s = &r->system;
+  PetscReal       *w;
+
+  PetscFunctionBegin;
+  *solved =
+    (PetscBool)(r->to_rows && !r->to_terms && r->generation == basis->generation && s->k == r->companions.n + basis->n);
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(ReducedFetch(r->to_W, f, r->on_W, r->n, r->g));
+  if (r->scale) PetscCall(VecPointwiseMult(force, c, r->scale));
+  PetscCall(ReducedFetch(r->to_rows, r->scale ? force : c, r->on_rows, r->m, s->gap));
+  PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveActiveFirst(r, solved) : (PetscErrorCode)0, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(r->n, &w));
+  if (r->first) PetscCall(ReducedRecover(r, w));
+  PetscCall(VecZeroEntries(v));
+  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
+  PetscCall(PetscFree(w));
+  PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
+  if (r->scale) PetscCall(VecPointwiseMult(force, force, r->scale));
+  PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)v)));
+  if (basis->n) PetscCall(VecMAXPY(v, basis->n, s->y + r->companions.n, basis->p));
   PetscFunctionReturn(0);
 }

@@ -459,3 +459,109 @@ PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
   PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
   PetscFunctionReturn(0);
 }
+
+/* Adds a direction from the forces K v off W that the solution v on the subspace leaves. *extended: false if there is
+   no room, or the preconditioner is not positive definite */
+static PetscErrorCode KeptExtend(IPSubspaceState *kept, Mat K, Vec left, PetscBool *extended)
+{
+  PetscReal  *pg;
+  PetscScalar energy;
+  Vec         d;
+
+  PetscFunctionBegin;
+  *extended = (PetscBool)(kept->basis.n < kept->basis.max);
+  if (!*extended) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(left, &d));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterApply, left, d, NULL, NULL));
+  PetscCall(PCApply(kept->pc, left, d));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterApply, left, d, NULL, NULL));
+  PetscCall(VecDot(left, d, &energy));
+  *extended = (PetscBool)(PetscRealPart(energy) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(energy)));
+  PetscCall(VecISSet(d, kept->reduced.W, 0.0));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, d, NULL, NULL, NULL));
+  if (*extended) PetscCall(IPBasisAppend(&kept->basis, K, d, extended));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, d, NULL, NULL, NULL));
+  PetscCall(VecDestroy(&d));
+  if (!*extended) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(kept->basis.max, &pg));
+  PetscCall(IPReducedAppend(&kept->reduced, &kept->basis, pg));
+  PetscCall(PetscFree(pg));
+  PetscFunctionReturn(0);
+}
+
+/* left = -K v off W; part: its norm, relative to that of K v on W */
+static PetscErrorCode KeptForceLeft(const IPSubspaceState *kept, Mat K, Vec v, Vec left, PetscReal *part)
+{
+  PetscReal all, off;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(K, v, left));
+  PetscCall(VecScale(left, -1.0));
+  PetscCall(VecNorm(left, NORM_2, &all));
+  PetscCall(VecISSet(left, kept->reduced.W, 0.0));
+  PetscCall(VecNorm(left, NORM_2, &off));
+  *part = off > 0.0 ? off / all : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterSolveActive - Solves a system with the Hessian and the active constraints of the last solution, by the
+  filtered subspace method
+
+  Collective
+
+  Input Parameters:
++ space - the result of `TaoIPFilterGetSubspace()` after `TaoSolve()`
+. f     - right-hand side of the unknowns; only unknowns of constraints and their neighbours count
+. c     - right-hand side of the constraints; only active ones count
+. most  - the preconditioner may be applied so often
+- rtol  - residual to reach, relative to the forces on the constraints' unknowns
+
+  Output Parameters:
++ x      - solution of H x - J^T lambda = f, J_A x = c_A on the subspace
+. lambda - its multipliers, zero in constraints that are not active
+. n      - applications of the preconditioner
+- solved - false: there are none, or the last solve did not end with the method; x and lambda are not set
+
+  Level: developer
+
+  Note:
+  J, the active set and the factors are those of the last solve. Directions that are added stay for later solves. A
+  caller whose constraints are not linear finds by it, to first order, how solutions of linearized problems depend on
+  the linearization.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscInt most, PetscReal rtol, Vec x,
+  Vec lambda, PetscInt *n, PetscBool *solved)
+{
+  IPSubspaceState *kept;
+  PetscReal        part     = 0.0;
+  PetscBool        extended = PETSC_TRUE;
+  Vec              left;
+  Mat              K;
+
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(space, PETSC_CONTAINER_CLASSID, 1);
+  PetscValidHeaderSpecific(f, VEC_CLASSID, 2);
+  PetscValidHeaderSpecific(c, VEC_CLASSID, 3);
+  PetscValidHeaderSpecific(x, VEC_CLASSID, 6);
+  PetscValidHeaderSpecific(lambda, VEC_CLASSID, 7);
+  PetscAssertPointer(n, 8);
+  PetscAssertPointer(solved, 9);
+  *n = 0;
+  PetscCall(PetscContainerGetPointer(space, (void **)&kept));
+  PetscCall(IPReducedSolveActive(&kept->reduced, &kept->basis, f, c, x, lambda, solved));
+  if (!*solved || !kept->pc) PetscFunctionReturn(0);
+  PetscCall(PCGetOperators(kept->pc, &K, NULL));
+  PetscCall(VecDuplicate(x, &left));
+  while (*n < most && extended && *solved) {
+    PetscCall(KeptForceLeft(kept, K, x, left, &part));
+    if (part <= rtol) break;
+    PetscCall(KeptExtend(kept, K, left, &extended));
+    ++*n;
+    if (extended) PetscCall(IPReducedSolveActive(&kept->reduced, &kept->basis, f, c, x, lambda, solved));
+  }
+  PetscCall(VecDestroy(&left));
+  PetscFunctionReturn(0);
+}

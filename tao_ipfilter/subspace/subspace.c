@@ -14,7 +14,6 @@
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
-  if (f->reduced) PetscCall(IPReducedRelease(f->reduced));
   f->reduced = NULL;
   PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));

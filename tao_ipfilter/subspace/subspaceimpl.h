@@ -90,6 +90,7 @@ typedef struct {
   PetscInt         n, m, nterms; /* sizes of W, constraints, norm terms */
   VecScatter       to_W, to_rows, to_terms;
   Vec              on_W, on_rows, on_terms;
+  Vec              scale;   /* of the rows, after a solve; NULL: 1 */
   const IPLawsOps *lawsops; /* NULL: no implementation is registered */
   IPLaws           laws;    /* NULL without norm terms, and on all but the first rank */
   IPCompliance     compliance;
@@ -160,6 +161,7 @@ PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
 /* active_set.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
+PETSC_INTERN PetscErrorCode IPActiveSetSolveRows(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps,
   PetscBool *solved);
 
@@ -168,6 +170,7 @@ PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *s
 PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K, Mat J, const IPTerms *, IS W, Vec x,
   Vec c, const IPBasis *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
+PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
@@ -176,6 +179,8 @@ PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const 
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
+  PetscBool *solved);
 
 /* state.c, beside the public functions */
 PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
