@@ -9,7 +9,7 @@
      K d - d(J^T lambda) = r,   dg_A = -g_A(u).
 
    The differentials at u along (d, dlambda) are differences of the gap's linearization. They contain what a
-   linearization leaves out: the rotation of the normals, the change of the overlaps, and the bending of smooth surfaces.
+   linearization leaves out: the rotation of the normals, the change of the overlaps, the bending of smooth surfaces.
    The system is solved by GMRES. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the filtered
    subspace, where factors exist already.
 */
@@ -37,8 +37,8 @@ typedef struct {
   Vec                  d, f, lambdas, c; /* work */
 } GapNewton;
 
-/* f = C^T J^T lambda for forces of the rows of sim->solved->linearization, and the gap c of these rows at `at`. Rows without
-   pressure have none. n: number of rows with pressure that `at` has, of all ranks */
+/* f = C^T J^T lambda for forces of the rows of the present linearization, and the gap c of these rows at `at`. Rows
+   without pressure have none. n: number of rows with pressure that `at` has, of all ranks */
 static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec lambda, Vec f, Vec c, PetscInt *n)
 {
   Simulation         sim = s->p->sim;
@@ -321,7 +321,7 @@ static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
   return (PetscBool)!p->rough;
 }
 
-/* next = u + d. at_u: the gap at u, where u is the solution sol of the present linearization, at x. found: false, and next is
+/* next = u + d. at_u: the gap at u, the solution sol of the present linearization at x. found: false, and next is
    not set, with friction, without the filtered subspace, where rows under pressure come or go
    near u, or after an update without progress */
 PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, ContactLinearization at_u, Vec x, Vec u,

@@ -295,10 +295,6 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
       if (*found) PetscCall(IPFilteredSetUp(tao, kept, found));
     }
     if (*found) PetscCall(NewtonSolveModel(tao, kept, target, d, force, found));
-    if (!*found && kept->reduced.simply) {
-      PetscCall(IPFilteredWiden(tao, kept, found));
-      if (*found) PetscCall(NewtonSolveModel(tao, kept, target, d, force, found));
-    }
     if (*found) break;
   }
   if (*found) IPRegularized(ip);

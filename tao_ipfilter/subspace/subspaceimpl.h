@@ -161,7 +161,8 @@ PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
 /* active_set.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
 PETSC_INTERN PetscErrorCode IPActiveSetDestroy(IPActiveSet *);
-PETSC_INTERN PetscErrorCode IPActiveSetSolveRows(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPActiveSetSolveRows(IPActiveSet *, IPCompliance *, const IPReducedSystem *,
+  PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps,
   PetscBool *solved);
 
