@@ -197,10 +197,13 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
-  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report));
-  PetscCall(MeasureShareForces(sim, force, ties, rigid));
-  PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
+  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report)); /* with all forces on faces */
+  if (SchemeIsImpact(&sim->scene->dynamics)) {
+    PetscCall(MeasureShareForces(sim, force, ties, rigid));
+    PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
+  }
+  PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
