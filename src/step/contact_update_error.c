@@ -5,9 +5,9 @@
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Weight of the rotation of the normals in the criterion: a rotation of 100 times the relative gap tolerance is
+/* Weight of the rotation of the normals in the criterion: a rotation of 10 times the relative gap tolerance is
    accepted */
-static const PetscReal askew = 1e-2;
+static const PetscReal askew = 1e-1;
 
 /* Weight of the error of free rotations: elastic faces that are tied to the body would be strained by it */
 static const PetscReal tied = 1e4;
