@@ -143,11 +143,12 @@ def element_studies(size):
 
 
 def algebraic_studies(size):
-    tight = (IP + "tol", "1e-11")
+    end = ("-contact_update_tol", "1e-10")  # so that nothing but the solver is left
+    tight = (IP + "tol", "1e-11", *end)
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, ("hertz_cylinder", *three), values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight))
+    yield Study("tolerance", "Tolerance of the interior point method", "tolerance", turn(size, ("hertz_cylinder", *three), values(IP + "tol", *TOLERANCES[:: 1 if size == "full" else 2]), careful=tight, always=end))
     forcing = [("adaptive", ())] + [(rtol, (IP + "forcing", "fixed", IP + "ksp_rtol", rtol)) for rtol in ("1e-6", "1e-10")]
-    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5, always=INTERIOR), default="adaptive")
+    yield Study("forcing", "Tolerance of PCG in a Newton step", "forcing", turn(size, few(size, three), forcing, careful=tight, work=1.5, always=(*INTERIOR, *end)), default="adaptive")
 
 
 def path_studies(size):

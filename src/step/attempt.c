@@ -207,8 +207,7 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   do {
     PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
-    if (resume && (p->friction.T || p->rough || p->holds_weak))
-      PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
+    if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(AttemptSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     if (report->converged) PetscCall(AttemptFindMissed(p, u_linearized, u, sol->gap, &reach, &missed));
   } while (report->converged && missed);
@@ -391,7 +390,8 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   }
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
   report->gap_damped += damped;
-  if (found && !damped) PetscCall(VecCopy(next, u_linearized));
+  p->by_newton = (PetscBool)(found && !damped);
+  if (p->by_newton) PetscCall(VecCopy(next, u_linearized));
   PetscCall(VecDestroy(&next));
   PetscCall(VecEqual(u, u_linearized, &at_solution));
   PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
@@ -554,6 +554,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   PetscFunctionBegin;
   report->contact_updates = 0;
   report->gap_unconverged = PETSC_FALSE;
+  p->by_newton            = PETSC_FALSE;
   PetscCall(AttemptBegin(p, foreseen, u, report, &u_linearized));
   PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
   while (!end) {

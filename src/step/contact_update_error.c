@@ -5,9 +5,9 @@
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Weight of the rotation of the normals in the criterion: a rotation of 10 times the relative gap tolerance is
-   accepted */
-static const PetscReal askew = 1e-1;
+/* Weight of the rotation of the normals. The error of the displacements is proportional to it, that of the gap is of
+   second order. Updates with friction, which have no Newton's method, would take twice as many for it */
+static const PetscReal askew = 1.0, askew_friction = 1e-2;
 
 /* Weight of the error of free rotations: elastic faces that are tied to the body would be strained by it */
 static const PetscReal tied = 1e4;
@@ -96,8 +96,9 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
-  PetscReal size;
-  PetscInt *row;
+  const PetscReal weight = sim->solved->linearization->slip ? askew_friction : askew;
+  PetscReal       size;
+  PetscInt       *row;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
@@ -106,7 +107,7 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
   PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
   PetscCall(PetscFree(row));
   report->update_error =
-    PetscMax(PetscMax(report->gap_change, report->slip_change), askew * report->normals_turn * size);
+    PetscMax(PetscMax(report->gap_change, report->slip_change), weight * report->normals_turn * size);
   report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }

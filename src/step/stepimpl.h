@@ -75,6 +75,7 @@ typedef struct {
                                      load step */
   PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
   PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
+  PetscBool            by_newton;    /* the gap is linearized at a point that Newton's method found */
   PetscBool            rough;        /* a contact update made no progress: no Newton steps for now */
   PetscInt             nflows;       /* iterates that show plastic flow */
   const char          *flowing;      /* the body that flows, so that there is no equilibrium; NULL: none */

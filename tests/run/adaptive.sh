@@ -16,7 +16,7 @@ run() { # summary, scene, options
 run ball ball -accuracy 3e-3 > progress
 run peak ball -accuracy 1e-2 -accuracy_of pressure
 run small ball -accuracy 1e-3 -accuracy_max_dofs 5000 2> /dev/null
-for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -summary ranks_$ranks.json; done
+for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10 -summary ranks_$ranks.json; done
 run cylinder cylinder -accuracy 3e-3
 run cold cylinder -accuracy 3e-3 -load_warm_start 0
 run slide slide -accuracy $slide
