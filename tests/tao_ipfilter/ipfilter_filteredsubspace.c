@@ -251,6 +251,54 @@ static PetscErrorCode TestKept(PetscInt n)
   PetscFunctionReturn(0);
 }
 
+/* How the solution and its forces change when the cap rises: H v = J^T lambda, J v = -1 in active rows */
+static PetscErrorCode TestActive(PetscInt n)
+{
+  Membrane       m = {.copies = 1};
+  PetscReal      f, all, left, forces;
+  PetscInt       its, fallbacks, applications;
+  PetscBool      solved;
+  PetscContainer space;
+  Tao            tao;
+  Vec            x, v, force, rise, lambda;
+
+  PetscFunctionBeginUser;
+  PetscCall(AssembleMembrane(n, &m));
+  PetscCall(AssembleCap(n, 0.0, &m));
+  PetscCall(VecDuplicate(m.q.b, &x));
+  PetscCall(VecDuplicate(m.q.b, &v));
+  PetscCall(VecDuplicate(m.q.b, &force));
+  PetscCall(VecDuplicate(m.q.g, &rise));
+  PetscCall(VecDuplicate(m.q.g, &lambda));
+  PetscCall(CreateTao(&m, x, "true", &tao));
+  PetscCall(Solve(tao, &f, &its, &fallbacks));
+  PetscCall(TaoIPFilterGetSubspace(tao, &space));
+  PetscCall(VecZeroEntries(force));
+  PetscCall(VecSet(rise, -1.0));
+  PetscCall(TaoIPFilterSolveActive(space, force, rise, 50, 1e-8, v, lambda, &applications, &solved));
+  PetscCall(Expect("active rows: solved", solved, applications, 0));
+  PetscCall(MatMult(m.q.H, v, x));
+  PetscCall(VecNorm(x, NORM_2, &all));
+  PetscCall(MatMultTranspose(m.q.J, lambda, force));
+  PetscCall(VecAXPY(x, -1.0, force));
+  PetscCall(VecNorm(x, NORM_2, &left));
+  PetscCall(Expect("forces in balance to 1e-6", (PetscBool)(all > 0.0 && left < 1e-6 * all), applications, 0));
+  PetscCall(MatMult(m.q.J, v, rise));
+  PetscCall(VecShift(rise, 1.0));
+  PetscCall(VecPointwiseMult(rise, rise, lambda));
+  PetscCall(VecNorm(lambda, NORM_2, &forces));
+  PetscCall(VecNorm(rise, NORM_2, &left));
+  PetscCall(Expect("rows with a force follow to 1e-8", (PetscBool)(left < 1e-8 * forces), applications, 0));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&lambda));
+  PetscCall(VecDestroy(&rise));
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&v));
+  PetscCall(VecDestroy(&x));
+  PetscCall(ProblemDestroy(&m.q));
+  PetscFunctionReturn(0);
+}
+
 /* One solve of a membrane, and whether the interior point method had to go on; negative: it may */
 static PetscErrorCode TestOne(const char what[], PetscInt n, Membrane *m, PetscInt leaves)
 {
@@ -412,6 +460,7 @@ int main(int argc, char **argv)
     return 0;
   }
   PetscCall(TestKept(n));
+  PetscCall(TestActive(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));
   PetscCall(TestOne("an indefinite Hessian", n, &indefinite, -1));
