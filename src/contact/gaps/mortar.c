@@ -32,7 +32,6 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
 typedef struct {
   const PetscReal *x, *normal;
   const PetscInt  *row, *node;
-  PetscInt         noverlaps;
   PetscReal        gap[4], D[4][4];
   ContactPatch     patch; /* smooth pairs only */
   PetscReal        cover[4];
@@ -79,25 +78,60 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
     for (PetscInt b = 0; b < 4; ++b) facet->D[a][b] -= m.D[a][b];
     PetscCall(ContactAssemblyAdd(assembly, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
   }
-  ++facet->noverlaps;
   PetscFunctionReturn(0);
 }
 
-/* Fraction of a facet's area that the candidates cover */
-static PetscReal MortarMeasureCover(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
-  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
+/* The overlaps of a nonmortar facet with mortar facets, by their numbers among the candidates */
+typedef struct {
+  PetscInt        n, max, *mortar;
+  ContactOverlap *overlap;
+} MortarOverlaps;
+
+static PetscErrorCode OverlapsDestroy(MortarOverlaps *list)
 {
-  PetscReal      covered = 0.0, corners[4][2], height[4];
-  ContactOverlap overlap;
-  ContactFrame   frame;
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(list->mortar, list->overlap));
+  PetscFunctionReturn(0);
+}
+
+/* Finds the overlaps of a nonmortar facet that has one within the search distance; else none. Such a facet takes part
+   as a whole: if its farther end were left out, the gap would jump as the facet turns */
+static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const ContactRule *rule, const PetscReal x[12],
+  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], MortarOverlaps *list)
+{
+  ContactOverlapLimits whole   = *search;
+  PetscBool            is_near = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  whole.distance += ContactFacetDiameter(x);
+  if (nnear > list->max) {
+    PetscCall(OverlapsDestroy(list));
+    list->max = 2 * nnear;
+    PetscCall(PetscMalloc2(list->max, &list->mortar, list->max, &list->overlap));
+  }
+  list->n = 0;
+  for (PetscInt k = 0; k < nnear; ++k) {
+    ContactOverlap *overlap = &list->overlap[list->n];
+
+    if (!ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], &whole, rule,
+          overlap))
+      continue;
+    is_near                 = (PetscBool)(is_near || overlap->gap <= search->distance);
+    list->mortar[list->n++] = near[k];
+  }
+  if (!is_near) list->n = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Fraction of a facet's area that the overlaps cover */
+static PetscReal MortarMeasureCover(const PetscReal x[12], const MortarOverlaps *list)
+{
+  PetscReal    covered = 0.0, corners[4][2], height[4];
+  ContactFrame frame;
 
   if (!ContactFrameCreate(x, &frame)) return 0.0;
   ContactFrameProject(&frame, x, corners, height);
-  for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
-          &overlap))
-      covered += overlap.area;
-  }
+  for (PetscInt k = 0; k < list->n; ++k) covered += list->overlap[k].area;
   return PetscMin(1.0, covered / ContactPolygonArea(4, (const PetscReal(*)[2])corners));
 }
 
@@ -116,66 +150,37 @@ static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered,
   return PETSC_TRUE;
 }
 
-/* Whether any of the candidates faces a nonmortar facet within the limits */
-static PetscBool MortarIsNear(const ContactOverlapLimits *limits, const ContactRule *rule, const PetscReal x[12],
-  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[])
+/* Integrates one nonmortar facet over its overlaps; normal: at its vertices */
+static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairData *pair, PetscInt f,
+  const PetscReal normal[12], const ContactCandidates *mortar, const MortarOverlaps *list, ContactAssembly *assembly)
 {
-  ContactOverlap overlap;
-
-  for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
-          &overlap))
-      return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
-}
-
-/* Integrates one nonmortar facet over the candidates near it; normal: at its vertices. A facet within the search
-   distance takes part as a whole: if its farther end were left out, the gap would jump as the facet turns. */
-static PetscErrorCode MortarAddFacet(const ContactOverlapLimits *search, const ContactRule *rule,
-  const ContactPairData *pair, PetscInt f, const PetscReal normal[12], const ContactCandidates *mortar, PetscInt nnear,
-  const PetscInt near[], ContactAssembly *assembly, PetscInt *noverlaps)
-{
-  const PetscBool      smooth = pair->nonmortar.patched;
-  const PetscInt       border = pair->nonmortar.border[f];
-  MortarFacet          facet  = {.x = &pair->nonmortar.x[12 * f],
-              .normal               = normal,
-              .row                  = &pair->row[4 * f],
-              .node                 = &pair->nonmortar.node[4 * f]};
-  ContactOverlapLimits whole = *search, *limits = &whole;
-  ContactOverlap       overlap;
-  PetscReal            dual[4][4];
+  const PetscBool smooth = pair->nonmortar.patched;
+  MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
+         .normal               = normal,
+         .row                  = &pair->row[4 * f],
+         .node                 = &pair->nonmortar.node[4 * f]};
+  PetscReal       dual[4][4];
+  PetscScalar     gap[4], cover[4];
 
   PetscFunctionBegin;
-  if (!MortarIsNear(search, rule, facet.x, border, mortar, nnear, near)) PetscFunctionReturn(0);
-  whole.distance += ContactFacetDiameter(facet.x);
+  if (!list->n) PetscFunctionReturn(0);
   if (pair->gap == GAP_DUAL || pair->dual) {
-    const PetscReal covered = MortarMeasureCover(limits, rule, facet.x, border, mortar, nnear, near);
-
-    if (MortarGetDual(&pair->nonmortar.reference[12 * f], covered, dual)) facet.dual = dual;
+    if (MortarGetDual(&pair->nonmortar.reference[12 * f], MortarMeasureCover(facet.x, list), dual)) facet.dual = dual;
   }
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
-  for (PetscInt k = 0; k < nnear; ++k) {
-    if (ContactOverlapFindAtBorder(facet.x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], limits, rule,
-          &overlap))
-      PetscCall(MortarAddOverlap(rule, &overlap, smooth, mortar, near[k], &facet, assembly));
+  for (PetscInt k = 0; k < list->n; ++k)
+    PetscCall(MortarAddOverlap(rule, &list->overlap[k], smooth, mortar, list->mortar[k], &facet, assembly));
+  if (smooth && facet.dual && !assembly->gaps_only) ContactDualTransformSlopes(facet.dual, &facet.slopes);
+  for (PetscInt a = 0; a < 4; ++a) {
+    gap[a]   = facet.gap[a];
+    cover[a] = facet.cover[a];
+    PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
   }
-  if (facet.noverlaps) {
-    PetscScalar gap[4], cover[4];
-
-    if (smooth && facet.dual && !assembly->gaps_only) ContactDualTransformSlopes(facet.dual, &facet.slopes);
-    for (PetscInt a = 0; a < 4; ++a) {
-      gap[a]   = facet.gap[a];
-      cover[a] = facet.cover[a];
-      PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
-    }
-    if (smooth && !assembly->gaps_only)
-      PetscCall(
-        ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
-    PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
-    PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
-  }
-  *noverlaps += facet.noverlaps;
+  if (smooth && !assembly->gaps_only)
+    PetscCall(
+      ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
+  PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
+  PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
@@ -205,6 +210,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   ContactPairData           *pair   = &contact->pairs[p];
   const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : CONTACT_NORMAL_COSINE, CONTACT_OVERLAP_DROP,
     pair->distance + pair->bulge, pair->depth + pair->bulge};
+  MortarOverlaps             list   = {0, 0, NULL, NULL};
   ContactNear                near;
 
   PetscFunctionBegin;
@@ -220,9 +226,12 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
     PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
     for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
       (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
-    PetscCall(MortarAddFacet(&limits, &contact->rule, pair, f, normal, mortar, n, near.facet + first, assembly,
-      &pair->nfacing));
+    PetscCall(OverlapsFind(&limits, &contact->rule, &pair->nonmortar.x[12 * f], pair->nonmortar.border[f], mortar, n,
+      near.facet + first, &list));
+    PetscCall(MortarAddFacet(&contact->rule, pair, f, normal, mortar, &list, assembly));
+    pair->nfacing += list.n;
   }
+  PetscCall(OverlapsDestroy(&list));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactNearDestroy(&near));
   PetscFunctionReturn(0);

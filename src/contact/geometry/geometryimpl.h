@@ -73,6 +73,7 @@ typedef struct {
   ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each has as many points as the rule, in this order */
 
   PetscInt  n;
+  PetscReal gap;                        /* mean height of the mortar facet above the nonmortar one [length] */
   PetscReal area;                       /* area of the overlap in the plane of the nonmortar facet [length^2] */
   PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
   PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */

@@ -207,7 +207,7 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
   const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
   const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
-  PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller, gap;
+  PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
   PetscInt       size[2], vertex[2][4], nparts;
   PetscReal      most = 1.0;
   ContactFrame   frame;
@@ -235,8 +235,8 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
     OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, most, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
-  gap = OverlapMeanGap(o, h1, h2);
-  return (PetscBool)(gap <= limits->distance && gap >= -limits->depth);
+  o->gap = OverlapMeanGap(o, h1, h2);
+  return (PetscBool)(o->gap <= limits->distance && o->gap >= -limits->depth);
 }
 
 /* The same inside of faces, where borders do not matter */
