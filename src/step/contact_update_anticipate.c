@@ -62,35 +62,6 @@ static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Solves B D J^T w = g on the rows under pressure by GMRES; found: whether it converged */
-static PetscErrorCode ResponseSolve(GapResponse *r, Vec g, Vec w, PetscBool *found)
-{
-  const MPI_Comm     comm = PetscObjectComm((PetscObject)g);
-  PetscInt           n;
-  Mat                shell;
-  KSP                ksp;
-  PC                 pc;
-  KSPConvergedReason reason;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(g, &n));
-  PetscCall(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, r, &shell));
-  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (AMGFOperation *)ResponseMult));
-  PetscCall(KSPCreate(comm, &ksp));
-  PetscCall(KSPSetType(ksp, KSPGMRES));
-  PetscCall(KSPGMRESSetRestart(ksp, ANTICIPATE_ITERATIONS));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCNONE));
-  PetscCall(KSPSetOperators(ksp, shell, shell));
-  PetscCall(KSPSetTolerances(ksp, ANTICIPATE_TOLERANCE, PETSC_DEFAULT, PETSC_DEFAULT, ANTICIPATE_ITERATIONS));
-  PetscCall(KSPSolve(ksp, g, w));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  *found = (PetscBool)(reason > 0);
-  PetscCall(KSPDestroy(&ksp));
-  PetscCall(MatDestroy(&shell));
-  PetscFunctionReturn(0);
-}
-
 /* Replaces g by g' (see above) in p->g on the rows that had a pressure in the last solution. Does nothing if no pair
    has smooth surfaces. */
 PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
@@ -111,7 +82,7 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   PetscCall(ContactHistoryFindClosed(p->sim->history, lin, r.closed));
   PetscCall(ResponseDiagonal(p, r.D));
   PetscCall(VecPointwiseMult(g, r.closed, lin->g));
-  PetscCall(ResponseSolve(&r, g, w, &found));
+  PetscCall(MatrixFreeSolve(g, w, &r, ResponseMult, ANTICIPATE_TOLERANCE, ANTICIPATE_ITERATIONS, &found));
   if (found) {
     PetscCall(ResponseApply(&r, r.J, w, g));
     PetscCall(VecPointwiseMult(g, r.closed, g));

@@ -210,34 +210,6 @@ static PetscErrorCode NewtonBegin(GapNewton *s, Vec b, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode NewtonSolve(GapNewton *s, Vec b, Vec z, PetscBool *found)
-{
-  const MPI_Comm     comm = s->p->sim->comm;
-  Mat                shell;
-  KSP                ksp;
-  PC                 pc;
-  KSPConvergedReason reason;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(b, &n));
-  PetscCall(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, s, &shell));
-  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (AMGFOperation *)NewtonMult));
-  PetscCall(KSPCreate(comm, &ksp));
-  PetscCall(KSPSetType(ksp, KSPGMRES));
-  PetscCall(KSPGMRESSetRestart(ksp, NEWTON_ITERATIONS));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCNONE));
-  PetscCall(KSPSetOperators(ksp, shell, shell));
-  PetscCall(KSPSetTolerances(ksp, s->rtol, PETSC_DEFAULT, PETSC_DEFAULT, NEWTON_ITERATIONS));
-  PetscCall(KSPSolve(ksp, b, z));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  *found = (PetscBool)(reason > 0 && s->smooth);
-  PetscCall(KSPDestroy(&ksp));
-  PetscCall(MatDestroy(&shell));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode NewtonCreate(StepProblem *p, const ContactSolution *sol, Vec u, GapNewton *s)
 {
   PetscReal size, extent;
@@ -360,7 +332,8 @@ PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, C
   PetscCall(VecCreateMPI(p->sim->comm, n + m, PETSC_DETERMINE, &b));
   PetscCall(VecDuplicate(b, &z));
   PetscCall(NewtonBegin(&s, b, found));
-  if (*found) PetscCall(NewtonSolve(&s, b, z, found));
+  if (*found) PetscCall(MatrixFreeSolve(b, z, &s, NewtonMult, s.rtol, NEWTON_ITERATIONS, found));
+  *found = (PetscBool)(*found && s.smooth);
   if (*found) PetscCall(NewtonStep(&s, z, x, next, found));
   report->amg_applications += s.napplications;
   PetscCall(VecDestroy(&b));

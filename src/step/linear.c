@@ -1,4 +1,4 @@
-/* Load steps that are linear systems: solved by PCG. */
+/* Linear systems: load steps without contact, solved by PCG; systems of contact updates, solved by GMRES. */
 #include "stepimpl.h"
 #include <petsctime.h>
 #include "src/state/control.h"
@@ -145,5 +145,36 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   PetscCall(VecNorm(p->force, NORM_2, &scale));
   report->kkt_error_unscaled = residual;
   report->kkt_error          = scale > 0.0 ? residual / scale : residual;
+  PetscFunctionReturn(0);
+}
+
+/* Solves A x = b by GMRES without a preconditioner, from x = 0. multiply: product with A, a shell matrix with the given
+   context. most: limit of iterations. found: whether GMRES converged */
+PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec), PetscReal rtol,
+  PetscInt most, PetscBool *found)
+{
+  const MPI_Comm     comm = PetscObjectComm((PetscObject)b);
+  Mat                shell;
+  KSP                ksp;
+  PC                 pc;
+  KSPConvergedReason reason;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(b, &n));
+  PetscCall(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, context, &shell));
+  PetscCall(MatShellSetOperation(shell, MATOP_MULT, (AMGFOperation *)multiply));
+  PetscCall(KSPCreate(comm, &ksp));
+  PetscCall(KSPSetType(ksp, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(ksp, most));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCNONE));
+  PetscCall(KSPSetOperators(ksp, shell, shell));
+  PetscCall(KSPSetTolerances(ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, most));
+  PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  *found = (PetscBool)(reason > 0);
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(MatDestroy(&shell));
   PetscFunctionReturn(0);
 }

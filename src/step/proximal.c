@@ -32,6 +32,22 @@ PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec f
   PetscFunctionReturn(0);
 }
 
+/* Creates the force of the term at x, and that of the deformation; norms: of both [force] */
+static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *held, Vec *elastic, PetscReal norms[2])
+{
+  PetscReal energy = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(x, held));
+  PetscCall(VecDuplicate(x, elastic));
+  PetscCall(VecZeroEntries(*held));
+  PetscCall(ProximalAdd(p, x, &energy, *held));
+  PetscCall(ElasticityForce(p->sim->elasticity, x, *elastic));
+  PetscCall(VecNorm(*held, NORM_2, &norms[0]));
+  PetscCall(VecNorm(*elastic, NORM_2, &norms[1]));
+  PetscFunctionReturn(0);
+}
+
 /* Moves the centre to x and updates energy and force at base of the quadratic model */
 static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 {
@@ -243,23 +259,17 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
    much of its resultants, which no torque of coarse facets explains; 0: there is no such term */
 PetscErrorCode ProximalMeasureHeld(const StepProblem *p, Vec u, PetscReal *share)
 {
-  PetscReal carried, size, resultant, energy = 0.0;
+  PetscReal norms[2], resultant;
   Vec       force, all;
 
   PetscFunctionBegin;
   *share = 0.0;
   if (!p->holds_weak) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &force));
-  PetscCall(VecDuplicate(u, &all));
-  PetscCall(ElasticityForce(p->sim->elasticity, u, all));
-  PetscCall(VecZeroEntries(force));
-  PetscCall(ProximalAdd(p, u, &energy, force));
-  PetscCall(VecNorm(all, NORM_2, &size));
-  PetscCall(VecNorm(force, NORM_2, &carried));
+  PetscCall(ProximalGetForces(p, u, &force, &all, norms));
   PetscCall(ProximalCompareResultants(p, force, all, &resultant));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));
-  if (size > 0.0) *share = PetscMax(carried / size, 10.0 * resultant);
+  if (norms[1] > 0.0) *share = PetscMax(norms[0] / norms[1], 10.0 * resultant);
   PetscFunctionReturn(0);
 }
 
@@ -294,26 +304,22 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
-  PetscReal       carried, size, energy = 0.0;
+  PetscReal       norms[2];
   PetscBool       falls;
-  Vec             force;
+  Vec             force, all;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (p->failed && !report->converged && !p->sim->control->interrupted)
     PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   if (!p->centre || p->holds_weak || !report->converged) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &force));
-  PetscCall(ElasticityForce(p->sim->elasticity, u, force));
-  PetscCall(VecNorm(force, NORM_2, &size));
-  PetscCall(VecZeroEntries(force));
-  PetscCall(ProximalAdd(p, u, &energy, force));
-  PetscCall(VecNorm(force, NORM_2, &carried));
+  PetscCall(ProximalGetForces(p, u, &force, &all, norms));
   PetscCall(VecDestroy(&force));
-  if (carried <= tolerance * size) PetscFunctionReturn(0);
-  falls      = (PetscBool)(carried < stuck * p->carried);
+  PetscCall(VecDestroy(&all));
+  if (norms[0] <= tolerance * norms[1]) PetscFunctionReturn(0);
+  falls      = (PetscBool)(norms[0] < stuck * p->carried);
   *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
-  p->carried = carried;
+  p->carried = norms[0];
   if (*again) PetscCall(ProximalCentre(p, u));
   else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, report));
   else if (!falls) PetscCall(ProximalReportRigidMotion(p, u, report));

@@ -158,6 +158,10 @@ PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, 
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
+/* linear.c: the systems of contact updates */
+PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
+  PetscReal rtol, PetscInt most, PetscBool *found);
+
 /* contact_update_newton.c */
 PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolution *, ContactLinearization at_u,
   Vec x, Vec u, Vec next, StepReport *, PetscBool *found);

@@ -175,6 +175,8 @@ PETSC_INTERN PetscBool      SceneRowIsOf(const SceneKey *, const char kind[]);
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
   const char kind[], PetscBool listed, void *entry);
 PETSC_INTERN PetscErrorCode SceneHasKey(SceneKeys, const char owner[], const char name[], PetscBool *has);
+PETSC_INTERN PetscErrorCode SceneHasOneOf(SceneKeys, const char owner[], const char kind[], const char first[],
+  const char second[], PetscBool *has_second);
 PETSC_INTERN PetscErrorCode SceneReadList(SceneKeys, Scene, const SceneList *, PetscInt *n, void *entries);
 PETSC_INTERN PetscErrorCode SceneViewRow(Scene, PetscViewer, const SceneKey *, const void *entry, const void *initial);
 PETSC_INTERN PetscErrorCode SceneViewRows(Scene, PetscViewer, const SceneKey rows[], const char kind[],

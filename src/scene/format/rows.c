@@ -96,6 +96,22 @@ PetscErrorCode SceneHasKey(SceneKeys keys, const char owner[], const char name[]
   PetscFunctionReturn(0);
 }
 
+/* Records an error unless an entry has exactly one of two keys. kind: what the entry is, for the message */
+PetscErrorCode SceneHasOneOf(SceneKeys keys, const char owner[], const char kind[], const char first[],
+  const char second[], PetscBool *has_second)
+{
+  PetscBool has_first = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(SceneHasKey(keys, owner, first, &has_first));
+  PetscCall(SceneHasKey(keys, owner, second, has_second));
+  if (has_first && *has_second)
+    PetscCall(SceneKeysError(keys, "%s has %s and %s; a %s has one of the two", owner, first, second, kind));
+  if (!has_first && !*has_second)
+    PetscCall(SceneKeysError(keys, "%s has neither %s nor %s; a %s has one of the two", owner, first, second, kind));
+  PetscFunctionReturn(0);
+}
+
 /* Reads the entries of a list and appends them; each starts with the list's initial value and its name */
 PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list, PetscInt *n, void *entries)
 {

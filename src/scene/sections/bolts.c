@@ -14,16 +14,11 @@ PetscErrorCode SceneFinishBolt(SceneKeys keys, Scene scene, const char owner[], 
 {
   SceneBolt  *bolt = entry;
   const char *text;
-  PetscBool   force;
 
   PetscFunctionBegin;
   (void)scene;
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_body", owner));
-  PetscCall(SceneHasKey(keys, owner, "force", &force));
-  PetscCall(SceneHasKey(keys, owner, "shortening", &bolt->shortens));
-  if (force == bolt->shortens)
-    PetscCall(SceneKeysError(keys, "%s has %s; a bolt has one of the two", owner,
-      force ? "force and shortening" : "neither force nor shortening"));
+  PetscCall(SceneHasOneOf(keys, owner, "bolt", "force", "shortening", &bolt->shortens));
   if (bolt->lock < 0)
     PetscCall(SceneKeysError(keys, "%s_lock is %" PetscInt_FMT "; it is the number of a load step", owner, bolt->lock));
   if (bolt->lock && bolt->shortens)

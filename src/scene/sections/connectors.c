@@ -20,12 +20,9 @@ PetscErrorCode SceneFinishConnector(SceneKeys keys, Scene scene, const char owne
   PetscFunctionBegin;
   (void)scene;
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_body", owner));
-  PetscCall(SceneHasKey(keys, owner, "value", &value));
-  PetscCall(SceneHasKey(keys, owner, "stiffness", &connector->axial));
+  PetscCall(SceneHasOneOf(keys, owner, "connector", "stiffness", "value", &value));
+  connector->axial = (PetscBool)!value;
   PetscCall(SceneHasKey(keys, owner, "to_point", &there));
-  if (value == connector->axial)
-    PetscCall(SceneKeysError(keys, "%s has %s; a connector has one of the two", owner,
-      value ? "stiffness and value" : "neither stiffness nor value"));
   if (!there) PetscCall(PetscArraycpy(connector->point[1], connector->point[0], 3));
   for (int d = 0; d < 3; ++d) line[d] = connector->point[1][d] - connector->point[0][d];
   if (connector->axial && VectorNorm(line) == 0.0)
