@@ -37,8 +37,9 @@ static void ArcsShareCenter(BodyArc *one, BodyArc *other)
   one->centred = other->centred = PETSC_TRUE;
 }
 
-/* The centre of rotation. For a rigid body: the one in the scene. For another body: that of the body that carries it
-   along, as a hub carries a tyre; or else the mean of its nodes' positions */
+/* Finds the centre of rotation of each body. The scene gives that of a rigid body. A body without one takes the centre
+   of a body that it is tied to or in contact with, as a tyre takes that of its hub. If there is none, the centre is the
+   mean position of the nodes. */
 static PetscErrorCode ArcsFindCenters(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[])
 {
   Scene     scene = b->scene;

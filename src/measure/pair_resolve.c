@@ -168,7 +168,7 @@ static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRow
   PetscFunctionReturn(0);
 }
 
-/* Replaces the values of marked rows */
+/* Replaces the values of marked rows by their means over mortar facets */
 static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const PetscReal mark[], Vec sides,
   PetscReal value[])
 {
@@ -184,7 +184,8 @@ static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const P
   PetscFunctionReturn(0);
 }
 
-/* Does the same for friction. A row then slips if most of its pressure comes from slipping rows. */
+/* Replaces friction stress and slip of marked rows by their means over mortar facets. A row slips if slipping rows
+   carry more than half of its pressure. */
 static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
   const PetscReal pressure[], Vec sides)
 {

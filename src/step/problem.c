@@ -3,8 +3,9 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* base: the last state with the prescribed displacements of this time; or, for time steps so long that the products of
-   the stiffness and the way of a body that flies have rounding errors as large as inertia, the path continued */
+/* Sets the displacement that the energy is expanded about: the last state, with the displacements prescribed at this
+   time. In long time steps of a flying body the rounding errors of K (u - base) would be as large as the inertia
+   forces. The base is then the extrapolation of the path. */
 static PetscErrorCode StepProblemStartBase(StepProblem *p)
 {
   Simulation sim   = p->sim;

@@ -67,8 +67,8 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
   PetscFunctionReturn(0);
 }
 
-/* Measures the reference sizes at the point after the step. They replace those at the start, which may be far too
-   large. */
+/* Measures objective, gradient and unknowns after the step. They replace the reference values from the start,
+   which may be too large by orders of magnitude. */
 static PetscErrorCode FreeMeasure(Tao tao)
 {
   IPFirst *first = ((TAO_IPFILTER *)tao->data)->first;

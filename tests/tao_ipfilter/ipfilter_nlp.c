@@ -333,7 +333,7 @@ int main(int argc, char **argv)
       suffix: differences
       args: -mode differences
 
-   # steps that are cut again and again: the watchdog, and restorations
+   # the line search cuts many steps in a row; the watchdog and the restoration phase must end this
    test:
       suffix: zigzag
       args: -problems zigzag -tao_max_it 400
