@@ -14,5 +14,6 @@ cd "$work" && ln -s "$AMGF_DIR/bin" "$AMGF_DIR/share" . || exit 1
 while read -r command; do
   echo "$command"
   bash -c "$command" > out 2> err < /dev/null || { echo "  exit $?"; cat err; }
+  grep warning err # the first problem has none
 done < commands
 ls press.xmf press.json
