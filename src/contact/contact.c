@@ -1,22 +1,24 @@
-/* The contact object: creation, pairs of faces, options, search distances */
+/* The contact object: creation from pairs of faces, options, search distances */
 #include "contactimpl.h"
 
-/* default search distance, as a fraction of the square root of the smaller face's area */
+/* default search distance of a pair, as a fraction of the square root of the smaller face's area */
 #define SEARCH_FRACTION 0.25
-/* search depth with a given distance: at most this fraction of the thickness of both bodies */
+/* upper bound of the search depth of a pair whose search distance is given, as a fraction of the thickness of both
+   bodies */
 #define THROUGH_FRACTION 0.9
-/* The integrand on parallelograms, a product of two bilinear functions, has degree 4. The rules of degree 4 and 5
-   have 6 and 7 points. */
+/* degree of the quadrature rule on the triangles of an overlap. The integrand on parallelograms, a product of two
+   bilinear functions, has degree 4. The rules of degree 4 and 5 have 6 and 7 points. */
 #define RULE_DEGREE 5
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
 
-/* For messages */
+/* Returns the name of a pair for messages: the nonmortar face if the pair has no name */
 static const char *ContactPairName(const SceneContactPair *pair)
 {
   return pair->name ? pair->name : pair->nonmortar;
 }
 
+/* Checks that the pairs name different existing faces, and that their numbers are in range */
 static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneContactPair pairs[])
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
@@ -51,8 +53,11 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
   PetscFunctionReturn(0);
 }
 
-/* Search depth of a pair: penetration up to which facets pair. With a larger depth the far sides of thin bodies
-   would pair through the bodies; for two touching plates this would happen at the sum of their thicknesses. */
+/*
+   Returns the search depth of a pair: the penetration up to which facets face each other [length]. With a larger depth
+   the far sides of thin bodies would face each other through the bodies. For two touching plates this would happen at
+   the sum of their thicknesses.
+*/
 static PetscReal ContactGetDepth(const ContactPairData *pair)
 {
   const PetscReal t1 = pair->nonmortar.thickness, t2 = pair->mortar.thickness, thinner = PetscMin(t1, t2);
@@ -61,7 +66,8 @@ static PetscReal ContactGetDepth(const ContactPairData *pair)
   return PetscMax(thinner, PetscMin(pair->given, THROUGH_FRACTION * (t1 + t2)));
 }
 
-/* Sets search distance and depth of all pairs: constant lengths that do not depend on the mesh */
+/* Collective. Sets the search distance and the search depth of all pairs. They are lengths that do not depend on the
+   refinement of the mesh. Finds the borders of the faces. */
 static PetscErrorCode ContactSetUpPairs(Contact contact)
 {
   PetscFunctionBegin;
@@ -77,6 +83,7 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates the correction for faces of order 2 (trace.c) */
 static PetscErrorCode ContactCreateTrace(Contact contact)
 {
   const ContactSurface **surface;
@@ -108,8 +115,8 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   Level: beginner
 
   Notes:
-  A pair that names a face the mesh does not have, the same face twice, or the same faces as another pair is an error,
-  and so is a negative search distance.
+  It is an error if a pair names a face that the mesh does not have, if its two faces are one face, if another pair has
+  the same two faces, or if its search distance is negative.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -165,13 +172,13 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 + -contact_gap <mortar,node>         - how the gap of every pair is measured; overrides the setting of the pairs
 . -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
                                        facets; overrides the setting of the pairs
-. -contact_normals <nodal,facet>     - mortar gaps are measured along the averaged normals of the vertices or the
-                                       normals of the facets
+. -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals
+                                       of the facets
 . -contact_quadrature <5>            - degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the
                                        mortar integrals
-- -contact_search_depth <length>     - facets that penetrate deeper than this are not paired. 0: the mean thickness of
-                                       the thinner body, or the pair's search distance, at most 0.9 times the thickness
-                                       of both bodies
+- -contact_search_depth <length>     - largest penetration at which facets count as facing each other. 0: the mean
+                                       thickness of the thinner body or, if that is larger, the search distance that the
+                                       pair sets, but at most 0.9 times the sum of both thicknesses
 
   Level: beginner
 
@@ -204,8 +211,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
   PetscCheck(!contact->frictional || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
-    "-contact_normals facet is for pairs without friction: the slip of a row is across the averaged normal of its "
-    "vertex");
+    "-contact_normals facet is not available for pairs with friction, whose slip is perpendicular to the averaged "
+    "normal of a vertex: remove the option");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_smooth && !contact->pairs[p].formula) contact->pairs[p].smooth = smooth;
@@ -217,8 +224,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 }
 
 /*@C
-  ContactSetDisplacements - Sets the prescribed displacements, by which smooth surfaces are continued across symmetry
-  planes
+  ContactSetDisplacements - Sets the prescribed displacements of the bodies' faces. They determine the symmetry planes
+  across which smooth surfaces are continued, and the directions without friction
 
   Logically Collective
 
@@ -230,8 +237,9 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   Level: intermediate
 
   Note:
-  Where a face ends at right angles on a plane across an axis, on vertices that are held along that axis, its smooth
-  surface goes on as in a mirror. Elsewhere it ends there, and the normals on its border are extrapolated.
+  If a face ends at right angles on a plane perpendicular to an axis, and its vertices there are held along that axis,
+  its smooth surface is continued by its mirror image. Elsewhere the smooth surface ends at the border of the face, and
+  the normals on the border are extrapolated.
 
 .seealso: `ContactCreate()`, `ContactLinearize()`
 @*/
@@ -246,7 +254,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
 }
 
 /*@C
-  ContactSetBodies - Tells a contact its bodies, some of which may be rigid surfaces
+  ContactSetBodies - Sets the bodies of a contact, some of which may be rigid surfaces
 
   Logically Collective
 
@@ -269,8 +277,8 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
     ContactPairData *pair = &contact->pairs[p];
 
     PetscCheck(!SceneBodyIsSurface(&bodies[pair->nonmortar.body]), contact->comm, PETSC_ERR_ARG_WRONG,
-      "Contact pair \"%s\" has the rigid surface %s as its nonmortar side: it is the mortar side, since it has no "
-      "nodes that could carry the constraints",
+      "Contact pair \"%s\": the nonmortar side %s is a rigid surface, which has no nodes for the contact constraints: "
+      "make it the mortar side",
       pair->name, pair->nonmortar.name);
     if (!SceneBodyIsSurface(&bodies[pair->mortar.body])) continue;
     PetscCheck(!pair->frictional, contact->comm, PETSC_ERR_SUP,
@@ -285,8 +293,8 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
   PetscFunctionReturn(0);
 }
 
-/* Known after the first linearization. contact: the contact; pair: its number; curved: whether a face of the pair is
-   curved before it deforms, and its gap is measured from a smooth surface */
+/* Determines whether a face of a pair is curved before it deforms, and its gap is measured from a smooth surface. pair:
+   number of the pair. The answer is known after the first linearization. */
 PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved)
 {
   const ContactPairData *data = &contact->pairs[pair];
@@ -297,7 +305,7 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
 }
 
 /*@
-  ContactGetFrictionless - Counts the nodes of a pair at which friction cannot act although the faces slide there
+  ContactGetFrictionless - Counts the nodes of a pair on which no friction acts although the faces slide
 
   Collective
 
@@ -306,8 +314,8 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
 - pair    - number of the pair
 
   Output Parameters:
-+ nfrictionless - number of nodes, on all ranks, of a pair with full stick at which both faces have different prescribed
-                  displacements
++ nfrictionless - number of nodes, on all ranks, at which different displacements of both faces are prescribed although
+                  the pair sticks
 - nnodes - number of nodes of the nonmortar face, on all ranks
 
   Level: intermediate
@@ -325,7 +333,7 @@ PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *
 }
 
 /*@
-  ContactGetReach - Gets the largest distance and the largest penetration depth at which facets are paired
+  ContactGetReach - Gets the distance and the penetration up to which facets count as facing each other
 
   Not Collective
 
@@ -333,8 +341,8 @@ PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *
 . contact - the contact
 
   Output Parameters:
-+ distance - the smallest search distance of the pairs without a given one; `PETSC_MAX_REAL` if all pairs have one
-             [length]
++ distance - the smallest search distance of those pairs whose distance the scene does not set [length];
+             `PETSC_MAX_REAL` if the scene sets all of them
 - depth    - the largest search depth of all pairs [length]
 
   Level: intermediate
@@ -354,21 +362,21 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
 }
 
 /*@
-  ContactSetReach - Increases the distance and the penetration depth at which facets are paired, for load steps with
-  large motions
+  ContactSetReach - Increases the distance and the penetration up to which facets count as facing each other, for load
+  steps with large motions
 
   Logically Collective
 
   Input Parameters:
 + contact  - the contact
-. distance - lower limit of the search distance of pairs without a given one; 0: the default [length]
-- depth    - lower limit of the search depth of all pairs; 0: the default [length]
+. distance - lower limit of the search distance of pairs whose distance the scene does not set [length]; 0: the default
+- depth    - lower limit of the search depth of all pairs [length]; 0: the default
 
   Level: intermediate
 
   Note:
-  With a depth, opposing facets are paired at any angle between their normals. Such a linearization is for measuring
-  only, not for a solve.
+  If depth is positive, any two facets count whose normals make an angle of more than 90 degrees. Such a linearization
+  is for measuring gaps only, not for a solve.
 
 .seealso: `ContactGetReach()`, `ContactLinearize()`
 @*/
@@ -381,9 +389,11 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
   PetscFunctionReturn(0);
 }
 
-/* Collective. Sets whether all mortar pairs use dual shape functions, as pairs with gap GAP_DUAL do. dual: true: all
-   mortar pairs; false: only pairs with gap GAP_DUAL. With dual shape functions the resultant of the contact forces can
-   act at the edges of faces. This is used for the test whether any contact forces balance a load. */
+/*
+   Logically Collective. Sets whether all mortar pairs use dual shape functions. If `dual` is false, only pairs with gap
+   GAP_DUAL do. With dual shape functions the resultant of the contact forces can act at the edges of faces. This is
+   used to test whether any contact forces balance a load.
+*/
 PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
 {
   PetscFunctionBegin;

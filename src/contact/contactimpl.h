@@ -6,12 +6,9 @@
 
 #include "src/contact/gaps/gapsimpl.h"
 
-/* linearize.c: deforms surfaces and normals */
+/* linearize.c: deforms the surfaces and normals of all pairs to the displacement u */
 PETSC_INTERN PetscErrorCode ContactDeform(Contact, Vec u);
 
-/* penetration.c: only public functions */
-
-/* contact.c creates the contact object, linearize.c its gap, and initial_overlap.c checks for deep initial overlaps.
-   They have public functions only */
+/* contact.c, penetration.c, passage.c, tie.c and initial_overlap.c have public functions only. */
 
 #endif

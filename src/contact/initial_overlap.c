@@ -1,12 +1,14 @@
-/* Reports bodies that overlap initially by more than the search depth. They would get no contact rows. */
+/* Reports bodies that overlap initially by more than the search depth. Such bodies would get no contact rows. */
 #include "contactimpl.h"
 
-/* A row that is found only by a deeper search: its nonmortar vertex, and its point on the mortar face */
+/* A row that only a search with a larger depth finds. All fields are real, so that rows can be sent as one array. */
 typedef struct {
-  PetscReal pair, depth, x[3], y[3];
+  PetscReal pair, depth, x[3], y[3]; /* number of the pair, penetration [length], coordinates of the nonmortar vertex
+                                        and of its point on the mortar face [length] */
 } InitialOverlapRow;
-#define DEEP_REALS ((PetscMPIInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+#define OVERLAP_REALS ((PetscMPIInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
 
+/* Returns whether the point x is inside a box */
 static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal x[3])
 {
   for (PetscInt c = 0; c < 3; ++c) {
@@ -15,7 +17,8 @@ static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal 
   return PETSC_TRUE;
 }
 
-/* Diagonal of the box around all bodies, if the boxes of any pair's bodies overlap in a volume; else 0 */
+/* Returns the diagonal of the box around all bodies [length] if the boxes of the two bodies of any pair overlap in a
+   volume; else 0 */
 static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, const PetscReal box[])
 {
   PetscReal low[3]  = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
@@ -43,15 +46,15 @@ static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, 
   return any ? diagonal : 0.0;
 }
 
-/* Finds the rows of `wide` that `usual` lacks, deeper than the search depth, where a body's box contains the other's
-   point. The caller frees `deep`. */
+/* Finds the rows of `wide` that `usual` does not contain, that penetrate deeper than the search depth, and whose vertex
+   or point is inside the other body's box. The caller frees *deep. */
 static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
   ContactLinearization wide, PetscInt *n, InitialOverlapRow **deep)
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *g;
-  PetscInt           k = 0, i = 0; /* index of the row in usual, and among all possible rows; both are in the same
-                                      order */
+  PetscInt           k = 0, i = 0; /* number of the row in `usual`, and among all possible rows; both lists have
+                                      equal order */
 
   PetscFunctionBegin;
   *n = 0;
@@ -80,10 +83,10 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
   PetscFunctionReturn(0);
 }
 
-/* Gathers the rows of all ranks on every rank; replaces `deep` */
+/* Collective. Collects the rows of all ranks on every rank; replaces *deep */
 static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, InitialOverlapRow **deep)
 {
-  PetscMPIInt        size, mine = DEEP_REALS * (PetscMPIInt)*n, *count, *start;
+  PetscMPIInt        size, mine = OVERLAP_REALS * (PetscMPIInt)*n, *count, *start;
   InitialOverlapRow *all;
 
   PetscFunctionBegin;
@@ -92,16 +95,17 @@ static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, Initi
   PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
   start[0] = 0;
   for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  PetscCall(PetscMalloc1(start[size] / DEEP_REALS, &all));
+  PetscCall(PetscMalloc1(start[size] / OVERLAP_REALS, &all));
   PetscCallMPI(MPI_Allgatherv(*deep, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
   PetscCall(PetscFree(*deep));
-  *n    = start[size] / DEEP_REALS;
+  *n    = start[size] / OVERLAP_REALS;
   *deep = all;
   PetscCall(PetscFree2(count, start));
   PetscFunctionReturn(0);
 }
 
-/* Picks the deepest row whose point is inside the other body, not only behind its face; depth 0: none */
+/* Collective. Selects the deepest row whose vertex or point is inside the other body, not only behind its face.
+   deepest->depth stays 0 if there is none. */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
 {
@@ -124,7 +128,7 @@ static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBo
   PetscFunctionReturn(0);
 }
 
-/* Finds the deepest row that only a search over this distance finds */
+/* Collective. Finds the deepest row that is found only if the search depth is increased to `distance` [length] */
 static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
   PetscReal distance, ContactLinearization usual, InitialOverlapRow *deepest)
 {
@@ -160,9 +164,9 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   Level: intermediate
 
   Note:
-  Such bodies would have no rows, and go through each other unseen; they are an error that names the pair, the depth and
-  what widens the search. It costs one more search where the boxes about the bodies of a pair overlap, and nothing where
-  they do not.
+  Such bodies would have no contact rows and would penetrate each other. The error message names the pair, the depth,
+  and the option that increases the search depth. The check costs one more search if the bounding boxes of the bodies of
+  a pair overlap, and nothing otherwise.
 
 .seealso: `ContactLinearize()`, `ContactGetReach()`
 @*/
@@ -183,8 +187,8 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];
   PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g. The contact search "
-    "reaches only %g deep: move the bodies apart, or use -contact_search_depth %.2g",
+    "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g, which exceeds the "
+    "search depth %g: move the bodies apart, or use -contact_search_depth %.2g",
     pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,
     1.1 * (double)deepest.depth);
   PetscFunctionReturn(0);

@@ -3,7 +3,7 @@
 
 static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
 
-/* Deforms the surfaces and normals of a pair; local: displacement of the vertices */
+/* Collective. Deforms the surfaces and normals of pair p. local: displacement of the vertices [length] */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
 {
   ContactRows     *rows  = &contact->rows;
@@ -22,7 +22,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* Deforms the surfaces and normals of all pairs */
+/* Collective. Deforms the surfaces and normals of all pairs to the global displacement u */
 PetscErrorCode ContactDeform(Contact contact, Vec u)
 {
   Vec local, mean = NULL;
@@ -43,14 +43,15 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Gaps of all pairs, and their derivatives unless gaps_only */
+/* Collective. Computes the gaps of all pairs at the displacement u, and their derivatives unless gaps_only is true */
 static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only, ContactLinearization *lin)
 {
   ContactAssembly assembly;
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(u, NORM_1, &norm)); /* BLAS's maximum norm ignores NaN, the 1-norm does not */
+  /* The 1-norm is used because the maximum norm of BLAS ignores NaN. */
+  PetscCall(VecNorm(u, NORM_1, &norm));
   PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
     "The displacement at which contact is linearized is not finite");
   PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
@@ -94,40 +95,43 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
   Level: beginner
 
   Notes:
-  The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A over the part of the nonmortar face that a mortar
-  face covers: x1 on the nonmortar facet, x2 on the mortar facet along the nonmortar facet's normal, n_A the outward
-  area-weighted mean of the normals of the facets about A, m_A = int phi_A over the whole undeformed nonmortar face. It
-  is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 - N1) n_A keeps the overlap and the normals
-  fixed. With -contact_normals facet the facet's normal takes the place of n_A: averaged normals vary smoothly as faces
-  slide, but facets' own ones transmit a uniform pressure exactly over curved faces whose meshes match.
+  The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A, integrated over the part of the nonmortar face
+  that a mortar face covers. The point x1 is on the nonmortar facet, and x2 is on the mortar facet along the nonmortar
+  facet's normal. n_A is the outward area-weighted mean of the normals of the facets around A, and m_A = int phi_A over
+  the whole undeformed nonmortar face. The gap is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 -
+  N1) n_A is the derivative for fixed overlap and fixed normals. The option -contact_normals facet replaces n_A by the
+  facet's normal. Averaged normals vary smoothly while the faces slide. The facets' normals transmit a uniform pressure
+  exactly over curved faces with matching meshes.
 
-  Pairs with gap `GAP_NODE` measure g_A = (y - x_A).n_A from the vertex to the closest point y of the mortar facets that
-  face it, edges and vertices included; J_A = (N2(y) - 1_A) n_A keeps y's place on the facet and the normal fixed, and
-  m_A is the same mass, so that pressures compare. A vertex beside the mortar face, by more than a twentieth of a facet,
-  has no row. A vertex on the border of the nonmortar face has one up to half the size of the area about it: faces that
-  end together bulge. Mortar facets at a border that both faces share reach up to a tenth of a facet beyond it.
+  Pairs with gap `GAP_NODE` have the gap g_A = (y - x_A).n_A, where y is the closest point, also on edges and at
+  vertices, of the mortar facets that face the vertex. J_A = (N2(y) - 1_A) n_A is the derivative for a fixed position of
+  y on the facet and a fixed normal. m_A is as above, so that pressures are comparable. A vertex that lies beside the
+  mortar face by more than a twentieth of a facet has no row. A vertex on the border of the nonmortar face may lie
+  farther beside it, by a fifth of the square root of m_A, because faces that end together bulge. At a border that both
+  faces share, mortar facets are extended beyond the border by at most a fifth of a facet.
 
-  Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) measure the distance of each nonmortar vertex from
-  it; J is its derivative.
+  Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) have as gap the distance of each nonmortar vertex
+  from that surface. J is its derivative.
 
-  Faces of order 2 are cut into facets at their nodes. The patches of smooth mortar pairs follow what the faces bend;
-  the vertices of others, and of plane faces, move with the mean displacement of the faces about them. J spreads forces
-  so that a uniform pressure is the same load as on the quadratic face.
+  Faces of order 2 are divided into facets at their nodes. The patches of smooth mortar pairs follow the bending of the
+  faces between their nodes. The vertices of other pairs, and of plane faces, move with the mean displacement of the
+  faces around them. J distributes forces so that a uniform pressure is the same load as on the quadratic face.
 
-  Where the faces touch, J is the derivative of the gap up to what the normals of neighbouring facets differ: exact on
-  planes, and on curved faces with -contact_normals facet.
+  Where the faces touch, J is the derivative of the gap except for the differences between the normals of neighbouring
+  facets. It is exact on planes, and with -contact_normals facet on curved faces too.
 
-  Of a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are on the smooth surfaces that the facets stand
-  for: patches through the deformed vertices, bent to follow the mean normals of the facets about them, and going on as
-  in a mirror where a face ends on a plane that it is held on (`ContactSetDisplacements()`). The mortar gap is then
-  measured along the normal of each nonmortar facet, that of a vertex along the normal of the mortar surface.
-  lin->derivative is the gap's derivative to rounding, the normals' turning with u included; it reaches two facets far.
-  J is the derivative with patches that keep their shape and turn with their facets, of the mean gap of a row times the
-  area that is covered now: its forces are spread as those of facets are, none closes a gap by uncovering it, and they
-  balance on both bodies, their moments too, to rounding. lin->derivative serves to foresee the gap.
+  For a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are points of smooth surfaces. These are patches
+  through the deformed vertices whose edges follow the mean normals of the facets around the vertices. Where a face ends
+  on a plane on which it is held (`ContactSetDisplacements()`), its smooth surface is continued by the mirror image. The
+  mortar gap is then measured along the normal of each nonmortar facet, and the gap of a vertex along the normal of the
+  mortar surface. lin->derivative is the exact derivative of the gap, including the rotation of the normals; it depends
+  on nodes up to two facets away. J is the derivative of the mean gap of a row times its present covered area, for
+  patches that keep their shape and rotate with their facets. The forces of J are distributed like those of facets, and
+  no force reduces a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to
+  rounding. lin->derivative serves to predict the gap.
 
-  Rows differ between linearizations; lin->vertex and lin->pair tell which they are. A displacement that is not finite
-  is an error.
+  The rows differ between linearizations. lin->vertex and lin->pair identify them. It is an error if the displacement is
+  not finite.
 
   References:
 . * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,
@@ -152,8 +156,8 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
 - u       - global displacement vector, 3 components per vertex [length]
 
   Output Parameter:
-. lin - the gap and its rows as of `ContactLinearize()`, without what only a solve needs: J of smooth pairs is that of
-        their facets, and lin->derivative is NULL
+. lin - the gap and its rows as computed by `ContactLinearize()`, without the derivatives that only a solve needs. J of
+        smooth pairs is the derivative for their facets, and lin->derivative is NULL
 
   Level: developer
 

@@ -1,24 +1,26 @@
 /*
-   Vertices that go through the other face of a pair between two states. Vertices and facets move on straight lines. The
-   whole way is tested, because a vertex that went right through a body has no face in front of it at the end.
+   Finds vertices that pass through the other face of a pair between two states. Vertices and facets move along straight
+   lines. The whole path is tested, because a vertex that has passed right through a body has no face in front of it at
+   the end.
 */
 #include "contactimpl.h"
 
-#define PASSAGE_PARTS  16 /* of the way, in which a side is looked for */
-#define PASSAGE_EVENTS 32 /* times that a vertex goes through a facet: more do not count */
+#define PASSAGE_PARTS  16 /* number of parts of the path; in each, at most one passage through a facet is found */
+#define PASSAGE_EVENTS 32 /* largest number of passages of a vertex through facets; more are ignored */
 
+/* A passage of a vertex through a facet, at a time in [0, 1] */
 typedef struct {
   PetscReal time;
   PetscInt  direction; /* 1 into the body, -1 out of it */
 } PassageEvent;
 
-/* A triangle and a vertex, at the beginning and the end */
+/* A vertex and the corners of a triangle, at the beginning and at the end of the path */
 typedef struct {
   PetscReal x[2][3], corner[2][3][3];
 } PassageTriangle;
 
-/* Height of the vertex above the triangle at a time, and its projection onto the triangle in barycentric
-   coordinates b */
+/* Returns the height of the vertex above the triangle at a time [length]. Computes the barycentric coordinates b of its
+   projection onto the triangle. */
 static PetscReal PassageHeight(const PassageTriangle *p, PetscReal time, PetscReal b[3])
 {
   PetscReal e[3][3], r[3], n[3], cross[3], square;
@@ -41,7 +43,7 @@ static PetscReal PassageHeight(const PassageTriangle *p, PetscReal time, PetscRe
   return VectorDot(n, r) / PetscSqrtReal(square);
 }
 
-/* Appends the times at which the vertex goes through the triangle, which is moved inwards by `inside` */
+/* Appends the times at which the vertex passes through the triangle, which is moved inwards by `inside` [length] */
 static void PassageFindEvents(const PassageTriangle *p, PetscReal inside, PetscInt *n, PassageEvent events[])
 {
   const PetscReal edge = 1e-6;
@@ -67,8 +69,8 @@ static void PassageFindEvents(const PassageTriangle *p, PetscReal inside, PetscI
   }
 }
 
-/* Number of times that the vertex enters the body minus those that it leaves it. Facets that share an edge count
-   once. */
+/* Returns how many times more often the vertex enters the body than it leaves it. Passages through facets that share an
+   edge, which have equal times, count once. */
 static PetscInt PassageCount(PetscInt n, const PassageEvent events[])
 {
   const PetscReal same  = 1e-6;
@@ -85,7 +87,8 @@ static PetscInt PassageCount(PetscInt n, const PassageEvent events[])
   return count;
 }
 
-/* Depth at the end of a vertex that has entered through the facets and not left again [length]; 0: it is outside */
+/* Returns the depth, at the end, of a vertex that has entered the body through the facets and has not left it again
+   [length], or 0 if it is outside */
 static PetscReal PassageOfVertex(const ContactTree *tree, const ContactCandidates facets[2], PetscReal inside,
   const PetscReal x0[3], const PetscReal x1[3])
 {
@@ -128,10 +131,11 @@ static PetscReal PassageOfVertex(const ContactTree *tree, const ContactCandidate
   return PassageCount(n, events) > 0 ? deepest : 0.0;
 }
 
-/* Boxes of the whole way in place of those at the end */
+/* Enlarges the boxes of the tree, which contain the facets at the end of the path, to contain them at the beginning
+   too */
 static void PassageWiden(const ContactCandidates facets[2], ContactTree *tree)
 {
-  for (PetscInt k = tree->nnodes - 1; k >= 0; --k) { /* children come behind their parents */
+  for (PetscInt k = tree->nnodes - 1; k >= 0; --k) { /* Children have larger numbers than their parents. */
     ContactTreeNode *node = &tree->node[k];
 
     for (PetscInt c = 0; node->second && c < 3; ++c) {
@@ -150,8 +154,8 @@ static void PassageWiden(const ContactCandidates facets[2], ContactTree *tree)
   }
 }
 
-/* Tests the vertices of one side, which move from x0 to the surface's present position. facets: of the other side.
-   deepest: raised to the largest depth */
+/* Tests the vertices of one side, which move from x0 to the surface's current coordinates. facets: the facets of the
+   other side at the beginning and at the end. *deepest is increased to the largest depth [length]. */
 static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal x0[], const ContactCandidates facets[2],
   PetscReal inside, PetscReal *deepest)
 {
@@ -166,7 +170,7 @@ static PetscErrorCode PassageOfSide(const ContactSurface *side, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Sets *turned if a facet has turned by more than 90 degrees since its corners were at x0 */
+/* Sets *turned to true if a facet has rotated by more than 90 degrees since its vertices were at x0 */
 static void PassageFindTurned(const ContactSurface *side, const PetscReal x0[], PetscBool *turned)
 {
   for (PetscInt f = 0; f < side->nfacets; ++f) {
@@ -177,13 +181,19 @@ static void PassageFindTurned(const ContactSurface *side, const PetscReal x0[], 
   }
 }
 
-/* Collective. Finds vertices of the faces of a pair that passed through the other face between two displacements,
-   and the largest depth. p: number of the pair; moved: bound of the displacement of a vertex along an axis; penetration
-   deeper than 2 sqrt(3) times this is not found [length]; u0, u1: global displacements before and after [length];
-   depth: depth of the deepest vertex at u1 [length]; 0: none passed through; reach: depth to which the contact search
-   looks [length]; turned: a facet of one of the faces turned by more than 90 degrees. Vertices and facets are assumed
-   to move along straight lines. A vertex that leaves the body again does not count. Vertices less than a tenth of the
-   reach inside the other body count as outside. */
+/*
+   Collective. Finds vertices of the faces of pair p that have passed through the other face between the global
+   displacements u0 and u1, and computes the largest depth.
+
+   - moved: bound of the displacement of a vertex along an axis [length]. Nothing is done if 2 sqrt(3) times this bound
+     does not exceed the search depth.
+   - depth: depth of the deepest of these vertices at u1 [length]; 0 if there is none
+   - reach: search depth of the pair [length]
+   - turned: whether a facet of one of the faces has rotated by more than 90 degrees
+
+   Vertices and facets are assumed to move along straight lines. A vertex that leaves the body again does not count.
+   Vertices that are inside the other body by less than a tenth of `reach` count as outside.
+*/
 PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
   PetscReal *reach, PetscBool *turned)
 {

@@ -1,11 +1,9 @@
-/*
-   Penetration of vertices of one face below the other. Mortar gaps are weighted means: if the nonmortar side is the
-   coarser one, they may be zero while vertices of the mortar side penetrate.
-*/
+/* Penetration of vertices of one face into the other body. Mortar gaps are weighted means. If the nonmortar side is the
+   coarser one, they may be zero while vertices of the mortar side penetrate. */
 #include "contactimpl.h"
 
-/* Depth of a vertex below the (smooth) surface of a facet [length]; 0 if it is above, or farther beside the facet
-   than below */
+/* Returns the depth of the vertex x below a facet, or below its smooth surface [length]. The depth is 0 if the vertex
+   is above the facet, or if its distance beside the facet exceeds its depth. */
 static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const ContactNearest *nearest,
   const PetscReal x[3])
 {
@@ -24,7 +22,7 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
   return height < 0.0 && 2.0 * height * height >= VectorDot(r, r) ? -height : 0.0;
 }
 
-/* Collective. Sets deepest to the maximum of itself and the depths of the vertices of `side` below `other` [length] */
+/* Collective. Increases *deepest to the largest depth of the vertices of `side` below `other` [length] */
 static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const ContactSurface *side,
   const ContactSurface *other, PetscReal *deepest)
 {
@@ -56,7 +54,7 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
   PetscFunctionReturn(0);
 }
 
-/* Sets deepest to the maximum of itself and the depths of this rank's vertices below a rigid surface [length] */
+/* Increases *deepest to the largest depth of this rank's vertices below a rigid surface [length] */
 static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest)
 {
   const ContactRows *rows = &contact->rows;
@@ -66,13 +64,18 @@ static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest
     *deepest = PetscMax(*deepest, -ContactSurfaceDistance(&contact->pairs[p], &rows->x[3 * i], gradient, weight));
 }
 
-/* Collective. Computes how deep the vertices of each pair's faces penetrate the other face. u: global displacement
-   vector, 3 components per vertex [length]; depth: largest penetration of a vertex of either face, one value per pair
-   [length]; 0: no penetration; rounding: uncertainty of the depth, one value per pair: a tenth of the distance between
-   smooth surfaces and facets [length]; 0: plane faces. The gap of a mortar pair is a mean, weighted by the shape
-   function of a nonmortar vertex. Here the depth of each single vertex of both sides is measured along the normal of
-   the other face; smooth pairs use the smooth surfaces. A vertex that does not project onto the other face has no
-   depth. */
+/*
+   Collective. Computes how deep the vertices of each pair's faces penetrate the other face at the global displacement
+   u.
+
+   - depth: for each pair, the largest penetration of a vertex of either face [length]; 0 if no vertex penetrates
+   - rounding: for each pair, the uncertainty of the depth [length]: a tenth of the distance between smooth surfaces and
+     facets, which is 0 for plane faces
+
+   The gap of a mortar pair is a mean, weighted by the shape function of a nonmortar vertex. Here the depth of each
+   single vertex of both sides is measured along the normal of the other face. Smooth pairs are measured between the
+   smooth surfaces. A vertex that does not project onto the other face has no depth.
+*/
 PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], PetscReal rounding[])
 {
   PetscFunctionBegin;

@@ -1,25 +1,26 @@
 /*
-   Ties. The displacement of a nonmortar vertex A is the mean of that of the mortar face, weighted by the dual function
-   psi_A:
+   Ties. The displacement of a nonmortar vertex A is a weighted mean of the displacement of the mortar face. The weight
+   is the dual function psi_A:
 
-     u_A = sum_C int psi_A N2_C / int psi_A u_C,   int psi_A N1_B = delta_AB int N1_B,
+     u_A = sum_C int psi_A N2_C / int psi_A u_C,   int psi_A N1_B = delta_AB int N1_B.
 
-   on the undeformed faces. psi_A is a combination of the bilinear functions on each facet, restricted to its covered
-   part.
+   The integrals are over the undeformed faces. psi_A is a combination of the bilinear functions on each facet,
+   restricted to its covered part.
 */
 #include "contactimpl.h"
 
-/* fraction of a facet that may stay uncovered, in total and around a vertex: rounding, or facets that cut the corners
-   of curved faces */
+/* largest fraction of the nonmortar face that may remain uncovered, in total and around one vertex. Such gaps arise
+   from rounding, or from facets that cut the corners of curved faces. */
 static const PetscReal tie_uncovered = 2e-2, tie_uncovered_vertex = 0.3;
 
-/* Sums: matrix entries of nodes, and for each node its covered and its whole area */
+/* Sums over all facets: entries of the matrix of weights, and the covered and the whole area of each node [length^2] */
 typedef struct {
-  PetscInt     n, size, *row, *column;
+  PetscInt     n, size, *row, *column; /* number of entries, space for entries, and their rows and columns */
   PetscScalar *value;
   Vec          covered, whole;
 } TieSums;
 
+/* Appends an entry [length^2] of the matrix */
 static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, PetscReal value)
 {
   PetscFunctionBegin;
@@ -35,8 +36,8 @@ static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, P
   PetscFunctionReturn(0);
 }
 
-/* a = diag(w) mass^-1 for n vertices, with the row sums w of mass, by Gauss-Jordan elimination with pivoting; false
-   if mass is singular, i.e. almost nothing is covered */
+/* Computes a = diag(w) mass^-1 for n vertices, where w are the row sums of mass, by Gauss-Jordan elimination with
+   pivoting. Returns false if mass is singular, which means that almost nothing is covered. */
 static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
   PetscReal m[4][8];
@@ -72,7 +73,7 @@ static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
   return PETSC_TRUE;
 }
 
-/* Adds up the rows of the two functions of a triangle's last vertex */
+/* Adds the rows of the two functions of a triangle's last vertex (n = 3) */
 static void TieFold(PetscInt n, PetscReal rows[4][4])
 {
   for (PetscInt b = 0; n == 3 && b < 4; ++b) {
@@ -81,7 +82,7 @@ static void TieFold(PetscInt n, PetscReal rows[4][4])
   }
 }
 
-/* The same for rows and columns of the mass matrix */
+/* Adds the rows and the columns of the two functions of a triangle's last vertex in a mass matrix (n = 3) */
 static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
 {
   TieFold(n, mass);
@@ -91,7 +92,7 @@ static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
   }
 }
 
-/* Adds one nonmortar facet and the candidates near it */
+/* Adds the integrals of nonmortar facet f over its overlaps with the mortar facets near[0 .. nnear - 1] */
 static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits,
   const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
 {
@@ -133,6 +134,8 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
   PetscFunctionReturn(0);
 }
 
+/* Collective. Adds the integrals of all nonmortar facets. distance: search distance on both sides of the facets
+   [length] */
 static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, const ContactSurface *nonmortar,
   PetscReal distance, TieSums *sums)
 {
@@ -163,7 +166,8 @@ static PetscErrorCode TieAddFacets(MPI_Comm comm, const ContactSurface *mortar, 
   PetscFunctionReturn(0);
 }
 
-/* Divides the rows by the covered areas; error if the mortar face does not cover the nonmortar face */
+/* Collective. Creates the matrix of weights: divides the sums by the covered areas. It is an error if the mortar face
+   does not cover the nonmortar face. */
 static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie *tie, PetscReal distance,
   TieSums *sums, Mat *rows)
 {
@@ -199,17 +203,19 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
   PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT,
-    "%s \"%s\": no facet of %s is within %.4g of the face %s; the key distance sets how far away they may be", what,
-    tie->name, tie->mortar, (double)distance, tie->nonmortar);
+    "%s \"%s\": no facet of the mortar face %s is within the distance %.4g of the nonmortar face %s: increase the key "
+    "distance, or move the bodies together",
+    what, tie->name, tie->mortar, (double)distance, tie->nonmortar);
   PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm,
     PETSC_ERR_USER_INPUT,
-    "%s \"%s\": the mortar face %s is over %.4g %% of the nonmortar face %s, but must cover all of it: swap the two, "
-    "or cut out a part of the nonmortar face under faces",
+    "%s \"%s\": the mortar face %s covers %.4g %% of the nonmortar face %s, but must cover all of it: exchange mortar "
+    "and nonmortar, or define the covered part as a face with the key faces",
     what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);
   PetscFunctionReturn(0);
 }
 
-/* Faces of order 2: turns rows and columns of the facets' vertices into those of the nodes */
+/* Collective. Converts rows and columns for the facets' vertices into rows and columns for the nodes of faces of order
+   2 */
 static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const ContactSurface *nonmortar, Mat rows)
 {
   Mat correction;
@@ -225,19 +231,19 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 }
 
 /*@C
-  ContactTieCreate - Computes the weights of a tie: vertex displacements of one face as weighted means of those of
-  another face
+  ContactTieCreate - Computes the weights of a tie: the displacement of each vertex of one face is a weighted mean of
+  displacements of another face
 
   Collective
 
   Input Parameters:
 + dm   - the mesh
-. what - the name of the tie, for error messages
+. what - what the tie is in the scene, for error messages, e.g. "tie" or "springs"
 - tie  - the two faces
 
   Output Parameter:
-. rows - a square matrix of all nodes, AIJ, whose rows at the nonmortar face's nodes hold the weights of the mortar
-         face's, and sum to 1; the others are empty
+. rows - a square AIJ matrix with one row and one column per node of the mesh. The row of a node of the nonmortar face
+         holds the weights of the mortar face's nodes, which sum to 1. Other rows are empty.
 
   Level: intermediate
 

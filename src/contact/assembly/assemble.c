@@ -1,9 +1,10 @@
-/* From integrals of facet pairs to the linearized gap: sums over ranks, weights, dropped rows */
+/* Computes the linearized gap from the integrals over facet pairs: sums them over ranks, divides them by the masses,
+   and removes small rows */
 #include "assemblyimpl.h"
 
-/* Entries smaller than this part of the row's largest are rounding errors of exact zeros */
+/* Entries smaller than this fraction of the row's largest entry are exact zeros with rounding errors. */
 #define ENTRY_DROP 1e-14
-/* the same for a row of a smooth pair, whose entries are sums of more terms */
+/* The corresponding fraction for a row of a smooth pair, whose entries are sums of more terms. */
 #define SLOPE_DROP 1e-12
 
 PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
@@ -20,6 +21,8 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
   PetscFunctionReturn(0);
 }
 
+/* Adds the couplings `value` [length^2] of a row with n vertices. If couplings are vectors, they are multiplied by the
+   normal. */
 PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[],
   const PetscReal value[], const PetscReal normal[3])
 {
@@ -35,7 +38,8 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* Adds the derivatives of one facet's four rows by the facet's vertices and by the normals there (smooth pairs) */
+/* Adds the derivatives of the weighted gaps of one facet's four rows with respect to the coordinates of the facet's
+   vertices and to the normals there (smooth pairs) */
 PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
   const PetscInt normal_id[4], const ContactSlopes *slopes)
 {
@@ -62,14 +66,14 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscFunctionReturn(0);
 }
 
-/* Couplings of all rows with vertices, summed over facets and ranks: one matrix, or three of the same pattern (one
-   per component) */
+/* Couplings of all rows with vertices [length^2], summed over facets and ranks: one matrix, or three matrices of equal
+   pattern, one for each component */
 typedef struct {
   PetscInt dim;
   Mat      mat[3];
 } Coupling;
 
-/* One row of the couplings; each value is multiplied by factor */
+/* One row of the couplings. Component c of the derivative with respect to node[k] is factor[c] value[c][k]. */
 typedef struct {
   PetscInt           n;
   const PetscInt    *node;
@@ -77,7 +81,7 @@ typedef struct {
   PetscReal          factor[3];
 } CouplingRow;
 
-/* Sums the assembly's entries over facets and ranks */
+/* Collective. Sums the assembly's couplings over facets and ranks, and distributes the rows of hanging vertices */
 static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
 {
   Vec      u;
@@ -103,8 +107,8 @@ static PetscErrorCode CouplingDestroy(Coupling *coupling)
   PetscFunctionReturn(0);
 }
 
-/* Gets a row of the couplings. Component c of its vectors is value[c] (or value[0] if all share the normal) times
-   factor[c]. */
+/* Gets a row of the couplings. All components share value[0] if couplings are scalars. The factor then contains the
+   row's normal. The row is divided by the mass. */
 static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
   CouplingRow *r)
 {
@@ -124,7 +128,8 @@ static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row,
   PetscFunctionReturn(0);
 }
 
-/* kept[k]: local rows whose 1-norm, divided by the mass, is not below CONTACT_ROW_DROP of the largest of all ranks */
+/* Lists in `kept` the local numbers of the rows that remain: their 1-norm, after division by the mass, is at least
+   CONTACT_ROW_DROP times the largest 1-norm on all ranks */
 static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
@@ -156,7 +161,7 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscFunctionReturn(0);
 }
 
-/* Computes one row of J, without entries that are zero up to rounding */
+/* Computes the columns and entries of one row of J, without entries that are zero up to rounding */
 static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
   PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
@@ -183,7 +188,7 @@ static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, 
   PetscFunctionReturn(0);
 }
 
-/* Length of the longest row of a matrix on this rank */
+/* Computes the length of a matrix's longest row on this rank */
 static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
 {
   PetscInt rstart, rend;
@@ -201,7 +206,7 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* Assembles the sums by rows into a matrix with the given number of local columns */
+/* Collective. Assembles the entries into a matrix with n local columns, and distributes the rows of hanging vertices */
 static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEntries *entries, Mat *mat)
 {
   PetscFunctionBegin;
@@ -210,8 +215,11 @@ static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEnt
   PetscFunctionReturn(0);
 }
 
-/* Turns the derivative of int phi_A gap into that of (mean gap) x (covered area held fixed). Otherwise a shrinking
-   covered area would count as a shrinking gap. Where the mean gap is zero, as under pressure, both are equal. */
+/*
+   Subtracts from `slopes`, the derivative of int phi_A gap, the part that is due to the change of the covered area:
+   (mean gap) times the derivative of int phi_A. A shrinking covered area would otherwise count as a shrinking gap.
+   Under pressure the mean gap is zero, and nothing is subtracted.
+*/
 static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
 {
   PetscInt           n;
@@ -238,8 +246,8 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Derivatives of the gaps of smooth pairs, not yet divided by the masses. rigid: patches keep their shape; bending:
-   patches bend with the normals. Rows of other pairs are empty. */
+/* Collective. Computes the derivatives of the weighted gaps of smooth pairs [length^2], not yet divided by the masses.
+   In `rigid` the patches keep their shape; in `bending` they bend with the normals. Rows of other pairs are empty. */
 static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
 {
   PetscInt n;
@@ -258,7 +266,8 @@ static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *ri
   PetscFunctionReturn(0);
 }
 
-/* Gets one row of J of a smooth pair, divided by the mass, without entries that are zero up to rounding */
+/* Computes the columns and entries of one row of J of a smooth pair, divided by the mass, without entries that are zero
+   up to rounding */
 static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, PetscInt *n, PetscInt column[],
   PetscScalar entry[])
 {
@@ -281,7 +290,7 @@ static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, Pet
   PetscFunctionReturn(0);
 }
 
-/* Length of the longest row, for work arrays */
+/* Computes the length of work arrays that hold the longest row of J */
 static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, PetscInt *space)
 {
   PetscInt longest = 0;
@@ -293,8 +302,8 @@ static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, Pet
   PetscFunctionReturn(0);
 }
 
-/* Assembles J for the kept rows: first counts the entries of each row, then inserts them. slopes: rows of smooth
-   pairs; NULL: none */
+/* Collective. Assembles J for the rows that remain: first counts the entries of each row, then inserts them. slopes:
+   derivatives of smooth pairs; NULL if there are none */
 static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
   const PetscInt kept[], Mat *J)
 {
@@ -345,7 +354,7 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   PetscFunctionReturn(0);
 }
 
-/* Fills gap, mass and vertices of the kept rows */
+/* Fills gap, mass, vertex, pair and normal of the rows that remain */
 static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAssembly *as, const PetscInt kept[],
   ContactLinearization lin)
 {
@@ -381,7 +390,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* Sets J, and lin->derivative if there are smooth pairs */
+/* Collective. Creates J, lin->derivative and lin->cover if there are smooth pairs */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {
@@ -397,8 +406,8 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   PetscFunctionReturn(0);
 }
 
-/* Converts forces on vertices of the facets to forces on nodes of order 2, in J and the other matrices. The areas of
-   the rows are those of the facets. */
+/* Multiplies J and the other matrices by T (trace.c), so that forces on the facets' vertices become forces on the nodes
+   of order 2. The mass and the covered area of a row remain those of the facets. */
 static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
 {
   Vec          facets;
@@ -418,7 +427,7 @@ static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Collective. Creates the linearization from the assembly */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
   Coupling  coupling = {0};

@@ -1,11 +1,11 @@
 /*
-   Assembles a matrix from entries in any order, for rows on any rank. Entries come in blocks of one row and `width`
-   successive columns. A block is repeated for each overlap of two facets. Repeated blocks are added before PETSc sorts
-   the entries, which would take most of the time otherwise.
+   Assembles a matrix from entries in any order, for rows on any rank. Entries are added in blocks of one row and
+   `width` successive columns. A block is added once for each overlap of two facets. Blocks with equal row and column
+   are summed here, before PETSc sorts the entries. Otherwise sorting would take most of the time.
 */
 #include "assemblyimpl.h"
 
-/* Adds n blocks of a row */
+/* Appends n blocks of a row */
 PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt n, const PetscInt block[],
   const PetscReal value[])
 {
@@ -27,7 +27,8 @@ PetscErrorCode ContactEntriesAdd(ContactEntries *entries, PetscInt row, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* order: the blocks by rows; first[k] to first[k + 1] - 1 are those of the k-th of *nrows successive rows */
+/* Sorts the blocks by rows. The blocks of the k-th of *nrows successive rows are (*order)[(*first)[k]] to
+   (*order)[(*first)[k + 1] - 1]. */
 static PetscErrorCode EntriesOrder(const ContactEntries *entries, PetscInt *nrows, PetscInt **first, PetscInt **order)
 {
   PetscInt least = entries->n ? entries->row[0] : 0, most = entries->n ? least : -1;
@@ -46,8 +47,8 @@ static PetscErrorCode EntriesOrder(const ContactEntries *entries, PetscInt *nrow
   PetscFunctionReturn(0);
 }
 
-/* Appends a row's blocks to `merged`, repeated ones added. slot: table of `size` numbers, a power of two and at least
-   twice n, all negative before and after */
+/* Appends the blocks of one row to `merged`, and sums those with equal columns. slot: hash table of `size` block
+   numbers, which are all negative before and after the call. The size is a power of two and at least 2 n. */
 static PetscErrorCode EntriesMergeRow(const ContactEntries *entries, PetscInt n, const PetscInt order[], PetscInt size,
   PetscInt slot[], ContactEntries *merged)
 {
@@ -77,7 +78,7 @@ static PetscErrorCode EntriesMergeRow(const ContactEntries *entries, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* Adds repeated blocks of this rank */
+/* Sums the blocks of this rank that have equal row and column */
 static PetscErrorCode EntriesMerge(ContactEntries *entries)
 {
   PetscInt       nrows, *first, *order, *slot, longest = 0, size = 2;
@@ -102,7 +103,7 @@ static PetscErrorCode EntriesMerge(ContactEntries *entries)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Assembles a matrix from the entries of all ranks; m, n: local sizes */
+/* Collective. Creates a matrix from the entries of all ranks. m and n are the local numbers of rows and columns. */
 PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm comm, PetscInt m, PetscInt n, ContactEntries *entries, Mat *mat)
 {
   const PetscInt width = entries->width;

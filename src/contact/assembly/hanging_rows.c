@@ -1,12 +1,12 @@
 /*
-   Rows of hanging vertices. On the nonmortar face the displacement of a hanging vertex is the mean of 2 or 4 other
-   vertices, and so is its multiplier. The sums for its row (phi_A is its bilinear function) are added to the rows of
-   those vertices with weights 1/2 or 1/4, and its own row stays empty.
+   The rows of hanging vertices. On the nonmortar face the displacement of a hanging vertex is the mean of the
+   displacements of 2 or 4 other vertices, and its multiplier is the mean of theirs. The sums of its row, in which phi_A
+   is its bilinear function, are added to the rows of those vertices with weights 1/2 or 1/4. Its own row becomes empty.
 */
 #include <mesh.h>
 #include "assemblyimpl.h"
 
-/* number: 1 + the pair's row at each node; 0: no row */
+/* Sets `number` to 1 + the row of pair p at each node that has a row, and to 0 at other nodes */
 static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec number)
 {
   const ContactRows *rows = &contact->rows;
@@ -28,7 +28,8 @@ static PetscErrorCode HangingRowsNumberRows(Contact contact, PetscInt p, Vec num
   PetscFunctionReturn(0);
 }
 
-/* Lists the columns of the hanging nodes' means in order; NULL: only counts them */
+/* Counts the nodes on which the hanging nodes of this rank depend, and lists their columns in order unless columns is
+   NULL */
 static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt columns[])
 {
   PetscInt start, end;
@@ -48,7 +49,8 @@ static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt colu
   PetscFunctionReturn(0);
 }
 
-/* gathered: values of `number` at the nodes that hanging nodes depend on, in the order of the list */
+/* Creates a sequential vector with the values of `number` at the nodes on which hanging nodes depend, in the order of
+   HangingRowsListMeans() */
 static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
 {
   PetscInt   n, *columns;
@@ -69,7 +71,8 @@ static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
   PetscFunctionReturn(0);
 }
 
-/* Fills the matrix that distributes rows: 1 for ordinary rows; weights of the means for rows of hanging vertices */
+/* Fills the matrix that distributes the rows of a pair. An ordinary row has the entry 1 on the diagonal. The row of a
+   hanging vertex has the weights of the vertices on which it depends, if all of these have a row. */
 static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat share)
 {
   PetscInt           start, end, k = 0;
@@ -98,8 +101,8 @@ static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat s
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates rows->hanging (NULL if no vertex of the mesh hangs) and rows->weight, the masses after
-   distribution */
+/* Collective. Creates rows->hanging, which is NULL if no vertex of the mesh hangs, and rows->weight, the masses after
+   their distribution */
 PetscErrorCode ContactHangingRowsCreate(Contact contact)
 {
   ContactRows *rows = &contact->rows;
@@ -129,7 +132,8 @@ PetscErrorCode ContactHangingRowsCreate(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Distributes a vector with one value per row like the rows of hanging vertices */
+/* Distributes the values of hanging vertices' rows, in a vector with one value per row, to the rows of other
+   vertices */
 PetscErrorCode ContactHangingRowsVector(Contact contact, Vec sums)
 {
   Vec own;
@@ -143,6 +147,7 @@ PetscErrorCode ContactHangingRowsVector(Contact contact, Vec sums)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Distributes the rows of hanging vertices in a matrix with one row per contact row, by replacing *sums */
 PetscErrorCode ContactHangingRowsMatrix(Contact contact, Mat *sums)
 {
   Mat shared;

@@ -1,12 +1,12 @@
 /*
-   The directions along which the rows of a pair with friction have no slip, and so no friction.
+   Determines the directions along which the rows of a pair with friction have no slip, and therefore no friction.
 
-   - Both faces end on the same symmetry plane, or both are driven by the same displacement: the prescribed
-     displacements allow no slip along that direction. The slip rows of these vertices are linearly dependent, so the
-     friction force is not unique. It is set to zero.
-   - A vertex is held, and the other face is free or driven by another displacement: friction acts.
-   - The pair sticks, and both faces are driven by different displacements: no friction force can prevent that slip.
-     The friction force is set to zero, and the rows are counted as frictionless for a warning.
+   - If both faces end on the same symmetry plane, or if the same prescribed displacement drives both, no slip is
+     possible along that direction. The slip rows of these vertices are linearly dependent, so that the friction force
+     is not unique. It is set to zero.
+   - If a vertex is held, and the other face is free or driven by another displacement, friction acts.
+   - If the pair sticks, and different displacements drive both faces, no friction force can prevent the slip. The
+     friction force is set to zero, and the rows are counted as frictionless for a warning.
 */
 #include <stdlib.h>
 #include <string.h>
@@ -15,17 +15,20 @@
 static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
                                                 face */
 
-/* Places where vertices of a mortar face are held along an axis */
+/* The coordinate, along an axis, of vertices of a mortar face at which a displacement is prescribed. All fields are
+   real, so that places can be sent as one array. */
 typedef struct {
-  PetscReal motion, place; /* prescribed motion (number of the displacement), and coordinate along the axis [length] */
+  PetscReal motion, place; /* number of the displacement that prescribes the motion, and coordinate along the axis
+                              [length] */
 } HeldPlace;
 
+/* The prescribed displacements of a mortar face along one axis */
 typedef struct {
-  PetscBool  whole; /* all vertices of the face are held, by this motion */
-  PetscInt   motion;
-  PetscInt   n; /* places of all ranks, without repetition */
+  PetscBool  whole;  /* whether all vertices of the face are held by the same motion */
+  PetscInt   motion; /* that motion, if whole is true */
+  PetscInt   n;      /* number of places of all ranks, without repetition */
   HeldPlace *places;
-  PetscReal  rounding; /* [length] */
+  PetscReal  rounding; /* tolerance for equal coordinates [length] */
 } HeldFace;
 
 static int HeldPlaceCompare(const void *a, const void *b)
@@ -36,6 +39,7 @@ static int HeldPlaceCompare(const void *a, const void *b)
   return (p->place > q->place) - (p->place < q->place);
 }
 
+/* Sorts the places and removes those with equal motion and, up to rounding, equal coordinate */
 static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 {
   PetscInt kept = 0;
@@ -48,7 +52,7 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
   *n = kept;
 }
 
-/* Gathers the places of all ranks on every rank */
+/* Collective. Collects the places of all ranks on every rank */
 static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 {
   PetscMPIInt size, n, *counts, *first;
@@ -74,8 +78,11 @@ static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
   PetscFunctionReturn(0);
 }
 
-/* Gets what prescribes a rigid body's motion along an axis: the number of a displacement, CONTACT_AT_REST, or
-   CONTACT_FREE if the body can rotate or is driven by forces. Returns false if the body is not rigid. */
+/*
+   Computes what prescribes the motion of a rigid body along an axis: the number of a displacement, CONTACT_AT_REST if
+   its displacement is zero, or CONTACT_FREE if the body can rotate or is driven by forces. Returns false if the body is
+   not rigid.
+*/
 static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
   const size_t length = strcspn(face, ".");
@@ -96,9 +103,11 @@ static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt ax
   return rigid;
 }
 
+/* Collective. Determines the prescribed displacements of the mortar face s along an axis */
 static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, HeldFace *face)
 {
-  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds: negative of the smallest, and the largest */
+  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds of motion: the negative of the smallest,
+                                                                   and the largest */
 
   PetscFunctionBegin;
   *face       = (HeldFace){.rounding = held_rounding * PetscSqrtReal(s->area)};
@@ -122,10 +131,8 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/*
-   For a vertex of the other face with this motion and coordinate: whether the mortar face is held along the axis at
-   that coordinate (held), and by the same motion (alike)
-*/
+/* For a vertex of the nonmortar face with this prescribed motion and this coordinate along the axis, determines whether
+   the mortar face is held at that coordinate (*held), and whether it is held by the same motion (*alike) */
 static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
 {
   *held  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
@@ -137,10 +144,8 @@ static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place,
   }
 }
 
-/*
-   held: marks the pair's rows that have no slip along an axis. frictionless: those of them where the faces slide
-   nevertheless. None are marked if the whole nonmortar face is held.
-*/
+/* Collective. Sets `held` to 1 on the pair's rows without slip along an axis. Sets `frictionless` to 1 on those of
+   these rows where the faces slide nevertheless. Sets nothing if the whole nonmortar face is held. */
 static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
   Vec held, Vec frictionless)
 {
@@ -165,7 +170,8 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
   PetscFunctionReturn(0);
 }
 
-/* Signed distance from the origin, along the symmetry plane's normal, of vertex i of a surface */
+/* Returns the signed distance of vertex i of a surface from the origin, along the normal of a symmetry plane
+   [length] */
 static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisplacement *plane)
 {
   PetscReal n[3] = {plane->normal[0], plane->normal[1], plane->normal[2]};
@@ -174,6 +180,7 @@ static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisp
   return VectorDot(n, &s->reference[3 * i]);
 }
 
+/* Returns whether the symmetry planes of two prescribed displacements are parallel */
 static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacement *b)
 {
   PetscReal m[3] = {a->normal[0], a->normal[1], a->normal[2]}, n[3] = {b->normal[0], b->normal[1], b->normal[2]};
@@ -184,8 +191,10 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
 }
 
 /*
-   Whether the mortar face cannot move across symmetry plane k: it ends on the same plane, or all of it is held without
-   such a motion. planes: from ContactSurfaceFindPlanes() for its vertices; faces: what holds it along each axis
+   Collective. Determines whether the mortar face cannot move across the inclined symmetry plane k. This is so if the
+   face ends on the same plane, or if all of it is held and its prescribed motion has no component along the plane's
+   normal. planes: from ContactSurfaceFindPlanes() for the mortar face's vertices; faces: its prescribed displacements
+   along each axis; offset: distance of the plane from the origin [length]
 */
 static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
@@ -215,10 +224,8 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
   PetscFunctionReturn(0);
 }
 
-/*
-   plane: marks each row whose vertex is on an inclined symmetry plane with 1 + the plane's number, if the mortar face
-   does not move across it. None are marked if all vertices are on planes.
-*/
+/* Collective. Sets `plane` to 1 + the number of the inclined symmetry plane on the rows whose vertices lie on it, if
+   the mortar face cannot move across it. Sets nothing if all nonmortar vertices lie on such planes. */
 static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const HeldFace mortar[3], Vec plane)
 {
   const ContactSurface *s = &pair->nonmortar;
@@ -249,10 +256,8 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, con
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes contact->rows.held, the directions along which rows have no slip, and the number of frictionless rows of
-   each pair
-*/
+/* Collective. Computes contact->rows.held, the directions along which rows have no slip, and the number of frictionless
+   rows of each pair */
 PetscErrorCode ContactFindHeld(Contact contact)
 {
   ContactRows *rows = &contact->rows;

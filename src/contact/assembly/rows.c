@@ -1,9 +1,10 @@
-/* All possible rows, one per nonmortar vertex and pair, and their weights. They do not change as long as the mesh
-   does not. */
+/* All possible rows, one per nonmortar vertex and pair, and their lumped masses. They do not change as long as the mesh
+   does not change. */
 #include <petscsf.h>
 #include "assemblyimpl.h"
 
-/* marked[v] = 1 for the vertices of this rank's facets, and for owned vertices of other ranks' facets; 0 elsewhere */
+/* Sets marked[v] to 1 for the vertices of this rank's facets and for vertices that this rank owns of other ranks'
+   facets, and to 0 for other points */
 static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints,
   PetscInt marked[])
 {
@@ -17,7 +18,7 @@ static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const Con
   PetscFunctionReturn(0);
 }
 
-/* Appends the marked vertices that this rank owns to rows->vertex, which has space for size */
+/* Appends the marked vertices that this rank owns to rows->vertex, which has space for *size of them */
 static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const PetscInt marked[], ContactRows *rows,
   PetscInt *size)
 {
@@ -37,7 +38,8 @@ static PetscErrorCode RowsAppend(PetscSection global, PetscInt npoints, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Sets the global rows of the facets' vertices from the local numbers of the owned rows */
+/* Numbers the rows of pair p on all ranks, and sets the global row of each vertex of the pair's facets. number: work
+   array */
 static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart, ContactRows *rows, PetscInt p,
   ContactPairData *pair, PetscInt npoints, PetscInt number[])
 {
@@ -53,7 +55,7 @@ static PetscErrorCode RowsShare(PetscSF sf, PetscBool parallel, PetscInt rstart,
   PetscFunctionReturn(0);
 }
 
-/* Lumped mass int phi_A of the undeformed nonmortar faces */
+/* Collective. Computes rows->mass, the lumped mass int phi_A of the undeformed nonmortar faces [length^2] */
 static PetscErrorCode RowsCreateMass(Contact contact)
 {
   ContactRows *rows = &contact->rows;
@@ -79,7 +81,7 @@ static PetscErrorCode RowsCreateMass(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Collective. Creates all rows, and their masses */
 PetscErrorCode ContactRowsCreate(Contact contact)
 {
   ContactRows *rows = &contact->rows;

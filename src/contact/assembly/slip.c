@@ -1,12 +1,16 @@
 /*
-   Slip of the rows of pairs with friction: the displacement of the mortar side relative to the nonmortar side along
-   the tangents t1, t2 of the row, averaged like the mortar gap, slip_A = (1/m_A) int phi_A (u2 - u1).t, for any
-   displacement u of the vertices. A rigid motion of both faces gives no slip where both touch. If a row has no slip
-   along an axis, or across a plane (held.c), the tangent in that direction is zero.
+   The slip of the rows of pairs with friction. It is the displacement of the mortar side relative to the nonmortar
+   side, along the tangents t1, t2 of the row, averaged like the mortar gap:
+
+     slip_A = (1/m_A) int phi_A (u2 - u1).t  [length]
+
+   Here u is any displacement of the vertices. A rigid motion of both faces gives no slip where the faces touch. If a
+   row has no slip along an axis, or across a symmetry plane (held.c), its tangent in that direction is set to zero.
 */
 #include "assemblyimpl.h"
 
-/* t: the unit vector v projected to the plane normal to n, scaled to length 1; false if almost nothing is left */
+/* Projects the unit vector v to the plane perpendicular to n and scales the result t to length 1. Returns false if v is
+   almost parallel to n. */
 static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], PetscReal t[3])
 {
   const PetscReal least = 0.1, along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
@@ -15,6 +19,8 @@ static PetscBool SlipTangentOf(const PetscReal n[3], const PetscReal v[3], Petsc
   return (PetscBool)(VectorScaleToUnit(t) > least);
 }
 
+/* Computes the unit tangent t that is nearest to a coordinate axis. Returns false if the axis is almost parallel to
+   n. */
 static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal t[3])
 {
   PetscReal v[3] = {0.0, 0.0, 0.0};
@@ -23,8 +29,8 @@ static PetscBool SlipTangentAlong(const PetscReal n[3], PetscInt axis, PetscReal
   return SlipTangentOf(n, v, t);
 }
 
-/* t: two unit tangents at a vertex on a symmetry plane. The one across the plane is set to zero. Returns false if
-   the contact face is parallel to the plane. */
+/* Computes two tangents at a vertex on a symmetry plane: a unit tangent in the plane, and zero in place of the tangent
+   across the plane. Returns false if the contact face is parallel to the plane. */
 static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane[3], PetscReal t[6])
 {
   if (!SlipTangentOf(n, plane, t + 3)) return PETSC_FALSE;
@@ -33,8 +39,8 @@ static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane
   return PETSC_TRUE;
 }
 
-/* t: two unit tangents normal to n and to each other. held: bits of the axes without slip; tangents along these are
-   set to zero */
+/* Computes two unit tangents t perpendicular to n and to each other. held: bit c is set if there is no slip along axis
+   c; the tangent along such an axis is set to zero */
 static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
 {
   PetscInt  axis = 0;
@@ -52,7 +58,7 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
   }
 }
 
-/* Sets a tangent to zero if its largest component is along a held axis */
+/* Sets the tangent t to zero if its component along a held axis is larger than 1/2 */
 static void SlipDropHeld(PetscInt held, PetscReal t[3])
 {
   const PetscReal half  = 0.5;
@@ -63,7 +69,7 @@ static void SlipDropHeld(PetscInt held, PetscReal t[3])
   for (PetscInt c = 0; c < 3; ++c) t[c] = along > half ? 0.0 : t[c];
 }
 
-/* Tangents of a row, without directions in which its vertex is held */
+/* Computes the two tangents of a row; those along directions in which its vertex is held are zero */
 static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
 {
   const PetscReal *n    = &contact->rows.normal[3 * row];
@@ -81,7 +87,7 @@ static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
   SlipTangents(n, held % 8, t);
 }
 
-/* Covered area of a row: int phi_A over the mortar side, from its coupling entries [length^2] */
+/* Returns the covered area of a row, int phi_A over the mortar side, from the row's couplings [length^2] */
 static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
 {
   PetscReal sum = 0.0;
@@ -90,7 +96,8 @@ static PetscReal SlipCover(PetscInt n, const PetscScalar values[])
   return sum;
 }
 
-/* Computes the two slip rows from a row of the couplings; slip NULL: only counts entries */
+/* Inserts the two slip rows `to` and `to` + 1, computed from a row of the couplings. *cover: covered area of the row
+   [length^2] */
 static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, const PetscReal tangent[6], PetscInt to,
   Mat slip, PetscReal *cover)
 {
@@ -112,7 +119,7 @@ static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, c
   PetscFunctionReturn(0);
 }
 
-/* Creates an empty matrix with two rows for each row of J, and room for entries in rows with friction */
+/* Collective. Creates a matrix with two empty rows for each row of J, preallocated for rows with friction */
 static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
 {
   PetscInt rstart, cstart, cend, *diagonal, *offdiagonal;
@@ -139,7 +146,8 @@ static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const Pet
   PetscFunctionReturn(0);
 }
 
-/* Sets lin->slip, lin->tangent and lin->covered of the kept rows. couplings: integrals of rows with vertices */
+/* Collective. Creates lin->slip, lin->tangent and lin->covered for the rows that remain. couplings: int phi_A (N2 - N1)
+   of all rows with vertices [length^2] */
 PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
 {
   const PetscScalar *mass;
@@ -160,7 +168,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
     if (!pair->frictional) continue;
     PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
       lin->slip, &lin->covered[k]));
-    /* Dual functions have negative values, so that SlipCover(), a sum of magnitudes, would be too large */
+    /* Dual functions have negative values. SlipCover(), a sum of magnitudes, would therefore be too large. */
     if (pair->gap == GAP_DUAL || pair->dual) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));

@@ -1,14 +1,16 @@
-/* Finds the pairs with a curved face, and computes the normals of their smooth surfaces at each displacement. Pairs of
-   plane faces cost nothing. Plane faces of order 2 have no smooth surface either: it would overshoot beside an edge of
-   the other body, where they bend sharply. */
+/*
+   Determines which pairs have a curved face, and computes the normals of their smooth surfaces at each displacement.
+   Pairs of plane faces need no smooth surface. Nor do plane faces of order 2: a smooth surface would overshoot beside
+   an edge of the other body, where they bend sharply.
+*/
 #include "assemblyimpl.h"
 
-/* A surface is curved if it differs from its facets by more than this fraction of an edge; smaller differences are
-   rounding of the mesh file */
+/* A surface is curved if the distance between the smooth surface and a facet exceeds this fraction of the facet's size.
+   Smaller distances are rounding errors of the mesh file. */
 #define CURVED 1e-6
 
-/* Computes the normals at the surface's corners. bulge: largest distance of the patches from their facets [length];
-   curvature: the same as a fraction of the edges */
+/* Computes the normals at the vertices of the surface's facets. *bulge: largest distance of the patches from their
+   facets [length]; *curvature: largest ratio of that distance to the size of the facet */
 static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
 {
   PetscReal *normal;
@@ -33,7 +35,8 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the rings around both faces; patched: whether one of them is curved before it deforms */
+/* Collective. Creates the rings of facets around both faces. Sets `patched` of both faces to whether one of them is
+   curved in the undeformed state. */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
   const PetscReal cosine     = PetscCosReal(CONTACT_FEATURE_ANGLE * PETSC_PI / 180.0);
@@ -59,6 +62,7 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
+/* Discards the smooth surfaces of a pair */
 static PetscErrorCode SharpenPair(ContactPairData *pair)
 {
   PetscFunctionBegin;
@@ -71,7 +75,7 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds which pairs are smooth, once; u: any displacement vector */
+/* Collective. Determines once which pairs are smooth. u: any displacement vector of the mesh */
 PetscErrorCode ContactSmoothFind(Contact contact, Vec u)
 {
   PetscFunctionBegin;
@@ -87,7 +91,7 @@ PetscErrorCode ContactSmoothFind(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the smooth surfaces at a displacement; the surfaces have been deformed already */
+/* Collective. Computes the smooth surfaces at the displacement u, to which the surfaces have been deformed before */
 PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
 {
   PetscReal bulge, curvature;
@@ -106,7 +110,7 @@ PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Discards the smooth surfaces and which pairs are smooth */
+/* Discards all smooth surfaces, so that ContactSmoothFind() determines again which pairs are smooth */
 PetscErrorCode ContactSmoothReset(Contact contact)
 {
   PetscFunctionBegin;

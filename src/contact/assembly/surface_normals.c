@@ -2,7 +2,7 @@
    derivatives */
 #include "assemblyimpl.h"
 
-/* The two surfaces of a pair and the rings about them */
+/* Gets the two surfaces of a pair and the rings of facets around them */
 static void SmoothNormalsGetSides(ContactPairData *pair, ContactSurface *surface[2], ContactRing *ring[2])
 {
   surface[0] = &pair->mortar;
@@ -11,7 +11,8 @@ static void SmoothNormalsGetSides(ContactPairData *pair, ContactSurface *surface
   ring[1]    = &pair->nonmortar_ring;
 }
 
-/* Collective. Numbers the normals of a rank consecutively, pair by pair and side by side */
+/* Collective. Numbers the normals of each rank consecutively, pair by pair and side by side. *first: number of this
+   rank's first normal */
 static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
 {
   PetscInt n = 0, next;
@@ -38,8 +39,8 @@ static PetscErrorCode SmoothNormalsNumber(Contact contact, PetscInt *first)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the derivative blocks of all normals, or only counts them; end[i]: end of the blocks of this
-   rank's normal i */
+/* Computes the derivative blocks of all normals of this rank. If their arrays are not allocated, only counts them.
+   end[i]: end of the blocks of normal i; NULL if not needed */
 static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
 {
   ContactNormalSlopes *blocks = &contact->smooth.blocks;
@@ -64,7 +65,7 @@ static PetscErrorCode SmoothNormalsFill(Contact contact, PetscInt end[])
   PetscFunctionReturn(0);
 }
 
-/* Collective. Preallocates the matrix from blocks whose nodes are known */
+/* Collective. Creates and preallocates the matrix for blocks whose nodes are known */
 static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, const PetscInt end[])
 {
   ContactSmoothNormals *smooth = &contact->smooth;
@@ -91,8 +92,8 @@ static PetscErrorCode SmoothNormalsPreallocate(Contact contact, PetscInt first, 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the matrix of derivatives; call when it is known which pairs are smooth. Does nothing if none
-   is */
+/* Collective. Creates the matrix of derivatives. It must be known which pairs are smooth. Does nothing if none is
+   smooth. */
 PetscErrorCode ContactSmoothNormalsCreate(Contact contact)
 {
   ContactSmoothNormals *smooth = &contact->smooth;

@@ -1,8 +1,12 @@
-/* Pairs and ties from the scene's rules */
+/* Creates contact pairs and ties from the scene's rules */
 #include "detectimpl.h"
 #include <string.h>
 
-/* Rigid surfaces without facets: one facet of the cells that show them stands for the surface, which is larger */
+/*
+   Lists the rigid surfaces without facets. The mesh shows each of them by some cells; the first facet of these cells
+   represents the surface in the search. The area of the surface is set to PETSC_MAX_REAL, because it extends beyond
+   these cells.
+*/
 static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
 {
   const MeshSurfaces *s = &m->surfaces;
@@ -20,6 +24,7 @@ static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Collects the facets of all bodies and computes the sizes of surfaces and bodies */
 static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 {
   MeshSurfaces *s = &m->surfaces;
@@ -42,7 +47,7 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
     ContactFacetAreaVector(x, n);
     for (PetscInt c = 0; c < 3; ++c)
       volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
-    m->thickness[body] += ContactFacetMass(x, mass); /* the area, until all facets are known */
+    m->thickness[body] += ContactFacetMass(x, mass); /* the sum of the areas, converted to a thickness below */
     m->area[s->surface[f]] += ContactFacetMass(x, mass);
     ++m->nfacets[s->surface[f]];
     m->fine[body] = order == 2 || (!order && ContactFacetIsTriangle(x)) ? 0.25 : 1.0;
@@ -68,7 +73,8 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
   PetscFunctionReturn(0);
 }
 
-/* Makes a name that no pair and no tie has: nonmortar and mortar body, with a number from 2 on if needed */
+/* Creates a name that no contact pair and no tie has: the names of the nonmortar and of the mortar body, and a number
+   from 2 on if needed */
 static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const char mortar[], char **name)
 {
   char      text[PETSC_MAX_PATH_LEN];
@@ -89,7 +95,7 @@ static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const ch
   PetscFunctionReturn(0);
 }
 
-/* Adds a pair or a tie to the scene */
+/* Appends a contact pair, or a tie if `tied` is true, to the scene */
 static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const char mortar[], const char nonmortar[],
   const char name[], PetscBool tied, const char why[], PetscReal apart)
 {
@@ -120,8 +126,8 @@ static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const 
   PetscFunctionReturn(0);
 }
 
-/* Decides which side of a pair is nonmortar, and whether the pair is tied: all facets of one surface must be near the
-   other */
+/* Decides which side of a pair is nonmortar, and whether the surfaces are tied. They are tied if all facets of one
+   surface are within the rule's distance for ties of the other surface. */
 static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const SceneContactPair *rule,
   const DetectPair *found, SceneContactPair *pair, PetscBool *tied)
 {
@@ -142,10 +148,10 @@ static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const Sce
     if (*tied) side = k;
   }
   PetscCheck(*tied || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
-    "contact rule \"%s\" with tie = %g: of the faces %s and %s only parts are that near each other: cut these parts "
-    "out "
-    "under faces, and list the tie",
-    rule->name, (double)rule->tie, s->name[found->surface[0]], s->name[found->surface[1]]);
+    "contact rule \"%s\": only parts of the faces %s and %s are within the distance tie = %g of each other: define "
+    "faces "
+    "that consist of these parts, and list the tie of these faces",
+    rule->name, s->name[found->surface[0]], s->name[found->surface[1]], (double)rule->tie);
   pair->nonmortar = s->name[found->surface[side]];
   pair->mortar    = s->name[found->surface[1 - side]];
   PetscCall(RuleMakeName(scene, scene->bodies[s->body[found->surface[side]]].name,
@@ -207,12 +213,12 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
   PetscCall(ModelCreate(comm, scene, &model));
   PetscCall(DetectFacing(&model, scene, &n, &found));
   PetscCheck(n || scene->npairs || scene->nties, comm, PETSC_ERR_USER_INPUT,
-    "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the distance, which the key "
-    "distance sets",
+    "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the search distance: increase "
+    "the key distance, or list the contact pairs",
     scene->name);
   PetscCall(PetscMalloc3(n, &rules, n, &pairs, n, &tied));
-  for (PetscInt i = 0; i < n; ++i) /* before the scene has pairs that were found */
-    rules[i] = DetectFindRule(&model, scene, found[i].surface[0], found[i].surface[1]);
+  /* All rules are looked up before pairs are added, because bodies with a listed pair have no rule. */
+  for (PetscInt i = 0; i < n; ++i) rules[i] = DetectFindRule(&model, scene, found[i].surface[0], found[i].surface[1]);
   for (PetscInt i = 0; i < n; ++i) {
     PetscCall(RuleApply(&model, scene, rules[i], &found[i], &pairs[i], &tied[i]));
     PetscCall(RuleJoin(scene, rules[i], pairs[i].mortar, pairs[i].nonmortar, pairs[i].name, tied[i], pairs[i].why,

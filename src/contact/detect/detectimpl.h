@@ -6,37 +6,46 @@
 
 #include "src/contact/search/searchimpl.h"
 
-/* moves.c: rigid motions of the bodies that the scene prescribes, in one state of the load program */
+/* moves.c: the rigid motion of each body that the scene prescribes, at one time of the load program */
 typedef struct {
+  /* whether the motion is not zero */
   PetscBool moves;
-  PetscReal shift[3], rotation[3], center[3]; /* [length], [radians], [length] */
+  PetscReal shift[3], rotation[3], center[3]; /* shift [length], rotation vector [rad] and a point on its axis
+                                                 [length] */
 } DetectMove;
 PETSC_INTERN PetscErrorCode DetectMoves(Scene, PetscReal time, DetectMove moves[]);
 PETSC_INTERN void           DetectMovePoints(const DetectMove *, PetscInt n, const PetscReal from[], PetscReal to[]);
 
-/* The facets, and sizes of surfaces and bodies; the same on all ranks */
+/* The facets of all bodies, and sizes of surfaces and bodies; equal on all ranks */
 typedef struct {
   MPI_Comm     comm;
   MeshSurfaces surfaces;
-  PetscReal   *area;      /* of each surface [length^2] */
-  PetscInt    *nfacets;   /* of each surface */
-  PetscReal   *thickness; /* of each body: 2 volume / area [length] */
-  PetscReal   *box;       /* [6 bodies] undeformed */
-  PetscReal   *fine;      /* of each body: area of the parts of its facets relative to that of the facets; 1/4 if it
-                             has order 2 */
+  PetscReal   *area; /* [surfaces] area of each surface [length^2]; PETSC_MAX_REAL for a rigid surface without facets */
+  PetscInt    *nfacets;   /* [surfaces] number of facets of each surface */
+  PetscReal   *thickness; /* [bodies] mean thickness of each body: 2 volume / area [length] */
+  PetscReal   *box;       /* [6 bodies] bounding box of each undeformed body */
+  PetscReal   *fine; /* [bodies] area of a facet's parts in the contact search relative to the facet: 1/4 if the body
+                        has order 2, or unspecified order and triangular facets; else 1 */
 
+  /* [bodies] bodies of the scene */
   const SceneBody *bodies;
-  PetscInt         ntools, *tool; /* for each rigid surface without facets: the facet that stands for it */
+  PetscInt         ntools, *tool; /* number of rigid surfaces without facets; for each of them, the facet that
+                                     represents it */
 } DetectModel;
 
-/* rules.c: the rule that applies to two surfaces; NULL: they get no contact. detect.c has the public function */
+/* rules.c: the rule that applies to two surfaces. It is NULL if they get no contact. The public function is in
+   detect.c. */
 PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
 
-/* rays.c: the facets in one state, in a tree. A ray starts at a facet and runs along its normal. Its hits are the
-   facets of other bodies: all behind the start up to depth, and the first in front of it up to reach */
+/*
+   rays.c: the facets at one time of the load program, in a tree. A ray starts at a facet and runs along its normal. Its
+   hits are facets of other bodies: all facets behind the start up to half the thickness of the bodies, and the first
+   facet in front of it within the search distance.
+*/
 typedef struct {
-  PetscInt  from, to; /* facets; to is that which stands for a rigid surface */
-  PetscReal distance; /* negative: the bodies overlap [length] */
+  PetscInt  from, to; /* the facet at which the ray starts, and the facet that it hits. For a rigid surface without
+                         facets this is the facet that represents it. */
+  PetscReal distance; /* distance along the ray; negative if the bodies overlap [length] */
 } DetectHit;
 typedef struct {
   const DetectModel *model;
@@ -46,29 +55,31 @@ typedef struct {
 } DetectState;
 PETSC_INTERN PetscErrorCode DetectStateCreate(const DetectModel *, const DetectMove[], DetectState *);
 PETSC_INTERN PetscErrorCode DetectStateDestroy(DetectState *);
-#define DETECT_RAYS 5  /* of a facet */
-#define DETECT_HITS 16 /* of a ray, at most */
+#define DETECT_RAYS 5  /* number of rays of a facet */
+#define DETECT_HITS 16 /* largest number of hits of a ray */
 PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt ray, PetscReal reach,
   DetectHit hits[DETECT_HITS]);
 
-/* rigid_surface.c: whether a point of a facet faces a rigid surface, and the distance [length] */
+/* rigid_surface.c: returns whether a point of a facet with this normal faces a rigid surface, and the distance from the
+   surface [length] */
 PETSC_INTERN PetscBool DetectFacesRigidSurface(const DetectState *, PetscInt tool, const PetscReal x[3],
   const PetscReal normal[3], PetscReal *distance);
-#define DETECT_COSINE \
-  -0.174 /* largest cosine of the angle between the normals of facing surfaces; that of the
-                                contact search */
+/* the largest cosine of the angle between the normals of facing surfaces; equal to that of the contact search */
+#define DETECT_COSINE -0.174
 
-/* facing.c: two surfaces that face each other. Number 0 is the surface with the smaller number */
+/* facing.c: two surfaces that face each other. surface[0] is the smaller number. */
 typedef struct {
   PetscInt  surface[2];
-  PetscReal apart;    /* smallest distance in the undeformed state; PETSC_MAX_REAL: they are near only in later
-                         states [length] */
-  PetscReal facet[2]; /* mean area of the facets that face the other surface; 0: none */
-  PetscInt  tied[2];  /* number of facets whose rays all hit the other surface within the rule's distance for ties */
+  PetscReal apart;    /* smallest distance in the undeformed state [length]; PETSC_MAX_REAL if the surfaces face each
+                      other at later times only */
+  PetscReal facet[2]; /* for each surface, the mean area of its facets that face the other surface [length^2]; 0 if
+                         there are none */
+  PetscInt  tied[2];  /* for each surface, the number of its facets whose rays all hit the other surface within the
+                        rule's distance for ties */
 } DetectPair;
 PETSC_INTERN PetscErrorCode DetectFacing(const DetectModel *, Scene, PetscInt *n, DetectPair **);
 
-/* sides.c: which of two surfaces is nonmortar, and why */
+/* sides.c: returns which of two surfaces is nonmortar, and the reason as a text */
 PETSC_INTERN PetscInt DetectNonmortar(const DetectModel *, Scene, const DetectPair *, const char **why);
 
 #endif

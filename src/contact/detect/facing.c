@@ -1,12 +1,15 @@
-/* Pairs of surfaces that face each other in some state of the load program */
+/* Finds the pairs of surfaces that face each other at some time of the load program */
 #include "detectimpl.h"
 #include <stdlib.h>
 
-#define FACING_STATES   32   /* at most */
-#define FACING_FRACTION 0.25 /* default distance, relative to the square root of the smaller surface's area */
+#define FACING_STATES   32   /* largest number of times at which the bodies are tested */
+#define FACING_FRACTION 0.25 /* default search distance, relative to the square root of the smaller surface's area */
 
-/* What the rays between two surfaces have found; only reals, so that records can be sent as they are */
+/* What the rays between two surfaces have found. The fields, also the numbers of surfaces and the counts, are real, so
+   that records can be sent as one array. */
 typedef struct {
+  /* surface numbers; smallest distance [length]; sum of areas [length^2], number of facets that face the other surface,
+     and number of tied facets, for each surface */
   PetscReal surface[2], apart, area[2], count[2], tied[2];
 } FacingRecord;
 #define FACING_REALS ((PetscMPIInt)(sizeof(FacingRecord) / sizeof(PetscReal)))
@@ -26,7 +29,7 @@ static int FacingCompare(const void *a, const void *b)
   return 0;
 }
 
-/* Sorts the records and adds up those of the same surfaces */
+/* Sorts the records and merges those of the same two surfaces: minimum of the distances, sums of areas and counts */
 static void FacingMerge(FacingList *list)
 {
   PetscInt n = 0;
@@ -50,6 +53,7 @@ static void FacingMerge(FacingList *list)
   list->n = n;
 }
 
+/* Appends a record. Merges the list before it is enlarged. */
 static PetscErrorCode FacingAppend(const FacingRecord *record, FacingList *list)
 {
   PetscFunctionBegin;
@@ -62,13 +66,16 @@ static PetscErrorCode FacingAppend(const FacingRecord *record, FacingList *list)
   PetscFunctionReturn(0);
 }
 
-/* Limits of a search [length] */
+/* What limits a search */
 typedef struct {
-  Scene            scene;
-  PetscReal        extent, reach; /* largest prescribed motion; reach of all rays */
-  const PetscBool *prescribed;    /* bodies all of whose displacement components are prescribed somewhere */
+  Scene scene;
+  /* largest prescribed motion, and length of all rays [length] */
+  PetscReal        extent, reach;
+  const PetscBool *prescribed; /* [bodies] whether all displacement components of the body are prescribed somewhere */
 } FacingLimits;
 
+/* Returns the largest distance [length] at which surfaces i and j count as facing each other under this rule. If the
+   motion of one body is not prescribed completely, the largest prescribed motion is added. */
 static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limits, const SceneContactPair *rule,
   PetscInt i, PetscInt j)
 {
@@ -79,7 +86,8 @@ static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limit
          (limits->prescribed[body[i]] && limits->prescribed[body[j]] ? 0.0 : limits->extent);
 }
 
-/* Sends rays from one facet, and adds a record for each surface that it faces */
+/* Sends the rays of facet f, and appends a record for each surface that it faces. start: whether the bodies are
+   undeformed; only then distances and ties are measured */
 static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLimits *limits, PetscInt f,
   PetscBool start, FacingList *list)
 {
@@ -120,7 +128,7 @@ static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLim
   PetscFunctionReturn(0);
 }
 
-/* Boxes of the bodies in this state, widened */
+/* Computes the bounding boxes of the bodies at this time, enlarged by the margin [length] */
 static void FacingBoxes(const DetectState *state, PetscInt nbodies, PetscReal margin, PetscReal box[])
 {
   const MeshSurfaces *s = &state->model->surfaces;
@@ -136,7 +144,8 @@ static void FacingBoxes(const DetectState *state, PetscInt nbodies, PetscReal ma
   }
 }
 
-/* Sends rays from this rank's share of the facets; after the first state only from and to bodies that move */
+/* Sends the rays of this rank's share of the facets. After the start, a facet is skipped if neither its body nor a body
+   near it moves. */
 static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *limits, const DetectMove moves[],
   PetscBool start, FacingList *list)
 {
@@ -163,7 +172,8 @@ static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *
   PetscFunctionReturn(0);
 }
 
-/* Largest motion of a corner of the bodies' boxes during the load program [length]; number of states to test */
+/* Computes the largest motion of a corner of the bodies' boxes during the load program [length], and the number of
+   times to test */
 static PetscErrorCode FacingMeasureMoves(const DetectModel *model, Scene scene, PetscReal *extent, PetscInt *nstates)
 {
   DetectMove *moves;
@@ -198,7 +208,7 @@ static PetscErrorCode FacingMeasureMoves(const DetectModel *model, Scene scene, 
   PetscFunctionReturn(0);
 }
 
-/* Bodies all of whose components are prescribed somewhere */
+/* Finds the bodies all of whose displacement components are prescribed, on any of their faces */
 static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
 {
   PetscFunctionBegin;
@@ -222,7 +232,7 @@ static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
   PetscFunctionReturn(0);
 }
 
-/* Collects the records of all ranks on every rank */
+/* Collective. Collects the records of all ranks on every rank */
 static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
 {
   PetscMPIInt   size, mine, *count, *start;
@@ -246,7 +256,7 @@ static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
   PetscFunctionReturn(0);
 }
 
-/* Length of all rays: the largest distance of the rules, plus the largest motion */
+/* Returns the length of all rays: the largest distance of any rule plus the largest prescribed motion [length] */
 static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, PetscReal extent)
 {
   PetscReal reach = 0.0, largest = 0.0;
@@ -260,7 +270,8 @@ static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, Petsc
   return reach + extent;
 }
 
-/* Collective. The pairs that the scene's rules accept, sorted by their surfaces */
+/* Collective. Finds the pairs of surfaces that face each other and to which a rule applies, sorted by their surface
+   numbers */
 PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, DetectPair **pairs)
 {
   FacingLimits limits  = {.scene = scene};

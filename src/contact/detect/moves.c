@@ -1,10 +1,12 @@
-/* Positions of the bodies under prescribed motions. A body moves like its faces: per direction the largest of their
-   displacements, and the first of their rotations. In dynamics, bodies without prescribed motion continue with their
-   initial velocity. */
+/*
+   Positions of the bodies under prescribed motions. A body moves with its faces: along each axis by the largest of
+   their displacements, and by the first of their rotations. In dynamics, bodies start with their initial velocity, and
+   a larger prescribed displacement replaces the motion at that velocity.
+*/
 #include "detectimpl.h"
 #include <string.h>
 
-/* The body that a displacement concerns; PETSC_DECIDE: none */
+/* Returns the body whose displacement is prescribed, or PETSC_DECIDE if there is none */
 static PetscInt MoveFindBody(Scene scene, const SceneDisplacement *d)
 {
   if (d->at != DISPLACEMENT_FACE) return d->body;
@@ -48,7 +50,7 @@ PetscErrorCode DetectMoves(Scene scene, PetscReal time, DetectMove moves[])
   PetscFunctionReturn(0);
 }
 
-/* The rotation by Rodrigues' formula, then the shift */
+/* Rotates n points by Rodrigues' formula and shifts them */
 void DetectMovePoints(const DetectMove *move, PetscInt n, const PetscReal from[], PetscReal to[])
 {
   PetscReal       axis[3] = {move->rotation[0], move->rotation[1], move->rotation[2]};

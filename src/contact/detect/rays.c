@@ -1,7 +1,7 @@
 /* Rays from a facet along its normal, and the facets that they hit */
 #include "detectimpl.h"
 
-#define RAY_INSIDE 0.8 /* parameter of the rays near the corners */
+#define RAY_INSIDE 0.8 /* facet parameter, instead of 1, at which the rays near the corners start */
 
 PetscErrorCode DetectStateCreate(const DetectModel *model, const DetectMove moves[], DetectState *state)
 {
@@ -26,7 +26,7 @@ PetscErrorCode DetectStateDestroy(DetectState *state)
   PetscFunctionReturn(0);
 }
 
-/* Whether the line origin + t direction meets a box for some t in [low, high] */
+/* Returns whether the line origin + t direction meets a box for some t in [low, high] */
 static PetscBool RayMeetsBox(const PetscReal box[6], const PetscReal origin[3], const PetscReal direction[3],
   PetscReal low, PetscReal high)
 {
@@ -43,8 +43,8 @@ static PetscBool RayMeetsBox(const PetscReal box[6], const PetscReal origin[3], 
   return (PetscBool)(low <= high);
 }
 
-/* Intersection of the line with a triangle (Moeller and Trumbore 1997), enlarged by a margin so that no ray passes
-   between two triangles */
+/* Intersects the line origin + t direction with the triangle a, b, c (Moeller and Trumbore 1997). The triangle is
+   enlarged by a margin so that no ray passes between two triangles. Returns whether they meet, and at which t. */
 static PetscBool RayMeetsTriangle(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3],
   const PetscReal origin[3], const PetscReal direction[3], PetscReal *t)
 {
@@ -65,7 +65,8 @@ static PetscBool RayMeetsTriangle(const PetscReal a[3], const PetscReal b[3], co
   return (PetscBool)(u >= -1e-6 && v >= -1e-6 && u + v <= 1.0 + 1e-6);
 }
 
-/* Where the line meets a facet that faces it */
+/* Intersects the line origin + t direction with a facet, and returns whether they meet. A facet whose normal does not
+   oppose the direction is ignored. */
 static PetscBool RayMeetsFacet(const PetscReal x[12], const PetscReal origin[3], const PetscReal direction[3],
   PetscReal *t)
 {
@@ -76,7 +77,8 @@ static PetscBool RayMeetsFacet(const PetscReal x[12], const PetscReal origin[3],
   return (PetscBool)(!ContactFacetIsTriangle(x) && RayMeetsTriangle(x, x + 6, x + 9, origin, direction, t));
 }
 
-/* Adds a hit at or behind the start. Of the hits in front it keeps the nearest one, hits[front]. */
+/* Adds a hit to the list. Hits in front of the start, farther than `touching`, share one entry, hits[*front], which is
+   replaced if the new hit is nearer. Hits at or behind the start are all kept, up to DETECT_HITS. */
 static void RayAdd(const DetectHit *hit, PetscReal touching, PetscInt *n, PetscInt *front, DetectHit hits[])
 {
   if (hit->distance > touching) {
@@ -86,8 +88,8 @@ static void RayAdd(const DetectHit *hit, PetscReal touching, PetscInt *n, PetscI
   } else if (*n < DETECT_HITS - (*front < 0)) hits[(*n)++] = *hit;
 }
 
-/* Adds the rigid surfaces without facets that the start of a ray faces. limit: distance of the nearest hit in front,
-   which they may reduce */
+/* Adds the rigid surfaces without facets that the start of a ray faces. limit: distance of the nearest hit in front; a
+   nearer hit reduces it */
 static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const PetscReal origin[3],
   const PetscReal normal[3], PetscReal touching, PetscReal *limit, PetscInt *n, PetscInt *front, DetectHit hits[])
 {
@@ -104,8 +106,11 @@ static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const 
   }
 }
 
-/* Ray 0 starts at the centre of the facet, the others near its corners. Returns the number of hits. A body, also the
-   own one, hides what is behind it. A body that touches or overlaps the facet hides everything in front of it. */
+/*
+   Sends one ray and returns the number of its hits. Ray 0 starts at the centre of the facet, the others start near its
+   corners. A body, also the facet's own body, hides what is behind it. A body that touches or overlaps the facet hides
+   everything in front of the facet.
+*/
 PetscInt DetectShoot(const DetectState *state, PetscInt facet, PetscInt ray, PetscReal reach,
   DetectHit hits[DETECT_HITS])
 {

@@ -1,4 +1,4 @@
-/* Rigid surfaces without facets, in one state of the load program */
+/* Rigid surfaces without facets, at one time of the load program */
 #include "detectimpl.h"
 
 PetscBool DetectFacesRigidSurface(const DetectState *state, PetscInt tool, const PetscReal x[3],
@@ -10,7 +10,8 @@ PetscBool DetectFacesRigidSurface(const DetectState *state, PetscInt tool, const
   DetectMove          back = {.rotation = {-move->rotation[0], -move->rotation[1], -move->rotation[2]}};
   PetscReal           there[3], along[3], gradient[3];
 
-  DetectMovePoints(&back, 1, normal, along); /* normal and point in the undeformed state of the tool */
+  DetectMovePoints(&back, 1, normal, along); /* The normal and the point are moved to the undeformed position of the
+                                                rigid body. */
   for (PetscInt c = 0; c < 3; ++c) {
     back.center[c] = move->center[c] + move->shift[c];
     back.shift[c]  = -move->shift[c];

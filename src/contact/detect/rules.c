@@ -1,8 +1,8 @@
-/* Which rule of the scene is for two surfaces */
+/* Finds the rule of the scene that applies to two surfaces */
 #include "detectimpl.h"
 #include <string.h>
 
-/* Whether the name is that of a surface's body, or of the surface itself */
+/* Returns whether the name, of this length, is that of a surface's body or of the surface itself */
 static PetscBool RuleNames(const char name[], size_t length, const char surface[])
 {
   const size_t body = strcspn(surface, ".");
@@ -10,7 +10,8 @@ static PetscBool RuleNames(const char name[], size_t length, const char surface[
   return (PetscBool)((length == body || length == strlen(surface)) && !strncmp(name, surface, length));
 }
 
-/* Whether an item of the list, "a" or "a/b", names one of the two surfaces, or both of them */
+/* Returns whether the list of exceptions excludes two surfaces. An item "a" excludes them if it names either; an item
+   "a/b" if it names both. */
 static PetscBool RuleExcepts(const char except[], const char first[], const char second[])
 {
   while (except && *except) {
@@ -30,6 +31,7 @@ static PetscBool RuleExcepts(const char except[], const char first[], const char
   return PETSC_FALSE;
 }
 
+/* Returns whether a face belongs to the body, or is the name of the body */
 static PetscBool RuleIsOfBody(const char face[], const char body[])
 {
   const size_t length = strlen(body);
@@ -37,13 +39,15 @@ static PetscBool RuleIsOfBody(const char face[], const char body[])
   return (PetscBool)(!strncmp(face, body, length) && (face[length] == '.' || !face[length]));
 }
 
-/* Whether two faces or bodies belong to two bodies, in any order */
+/* Returns whether `one` and `two`, which are faces or bodies, belong to the two bodies, in any order */
 static PetscBool RuleJoins(const char one[], const char two[], const char first[], const char second[])
 {
   return (PetscBool)((RuleIsOfBody(one, first) && RuleIsOfBody(two, second)) ||
                      (RuleIsOfBody(one, second) && RuleIsOfBody(two, first)));
 }
 
+/* Finds the rule for two surfaces. Two rigid bodies have no rule, nor have bodies for which the scene lists a contact
+   pair or a tie. A rule that names both bodies goes before a rule for all bodies. */
 const SceneContactPair *DetectFindRule(const DetectModel *model, Scene scene, PetscInt surface, PetscInt other)
 {
   const MeshSurfaces     *s     = &model->surfaces;

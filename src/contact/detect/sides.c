@@ -1,11 +1,12 @@
-/* Decides which of two surfaces is nonmortar: by the first of these rules in which they differ */
+/* Decides which of two surfaces is nonmortar. Rules are tried in turn until the surfaces differ in one. */
 #include "detectimpl.h"
 
-#define SIDES_FINER  2.25 /* ratio of the facets' mean areas, 1.5 of their sizes */
-#define SIDES_SOFTER 2.0  /* ratio of Young's moduli */
-#define SIDES_LARGER 1.25 /* ratio of the surfaces' areas */
+#define SIDES_FINER  2.25 /* smallest ratio of the mean areas of the facets, which is a ratio of 1.5 in edge lengths */
+#define SIDES_SOFTER 2.0  /* smallest ratio of Young's moduli */
+#define SIDES_LARGER 1.25 /* smallest ratio of the areas of the surfaces */
 
-/* Mean area of the facets that face the other surface; a facet of order 2 counts as four */
+/* Returns the mean area of the facets of one side that face the other surface [length^2], or of all its facets if none
+   do. A facet of order 2 counts as four. */
 static PetscReal SidesFacet(const DetectModel *model, const DetectPair *pair, PetscInt side)
 {
   const PetscInt s = pair->surface[side];
@@ -14,7 +15,7 @@ static PetscReal SidesFacet(const DetectModel *model, const DetectPair *pair, Pe
   return model->fine[model->surfaces.body[s]] * model->area[s] / (PetscReal)model->nfacets[s];
 }
 
-/* The side with the smaller value; PETSC_DECIDE: they differ by less than the ratio */
+/* Returns the side with the smaller value, or PETSC_DECIDE if the two values differ by less than the ratio */
 static PetscInt SidesSmaller(PetscReal first, PetscReal second, PetscReal ratio)
 {
   if (first * ratio <= second) return 0;

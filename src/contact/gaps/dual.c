@@ -1,13 +1,13 @@
 /*
-   Dual functions psi_A = sum_B dual_AB phi_B of a facet: int psi_A phi_B = 0 for A != B and int phi_A for A = B (B. I.
-   Wohlmuth, SIAM J. Numer. Anal. 38 (2000)). With them the force of a row acts at its own nonmortar vertex only, and on
-   the mortar side near it. Therefore a resultant can act at the edge of a face. On a parallelogram the functions are
-   products of 2 phi_1 - phi_2 along the edges; on a triangle, whose last vertex is stored twice, 3 phi_1 - phi_2 -
-   phi_3.
+   The dual functions of a facet: psi_A = sum_B dual_AB phi_B, where int psi_A phi_B is int phi_A for A = B, and 0
+   otherwise (B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)). With dual functions the contact force of a row acts at
+   its own nonmortar vertex only, and near it on the mortar side. Therefore a resultant force can act at the edge of a
+   face. On a parallelogram the dual functions are products of 2 phi_1 - phi_2 along the edges. On a triangle, whose
+   last vertex is stored twice, they are 3 phi_1 - phi_2 - phi_3.
 */
 #include "gapsimpl.h"
 
-/* mass[a][b] = int phi_a phi_b by 3 x 3 Gauss points */
+/* Computes mass[a][b] = int phi_a phi_b with 3 x 3 Gauss points [length^2] */
 static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
 {
   const PetscReal point[3]  = {-0.7745966692414834, 0.0, 0.7745966692414834};
@@ -26,7 +26,7 @@ static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
   }
 }
 
-/* Inverts a in place. It is symmetric positive definite, so no pivoting is needed. */
+/* Inverts the matrix a in place. It is symmetric positive definite, so that no pivoting is needed. */
 static void DualInvert(PetscReal a[4][4])
 {
   for (PetscInt k = 0; k < 4; ++k) {
@@ -44,6 +44,7 @@ static void DualInvert(PetscReal a[4][4])
   }
 }
 
+/* Computes dual = diag(lumped mass) mass^-1. The matrix of a triangle does not depend on its shape. */
 void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
 {
   static const PetscReal triangle[4][4] = {{3, -1, -1, -1}, {-1, 3, -1, -1}, {-0.5, -0.5, 3, 0}, {-0.5, -0.5, 0, 3}};
@@ -59,7 +60,8 @@ void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
   for (PetscInt a = 0; a < 16; ++a) dual[a / 4][a % 4] *= lumped[a / 4];
 }
 
-/* Applies dual to n values of each of the four functions */
+/* Multiplies n values of each of the four functions by the matrix dual: values[A * n + i] = sum_B dual_AB values[B * n
+   + i] */
 void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[])
 {
   for (PetscInt i = 0; i < n; ++i) {
@@ -70,6 +72,7 @@ void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[])
   }
 }
 
+/* Transforms the derivatives of the four rows of a facet from phi_A to the dual functions */
 void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *slopes)
 {
   ContactDualTransform(dual, 12, &slopes->x[0][0]);

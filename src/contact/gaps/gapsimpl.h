@@ -7,34 +7,38 @@
 #include "src/contact/assembly/assemblyimpl.h"
 
 /*
-   mortar.c, node.c: formulations of the gap.
+   mortar.c, node.c, rigid_surface.c: the formulations of the gap.
 
-   A new formulation is one file with a ContactGapOps, one line in linearize.c, and its name in
-   src/model/formulation_names.c.
+   A new formulation is one file with a ContactGapOps, one line in linearize.c, its name in
+   src/model/formulation_names.c and its type in include/formulation.h.
 */
 typedef struct {
-  /* Enlarges the box to contain everything that may face this rank's part of pair p */
+  /* Enlarges the box to contain every mortar facet that may face this rank's part of the nonmortar face of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
-  /* Adds pair p's gap and coupling to the assembly, and counts pair->nfacing */
+  /* Adds the gap of pair p and its couplings to the assembly, and counts pair->nfacing */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
 } ContactGapOps;
 PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode, ContactGapRigidSurface;
 
+/* Integrals over an overlap. phi_A are the test functions, N1_B and N2_B the shape functions of the nonmortar and of
+   the mortar facet. */
 typedef struct {
   PetscReal gap[4];  /* int phi_A (x2 - x1).n_A [length^3] */
   PetscReal D[4][4]; /* int phi_A N1_B [length^2]; row sums are int phi_A */
   PetscReal M[4][4]; /* int phi_A N2_B [length^2] */
 } ContactIntegrals;
-/* dual: coefficients of the functions that replace phi_A; NULL: phi_A itself */
+/* Computes the integrals over an overlap. dual: coefficients of the dual functions that replace phi_A; NULL: phi_A =
+   N1_A */
 PETSC_INTERN void ContactIntegrate(const ContactOverlap *, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *);
 
-/* dual.c: dual functions of a facet, from its undeformed vertices */
+/* dual.c: the coefficients of a facet's dual functions, from the coordinates of its undeformed vertices */
 PETSC_INTERN void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4]);
 PETSC_INTERN void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[]);
 PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *);
 
-/* rigid_surface.c: pairs whose mortar side is a rigid surface. Place: call after its face was deformed */
+/* rigid_surface.c: pairs whose mortar side is a rigid surface without facets. ContactSurfacePlace() must be called
+   after every motion of the rigid body. */
 PETSC_INTERN PetscErrorCode ContactSurfacePlace(MPI_Comm, ContactPairData *);
 PETSC_INTERN PetscReal      ContactSurfaceDistance(const ContactPairData *, const PetscReal x[3], PetscReal gradient[3],
        PetscReal weight[4]);

@@ -1,7 +1,8 @@
-/* Mortar integrals of a pair of facets, and of all pairs of this rank's nonmortar facets */
+/* Mortar integrals of one overlap, and of all overlaps of this rank's nonmortar facets */
 #include "gapsimpl.h"
 
-/* Sums over the quadrature points of an overlap; the coordinates of both facets are interpolated there */
+/* Sums the integrals over the quadrature points of an overlap. The positions on both facets are interpolated from their
+   vertices x1 and x2. */
 void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const PetscReal x2[12],
   const PetscReal normals[12], PetscReal (*dual)[4], ContactIntegrals *m)
 {
@@ -28,18 +29,21 @@ void ContactIntegrate(const ContactOverlap *o, const PetscReal x1[12], const Pet
   }
 }
 
-/* A nonmortar facet, and the integrals over its overlaps */
+/* A nonmortar facet, and the sums over its overlaps */
 typedef struct {
+  /* coordinates and normals of the vertices */
   const PetscReal *x, *normal;
-  const PetscInt  *row, *node;
-  PetscReal        gap[4], D[4][4];
-  ContactPatch     patch; /* smooth pairs only */
-  PetscReal        cover[4];
-  ContactSlopes    slopes;
-  PetscReal (*dual)[4]; /* dual functions; NULL: the pair has none, or too little of the facet is covered */
+  /* global row and global number of each vertex */
+  const PetscInt *row, *node;
+  PetscReal       gap[4], D[4][4]; /* weighted gaps [length^3], and -int phi_A N1_B [length^2] */
+  ContactPatch    patch;           /* smooth surface over the facet; smooth pairs only */
+  /* int phi_A over the covered part [length^2], and derivatives; smooth pairs only */
+  PetscReal     cover[4];
+  ContactSlopes slopes;
+  PetscReal (*dual)[4]; /* dual functions; NULL if the pair has none, or if too small a part of the facet is covered */
 } MortarFacet;
 
-/* Adds the overlap with a mortar facet of a smooth pair */
+/* Replaces the weighted gaps of an overlap by those between the smooth surfaces, and adds their derivatives */
 static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
@@ -64,7 +68,7 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
   PetscFunctionReturn(0);
 }
 
-/* Adds the overlap with a mortar facet */
+/* Adds the integrals over the overlap with mortar facet k */
 static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOverlap *overlap, PetscBool smooth,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, ContactAssembly *assembly)
 {
@@ -81,7 +85,7 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   PetscFunctionReturn(0);
 }
 
-/* The overlaps of a nonmortar facet with mortar facets, by their numbers among the candidates */
+/* The overlaps of one nonmortar facet, and the number of the mortar facet of each among the candidates */
 typedef struct {
   PetscInt        n, max, *mortar;
   ContactOverlap *overlap;
@@ -94,8 +98,11 @@ static PetscErrorCode OverlapsDestroy(MortarOverlaps *list)
   PetscFunctionReturn(0);
 }
 
-/* Finds the overlaps of a nonmortar facet that has one within the search distance; else none. Such a facet takes part
-   as a whole: if its farther end were left out, the gap would jump as the facet turns */
+/*
+   Finds the overlaps of a nonmortar facet, if one of them is within the search distance; otherwise the list is empty.
+   All overlaps of such a facet count, up to the search distance plus the diameter of the facet. If its farther end were
+   left out, the gap would jump when the facet rotates.
+*/
 static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const ContactRule *rule, const PetscReal x[12],
   PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], MortarOverlaps *list)
 {
@@ -123,7 +130,7 @@ static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const Con
   PetscFunctionReturn(0);
 }
 
-/* Fraction of a facet's area that the overlaps cover */
+/* Returns the fraction of a facet's area that its overlaps cover */
 static PetscReal MortarMeasureCover(const PetscReal x[12], const MortarOverlaps *list)
 {
   PetscReal    covered = 0.0, corners[4][2], height[4];
@@ -135,9 +142,11 @@ static PetscReal MortarMeasureCover(const PetscReal x[12], const MortarOverlaps 
   return PetscMin(1.0, covered / ContactPolygonArea(4, (const PetscReal(*)[2])corners));
 }
 
-/* Dual functions are defined for a fully covered facet. For a partly covered one they are blended with the facet's
-   own functions, so that they change continuously while faces slide. Returns false if less than three quarters are
-   covered. */
+/*
+   Computes the functions that replace phi_A. Dual functions are defined for a fully covered facet. For a partly covered
+   facet they are blended with phi_A, so that they change continuously while the faces slide. Returns false, which means
+   phi_A itself, if three quarters of the facet or less are covered.
+*/
 static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered, PetscReal dual[4][4])
 {
   const PetscReal least = 0.75;
@@ -150,7 +159,7 @@ static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered,
   return PETSC_TRUE;
 }
 
-/* Integrates one nonmortar facet over its overlaps; normal: at its vertices */
+/* Integrates over all overlaps of nonmortar facet f. normal: unit normals at its vertices */
 static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairData *pair, PetscInt f,
   const PetscReal normal[12], const ContactCandidates *mortar, const MortarOverlaps *list, ContactAssembly *assembly)
 {
@@ -184,7 +193,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
   PetscFunctionReturn(0);
 }
 
-/* Box around the prisms that this rank's nonmortar facets sweep along their normals */
+/* Enlarges the box to contain the prisms that this rank's nonmortar facets sweep along their normals */
 static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal box[6])
 {
   const ContactPairData *pair = &contact->pairs[p];

@@ -1,17 +1,20 @@
-/* Node to segment: nonmortar vertices against the closest points of the mortar face */
+/* Node-to-segment gaps: the distance of each nonmortar vertex from its closest point on the mortar face */
 #include "gapsimpl.h"
 
-/* a vertex that is beside the mortar face by more than this fraction of the facet's size has no closest point */
+/* A vertex has no closest point if it lies beside the mortar face by more than this fraction of the facet's size. */
 #define BORDER_MARGIN 0.05
-/* for a vertex on the border of the nonmortar face this fraction of the size of its area is allowed in addition,
-   because most of that area still lies over the mortar face. Otherwise vertices that bulge outwards where both faces
-   end would lose their rows under pressure */
+/*
+   A vertex on the border of the nonmortar face may lie further beside the mortar face: by this fraction of the square
+   root of its lumped area. Most of that area still lies over the mortar face. Otherwise vertices that bulge outwards
+   where both faces end would lose their rows under pressure.
+*/
 #define RIM_MARGIN 0.2
 
-/* Whether the closest point is on the border of the mortar face */
+/* Returns whether the closest point, with the parameters xi, is on the border of the mortar face */
 static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
 {
-  static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* at (xi, eta) = (-1 or 1, -1 or 1) */
+  static const PetscInt vertex[2][2] = {{0, 3}, {1, 2}}; /* vertex[i][j] is at xi = -1 for i = 0 and 1 for i = 1, and
+                                                            at eta = -1 for j = 0 and 1 for j = 1 */
   const PetscInt        i = xi[0] >= 1.0, j = xi[1] >= 1.0;
 
   if (PetscAbsReal(xi[0]) >= 1.0 && PetscAbsReal(xi[1]) >= 1.0)
@@ -21,8 +24,11 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
   return PETSC_FALSE;
 }
 
-/* Whether the vertex x lies beside the mortar face, by more than the margin: the closest point y is on its border, and
-   x - y is not along the facet's normal */
+/*
+   Returns whether the vertex x lies beside the mortar face: the closest point y is on the border of the face, and the
+   part of x - y perpendicular to the facet's normal is longer than `margin` [length] and than BORDER_MARGIN times the
+   facet's size
+*/
 static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3],
   PetscReal margin)
 {
@@ -32,13 +38,13 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
   if (!NodeIsOnBorder(mortar->border[nearest->facet], nearest->xi)) return PETSC_FALSE;
   ContactFacetTangents(facet, nearest->xi, t1, t2);
   VectorCross(t1, t2, n);
-  if (ContactFacetIsTriangle(facet)) { /* a triangle's first tangent is zero at its last vertex */
+  if (ContactFacetIsTriangle(facet)) { /* The first tangent of a triangle is zero at its last vertex. */
     ContactFacetAreaVector(facet, n);
     for (PetscInt c = 0; c < 3; ++c) n[c] *= 0.25;
   }
   for (PetscInt c = 0; c < 3; ++c) {
     r[c] = x[c] - nearest->y[c];
-    area += n[c] * n[c]; /* square of a quarter of the facet's area */
+    area += n[c] * n[c]; /* area is the square of a quarter of the facet's area */
     height += n[c] * r[c];
   }
   if (!(area > 0.0)) return PETSC_FALSE;
@@ -46,7 +52,7 @@ static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const Contact
   return (PetscBool)(beside > PetscSqr(PetscMax(margin, BORDER_MARGIN * 2.0 * PetscPowReal(area, 0.25))));
 }
 
-/* Box around the spheres of the search radius about this rank's vertices */
+/* Enlarges the box to contain the spheres of the search radius about this rank's nonmortar vertices */
 static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box[6])
 {
   const ContactRows *rows  = &contact->rows;
@@ -62,14 +68,19 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
   PetscFunctionReturn(0);
 }
 
-/* The gap of a smooth pair and its derivatives */
+/* The gap of a smooth pair [length], and its derivatives with respect to the coordinates of the vertex, the facet's
+   vertices and the normals there */
 typedef struct {
   PetscReal gap, vertex[3], facet[12], normal[12];
-  PetscReal rigid[12]; /* derivatives by the facet's vertices if the patch turns rigidly with the facet */
+  PetscReal rigid[12]; /* derivatives with respect to the facet's vertices if the patch rotates with the facet and
+                          keeps its shape */
 } NodeGap;
 
-/* Adds the effect of the closest point's motion on its facet when the vertex moves; the point does not move on an
-   edge or at a corner */
+/*
+   Adds to the derivatives that the closest point moves on its facet when the vertex or the facet moves. by_xi:
+   derivative of the gap with respect to the parameters of the closest point. At an edge or a corner the point does not
+   move across the edge.
+*/
 static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nearest, const PetscReal x[3],
   const PetscReal by_xi[2], NodeGap *gap)
 {
@@ -104,8 +115,11 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   }
 }
 
-/* Gap of a smooth pair: distance of the vertex x from the tangent plane of the smooth surface at its closest point,
-   along that plane's normal; with its derivatives */
+/*
+   Computes the gap of a smooth pair and its derivatives. The gap is the distance of the vertex x from the tangent plane
+   of the smooth surface, along the normal of that plane. The plane touches the surface at the parameters of the closest
+   point of the facet. If the surface has no normal there, -n is used.
+*/
 static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
   const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
@@ -140,7 +154,8 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
   NodeMoveClosest(facet, nearest, x, by_xi, gap);
 }
 
-/* Adds the derivatives, multiplied by the mass, as the assembly divides by it */
+/* Adds the derivatives of a row of a smooth pair to the assembly. They are multiplied by the row's mass, because the
+   assembly divides by it later. */
 static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mass, const ContactCandidates *mortar,
   PetscInt facet, NodeGap *gap, ContactAssembly *assembly)
 {
@@ -159,7 +174,7 @@ static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mas
   PetscFunctionReturn(0);
 }
 
-/* Gap along the normal n from the vertex x to the closest point of a facet */
+/* Returns the gap along the normal n from the vertex x to the closest point of a facet [length] */
 static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3], const PetscReal n[3])
 {
   const PetscReal r[3] = {nearest->y[0] - x[0], nearest->y[1] - x[1], nearest->y[2] - x[2]};
@@ -167,7 +182,8 @@ static PetscReal NodeFacetGap(const ContactNearest *nearest, const PetscReal x[3
   return VectorDot(r, n);
 }
 
-/* Adds gap and coupling N2_B(xi) - 1 of a vertex, multiplied by the mass, as the assembly divides by it */
+/* Adds the gap of vertex i and its couplings to the assembly: N2_B(xi) for the mortar vertices and -1 for the vertex.
+   They are multiplied by the row's mass, because the assembly divides by it later. */
 static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, PetscReal mass,
   const ContactCandidates *mortar, const ContactNearest *nearest, NodeGap *gap, ContactAssembly *assembly)
 {

@@ -1,11 +1,13 @@
 /*
-   Nonmortar vertices against a rigid surface that is given by a formula. The gap of a vertex is its distance from the
-   surface, and its derivative is the gradient of the distance. The closest point moves with the rigid body. Its
-   displacement is a weighted sum of those of four corners of the body's cell; the weights sum to 1.
+   Gaps of nonmortar vertices against a rigid surface that is given by a formula. The gap of a vertex is its distance
+   from the surface, and its derivative is the gradient of the distance. The closest point moves with the rigid body.
+   Its displacement is a weighted sum of the displacements of four corners of the cube that represents the body in the
+   mesh. The weights sum to 1.
 */
 #include "gapsimpl.h"
 
-/* Collective. Finds the four corners of the cell, which any ranks may have */
+/* Collective. Finds the global numbers and the current coordinates of the four corners of the cube, which may be on any
+   ranks */
 PetscErrorCode ContactSurfacePlace(MPI_Comm comm, ContactPairData *pair)
 {
   const ContactSurface *s = &pair->mortar;
@@ -34,8 +36,8 @@ PetscErrorCode ContactSurfacePlace(MPI_Comm comm, ContactPairData *pair)
   PetscFunctionReturn(0);
 }
 
-/* Distance of a point from the moved surface [length], its gradient, and the weights of the corners at the closest
-   point */
+/* Returns the distance of the point x from the moved surface [length]. Computes its gradient, and the weights of the
+   four corners at the closest point. */
 PetscReal ContactSurfaceDistance(const ContactPairData *pair, const PetscReal x[3], PetscReal gradient[3],
   PetscReal weight[4])
 {
@@ -65,7 +67,7 @@ PetscReal ContactSurfaceDistance(const ContactPairData *pair, const PetscReal x[
   return distance;
 }
 
-/* Sets the normals of a pair's rows opposite to those of the surface */
+/* Sets the normals at n points x opposite to the normals of the pair's rigid surface */
 PetscErrorCode ContactSurfaceSetNormals(const ContactPairData *pair, PetscInt n, const PetscReal x[],
   PetscReal normal[])
 {
@@ -79,7 +81,7 @@ PetscErrorCode ContactSurfaceSetNormals(const ContactPairData *pair, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* No facets are exchanged */
+/* Leaves the box as it is, because no facets are exchanged */
 static PetscErrorCode ContactBox_RigidSurface(PETSC_UNUSED Contact contact, PETSC_UNUSED PetscInt p,
   PETSC_UNUSED PetscReal box[6])
 {

@@ -1,4 +1,4 @@
-/* Boxes along the coordinate axes: lower corner, upper corner */
+/* Axis-aligned boxes: box[0..2] is the lower corner, box[3..5] the upper corner */
 #include "geometryimpl.h"
 
 void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
@@ -9,7 +9,8 @@ void ContactFacetBox(const PetscReal x[12], PetscReal box[6])
   }
 }
 
-/* Box around the prism that a facet sweeps along its normal; the facet's own box if it has no normal */
+/* Computes the box around the prism that the facet x sweeps if it is moved along its normal by -depth to distance
+   [length]. A facet without area has no normal; its box is that of the facet itself. */
 void ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6])
 {
   PetscReal n[3];

@@ -1,7 +1,8 @@
-/* Polygons in the plane: area, and clipping against a convex polygon */
+/* Polygons in the plane: the area, and clipping by a convex polygon */
 #include "geometryimpl.h"
 
-/* Computed relative to the first vertex, so that small polygons far from the origin lose no accuracy */
+/* Returns the signed area of a polygon, positive if its vertices are counterclockwise. Coordinates are taken relative
+   to the first vertex, so that small polygons far from the origin lose no accuracy. */
 PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
 {
   PetscReal area = 0.0;
@@ -11,12 +12,13 @@ PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2])
   return area;
 }
 
-/* Twice the signed area of the triangle (a, b, p): positive where p is left of the line a -> b */
+/* Returns twice the signed area of the triangle (a, b, p): positive if p is left of the line from a to b */
 static PetscReal ClipLeftOf(const PetscReal a[2], const PetscReal b[2], const PetscReal p[2])
 {
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
+/* Stores the vertex y, at which the edge number `before` ends and the edge number `after` begins */
 static void ClipPutVertex(const PetscReal y[2], PetscInt before, PetscInt after, PetscReal out[2], PetscInt edge[2])
 {
   out[0]  = y[0];
@@ -26,10 +28,12 @@ static void ClipPutVertex(const PetscReal y[2], PetscInt before, PetscInt after,
 }
 
 /*
-   Clips the subject polygon by every edge of the convex polygon clip (Sutherland and Hodgman). Vertices on an edge
-   count as inside. A cut is made only between vertices strictly on either side, so there is no division by zero.
-   Coinciding edges or vertices give repeated vertices, which enclose no area. edge: for each result vertex the two
-   edges that meet there: i from vertex i of the subject to the next, nsubject + i from vertex i of clip.
+   Clips the polygon `subject` by every edge of the convex polygon `clip` (algorithm of Sutherland and Hodgman). Returns
+   the number of vertices of the result `out`, or 0 if nothing is left. A vertex on an edge of clip counts as inside. An
+   edge is cut only if its two ends lie strictly on different sides, so that there is no division by zero. Where edges
+   or vertices of the polygons coincide, the result has repeated vertices, which enclose no area. edge[i] are the two
+   edges that meet at vertex i of the result. Edge e < nsubject starts at vertex e of subject; edge nsubject + e starts
+   at vertex e of clip.
 */
 PetscInt ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip, const PetscReal clip[][2],
   PetscReal out[][2], PetscInt edge[][2])

@@ -4,20 +4,20 @@
 #define CLOSEST_MAX_STEPS    50
 #define CLOSEST_MAX_HALVINGS 8
 
-/* Vector from the given point to the facet's points: r = c0 + c1 xi + c2 eta + c3 xi eta */
+/* The vector from the given point to the point (xi, eta) of the facet: r = c0 + c1 xi + c2 eta + c3 xi eta [length] */
 typedef struct {
   PetscReal c[4][3];
 } ClosestOffset;
 
-/* Squared distance */
+/* Computes the vector r from the given point to the facet's point xi, and returns the square of its length */
 static PetscReal ClosestEvaluate(const ClosestOffset *o, const PetscReal xi[2], PetscReal r[3])
 {
   for (PetscInt d = 0; d < 3; ++d) r[d] = o->c[0][d] + o->c[1][d] * xi[0] + (o->c[2][d] + o->c[3][d] * xi[0]) * xi[1];
   return VectorDot(r, r);
 }
 
-/* Start for Newton's method: the nearest of nine points of the facet, because a warped facet may have several local
-   minima */
+/* Sets xi to the start of Newton's method: the nearest of nine points of the facet. One start at the centre is not
+   enough, because the distance from a warped facet may have several local minima. Returns the squared distance. */
 static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal best = PETSC_MAX_REAL;
@@ -36,7 +36,7 @@ static PetscReal ClosestStart(const ClosestOffset *o, PetscReal xi[2])
   return best;
 }
 
-/* Tangents at xi; each is constant along its own parameter */
+/* Computes the tangents t[0] = dr/dxi and t[1] = dr/deta at xi. Each is constant along its own parameter. */
 static void ClosestTangents(const ClosestOffset *o, const PetscReal xi[2], PetscReal t[2][3])
 {
   for (PetscInt d = 0; d < 3; ++d) {
@@ -45,7 +45,8 @@ static void ClosestTangents(const ClosestOffset *o, const PetscReal xi[2], Petsc
   }
 }
 
-/* Closest point on the line through xi along which one parameter varies */
+/* Sets xi[parameter] to the value in [-1, 1] with the least distance, while the other parameter is fixed. Returns the
+   squared distance. */
 static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, PetscReal xi[2])
 {
   PetscReal t[2][3], r[3], length;
@@ -57,7 +58,8 @@ static PetscReal ClosestAlongLine(const ClosestOffset *o, PetscInt parameter, Pe
   return ClosestEvaluate(o, xi, r);
 }
 
-/* step: Newton step where the Hessian is positive definite, else Gauss-Newton step; false if there is none */
+/* Computes the Newton step of half the squared distance at xi. If the Hessian is not positive definite, the step is
+   that of the Gauss-Newton method. Returns false if that matrix is singular too. */
 static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2], PetscReal step[2])
 {
   PetscReal r[3], t[2][3], g[2], H[3], det, twist;
@@ -78,7 +80,8 @@ static PetscBool ClosestNewtonStep(const ClosestOffset *o, const PetscReal xi[2]
   return PETSC_TRUE;
 }
 
-/* Takes the step, clipped to the facet's edges, or shortened until the distance falls; false if it does not */
+/* Moves xi by the step, clipped to the facet's edges, and halves the step until the squared distance *f decreases.
+   Returns false, with xi and *f unchanged, if no step decreases it. */
 static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2], PetscReal xi[2], PetscReal *f)
 {
   PetscReal scale = 1.0;
@@ -100,8 +103,8 @@ static PetscBool ClosestShorten(const ClosestOffset *o, const PetscReal step[2],
   return PETSC_FALSE;
 }
 
-/* Minimizes the distance from the start xi. If Newton's method stops at an edge, steps along single parameters
-   continue. */
+/* Minimizes the distance over the facet and returns the squared minimum. Where the Newton step gives no decrease, for
+   example at an edge, one parameter is minimized after the other. */
 static PetscReal ClosestDescend(const ClosestOffset *o, PetscReal xi[2])
 {
   PetscReal f = ClosestStart(o, xi);
@@ -119,7 +122,8 @@ static PetscReal ClosestDescend(const ClosestOffset *o, PetscReal xi[2])
   return f;
 }
 
-/* Distance of p from the facet x; its closest point y has the parameters xi */
+/* Computes the parameters xi and the coordinates y of the point of the facet x that is closest to the point p. Returns
+   their distance [length]. */
 PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2], PetscReal y[3])
 {
   ClosestOffset o;
@@ -135,7 +139,9 @@ PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], Petsc
   }
   best = ClosestDescend(&o, xi);
   for (PetscInt e = 0; e < 4;
-       ++e) { /* edges are straight, so this is exact; without it the descent might end in a corner */
+       /* The descent can stop in a corner that is not the closest point. Edges are straight, so that the closest point
+          of each edge is exact. */
+       ++e) {
     const PetscReal end    = e % 2 ? 1.0 : -1.0;
     PetscReal       eta[2] = {e < 2 ? 0.0 : end, e < 2 ? end : 0.0};
     const PetscReal f      = ClosestAlongLine(&o, e / 2, eta);

@@ -1,4 +1,4 @@
-/* PETSc's log events of contact */
+/* Log events of the contact search and of the contact integrals, for -log_view */
 #include "geometryimpl.h"
 
 PetscLogEvent CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;

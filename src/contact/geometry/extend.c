@@ -1,18 +1,23 @@
-/* Faces whose borders coincide: the mortar face is continued beyond its border by a small margin. Otherwise the covered
-   area would have a kink where the borders cross, and contact updates would not converge there. */
+/*
+   Extends a mortar face beyond its border by a small margin, where the border of the nonmortar face coincides with it.
+   Without this margin the overlap area would have a kink as a function of the displacement where the two borders cross,
+   and contact updates would not converge there.
+*/
 #include "geometryimpl.h"
 
-/* margin, as a fraction of the size of the smaller facet across its border */
+/* margin by which a border may differ, as a fraction of the size of the smaller facet perpendicular to its border
+   edge */
 #define EXTEND_MARGIN 0.1
-/* a segment is beside an edge up to this fraction of the edge's length beyond its ends */
+/* a segment counts as beside an edge up to this fraction of the edge's length beyond the edge's ends */
 #define EXTEND_BESIDE 1e-3
-/* cosine of the angle above which two border edges count as parallel */
+/* two border edges count as parallel if the cosine of the angle between their outward normals is at least this */
 #define EXTEND_PARALLEL 0.9
 
 /* An edge of a polygon whose vertices are counterclockwise */
 typedef struct {
+  /* start, and unit normal that points out of the polygon */
   PetscReal from[2], out[2]; /* start; unit vector outwards */
-  PetscReal length, across;  /* length of the edge; size of the polygon across it */
+  PetscReal length, across;  /* length of the edge, and size of the polygon perpendicular to the edge [length] */
 } PolygonEdge;
 
 static PetscBool PolygonEdgeCreate(PetscInt n, const PetscReal p[][2], PetscInt e, PolygonEdge *edge)
@@ -28,8 +33,11 @@ static PetscBool PolygonEdgeCreate(PetscInt n, const PetscReal p[][2], PetscInt 
   return PETSC_TRUE;
 }
 
-/* How far the segment from p to q reaches beyond the line of an edge, for the part of the segment that lies beside the
-   edge. Neighbouring mortar facets get nearly the same value where they meet. *beside: whether any part does */
+/*
+   Returns how far [length] the segment from p to q reaches beyond the line of an edge. Only the part of the segment
+   that lies beside the edge counts; *beside says whether there is such a part. Where two neighbouring mortar facets
+   meet, they get nearly equal values.
+*/
 static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], const PetscReal q[2], PetscBool *beside)
 {
   const PetscReal along[2] = {-edge->out[1], edge->out[0]}, low = -EXTEND_BESIDE * edge->length;
@@ -51,8 +59,11 @@ static PetscReal EdgeOverhang(const PolygonEdge *edge, const PetscReal p[2], con
   return overhang;
 }
 
-/* How far an edge of the mortar facet is moved outwards: beyond the nonmortar border if both are closer than the
-   margin, else not at all. No corner of an overlap lies on a moved edge, so that derivatives need not include it. */
+/*
+   Returns by how much [length] an edge of the mortar facet is moved outwards: 2 margins if an edge of the nonmortar
+   border lies within one margin of it, else 0. The moved edge then lies outside the nonmortar facet. No corner of the
+   overlap lies on it, so that the derivatives of the overlap need not include its motion.
+*/
 static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], PetscInt border1)
 {
   PetscReal by = 0.0;
@@ -72,10 +83,10 @@ static PetscReal ExtendBy(const PolygonEdge *edge, const PetscReal p1[4][2], Pet
 }
 
 /*
-   Moves the border edges of a mortar facet outwards, where the border of the nonmortar facet p1 is near. The
-   facet's other edges are continued, so that neighbouring facets still meet. Both are projected to one plane with
-   vertices counterclockwise. Bit e of a border: edge e, from vertex e, is on the border of its face. Returns whether
-   any edge has moved.
+   Moves the border edges of the mortar facet p2 outwards where the border of the nonmortar facet p1 is near. Both
+   facets are projected onto one plane, with counterclockwise vertices. The vertices move along the facet's other edges,
+   so that neighbouring facets still meet. Bit e of border1 and border2 is set if the edge from vertex e to the next is
+   on the border of its face. Returns whether any edge was moved.
 */
 PetscBool ContactExtendBorder(const PetscReal p1[4][2], PetscInt border1, PetscInt border2, PetscReal p2[4][2])
 {

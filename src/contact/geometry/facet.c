@@ -13,7 +13,7 @@ void ContactShape(const PetscReal xi[2], PetscReal phi[4])
   for (PetscInt a = 0; a < 4; ++a) phi[a] = 0.25 * (1.0 + corner[a][0] * xi[0]) * (1.0 + corner[a][1] * xi[1]);
 }
 
-/* Derivatives of the shape functions by both parameters */
+/* Computes the derivatives of the shape functions with respect to both parameters: dphi[a][k] = d phi_a / d xi_k */
 void ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2])
 {
   for (PetscInt a = 0; a < 4; ++a) {
@@ -22,7 +22,8 @@ void ContactShapeSlopes(const PetscReal xi[2], PetscReal dphi[4][2])
   }
 }
 
-/* Integral of the unit normal over the facet: half the cross product of its diagonals, exact for warped facets too */
+/* Computes the integral a of the unit normal over the facet [length^2]: half the cross product of the diagonals. This
+   is exact for warped facets too. */
 void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
 {
   PetscReal d1[3], d2[3];
@@ -35,8 +36,11 @@ void ContactFacetAreaVector(const PetscReal x[12], PetscReal a[3])
   for (PetscInt c = 0; c < 3; ++c) a[c] *= 0.5;
 }
 
-/* by_x: derivatives by the vertices of moment . rotation, where the rotation of the facet is that of its normal and
-   first diagonal. The facet must have an area. */
+/*
+   Computes by_x, the derivative of moment . theta with respect to the coordinates of the vertices. theta is the
+   rotation vector of the facet [rad], defined by the rotation of its normal and, about the normal, of its first
+   diagonal. The facet's area must not be zero.
+*/
 void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12])
 {
   PetscReal d[2][3], by_d[2][3], n[3], q[3], s[3], spin, size;
@@ -45,7 +49,7 @@ void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscRea
     for (PetscInt c = 0; c < 3; ++c) d[k][c] = x[6 + 3 * k + c] - x[3 * k + c];
   }
   VectorCross(d[0], d[1], n);
-  size = VectorScaleToUnit(n); /* twice the area */
+  size = VectorScaleToUnit(n); /* n is now the unit normal, and size is twice the area. */
   VectorCross(moment, n, q);
   VectorCross(d[1], q, by_d[0]);
   VectorCross(q, d[0], by_d[1]);
@@ -63,7 +67,7 @@ void ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscRea
   }
 }
 
-/* Derivatives of the facet's points by their parameters */
+/* Computes the tangents of the facet at xi: t1 = dx/dxi_1 and t2 = dx/dxi_2 [length] */
 void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3])
 {
   for (PetscInt c = 0; c < 3; ++c) t1[c] = t2[c] = 0.0;
@@ -75,7 +79,8 @@ void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscRea
   }
 }
 
-/* mass[A] = integral of phi_A over the facet, exact for plane facets; returns the area */
+/* Computes mass[a], the integral of the shape function phi_a over the facet [length^2], exact for plane facets. Returns
+   the area of the facet. */
 PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
 {
   const PetscReal g    = 1.0 / PetscSqrtReal(3.0);
@@ -96,7 +101,8 @@ PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4])
   return area;
 }
 
-/* Length of the longer diagonal; of a triangle, of the longer of two edges */
+/* Returns the length of the longer diagonal [length]. A triangle has its fourth vertex equal to the third; the result
+   is then the longer of the two edges that meet there. */
 PetscReal ContactFacetDiameter(const PetscReal x[12])
 {
   PetscReal square[2] = {0.0, 0.0};
@@ -108,7 +114,8 @@ PetscReal ContactFacetDiameter(const PetscReal x[12])
   return PetscSqrtReal(PetscMax(square[0], square[1]));
 }
 
-/* Of a triangle, whose second parameter is 1 at its last vertex */
+/* Computes the parameters xi of the point y of a plane triangle. xi[1] is 1 at its last vertex, and xi is clipped to
+   [-1, 1]. */
 static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], PetscReal xi[2])
 {
   const PetscReal e[2] = {q[1][0] - q[0][0], q[1][1] - q[0][1]}, f[2] = {q[2][0] - q[0][0], q[2][1] - q[0][1]},
@@ -121,13 +128,14 @@ static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], 
 }
 
 /*
-   Parameters of the point y of a triangle, whose second parameter is 1 at its last vertex
+   Computes the parameters xi of the point y of a plane facet with the vertices q. For a quadrilateral Newton's method
+   solves the bilinear map; one step suffices for a parallelogram. The result is clipped to [-bound, bound] for a
+   quadrilateral and to [-1, 1] for a triangle, because rounding may place y slightly outside, and because the map may
+   be degenerate.
 */
-void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal most, PetscReal xi[2])
+void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal bound, PetscReal xi[2])
 {
-  PetscReal c[4][2]; /* Parameters of the point y of a plane quadrilateral (Newton's method; one step suffices for a
-                        parallelogram) or of a triangle. The point lies inside up to rounding, or within `most` times
-                        the facet, so the result is clipped, also where the map is degenerate. */
+  PetscReal c[4][2]; /* position as a function of the parameters: y = c0 + c1 xi + c2 eta + c3 xi eta */
 
   if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
     FacetInverseTriangle(q, y, xi);
@@ -152,7 +160,7 @@ void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal 
     if (det == 0.0) break;
     step[0] = (J[1][1] * r[0] - J[0][1] * r[1]) / det;
     step[1] = (J[0][0] * r[1] - J[1][0] * r[0]) / det;
-    for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -most, most);
+    for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -bound, bound);
     if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < 16.0 * PETSC_MACHINE_EPSILON) break;
   }
 }

@@ -1,7 +1,7 @@
-/* y = c0 + c1 xi + c2 eta + c3 xi eta */
+/* The normal of a facet, and the projection onto its plane */
 #include "geometryimpl.h"
 
-/* Mean outward unit normal; false if the facet has no area */
+/* Computes the mean outward unit normal n of a facet. Returns false if the facet has no area. */
 PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
 {
   PetscReal area;
@@ -13,7 +13,8 @@ PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
   return PETSC_TRUE;
 }
 
-/* Axes 0 and 1 span the plane, axis 2 is the normal; false if the facet has no area */
+/* Creates the plane through the centre of the facet x, perpendicular to its mean normal. Returns false if the facet has
+   no area. */
 PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
 {
   PetscReal *t = f->axis[0], *s = f->axis[1], *n = f->axis[2], length;
@@ -21,8 +22,8 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
   if (!ContactFacetNormal(x, n)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) {
     f->origin[c] = 0.25 * (x[c] + x[3 + c] + x[6 + c] + x[9 + c]);
-    t[c]         = x[6 + c] - x[c]; /* axis 0 is along a diagonal, which lies in the plane because the normal is the
-                                       cross product of the diagonals */
+    t[c]         = x[6 + c] - x[c]; /* Axis 0 is parallel to a diagonal. The diagonal lies in the plane, because the
+                                       normal is the cross product of the diagonals. */
   }
   length = VectorNorm(t);
   for (PetscInt c = 0; c < 3; ++c) t[c] /= length;
@@ -32,7 +33,7 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
   return PETSC_TRUE;
 }
 
-/* Plane coordinates of a facet's vertices, and their heights above the plane */
+/* Computes the plane coordinates p of the vertices of the facet x, and their heights above the plane [length] */
 void ContactFrameProject(const ContactFrame *f, const PetscReal x[12], PetscReal p[4][2], PetscReal height[4])
 {
   for (PetscInt a = 0; a < 4; ++a) {

@@ -12,18 +12,21 @@
 PETSC_INTERN PetscLogEvent  CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;
 PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
 
-/* quadrature.c: a rule for triangles */
-#define CONTACT_RULE_DEGREE 8 /* at most */
+/* quadrature.c: quadrature rules on triangles */
+#define CONTACT_RULE_DEGREE 8 /* highest degree of the polynomials that a rule integrates exactly */
 #define CONTACT_RULE_POINTS 16
 typedef struct {
-  PetscInt  degree, n;
+  /* degree of exactness and number of points */
+  PetscInt degree, n;
+  /* barycentric coordinates of the points, and weights as fractions of the triangle's area (their sum is 1) */
   PetscReal barycentric[CONTACT_RULE_POINTS][3], weight[CONTACT_RULE_POINTS];
 } ContactRule;
 PETSC_INTERN PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *);
 
 /*
-   facet.c: bilinear facets. A triangle stores its last vertex twice. The two functions of that vertex add up to its
-   linear function; the other two are linear.
+   facet.c: bilinear facets. A facet is stored as the coordinates of its four vertices, x[3 * vertex + component], in
+   counterclockwise order seen from outside its body. A triangle stores its last vertex twice. The sum of the two shape
+   functions of that vertex is the linear shape function of the triangle there.
 */
 PETSC_INTERN PetscBool ContactFacetIsTriangle(const PetscReal x[12]);
 PETSC_INTERN void      ContactShape(const PetscReal xi[2], PetscReal phi[4]);
@@ -33,9 +36,10 @@ PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a
 PETSC_INTERN void      ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12]);
 PETSC_INTERN void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
-PETSC_INTERN void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal most, PetscReal xi[2]);
+PETSC_INTERN void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal bound, PetscReal xi[2]);
 
-/* frame.c: the plane onto which a nonmortar facet is projected */
+/* frame.c: the plane onto which a nonmortar facet is projected. axis[0] and axis[1] span the plane; axis[2] is its unit
+   normal. */
 typedef struct {
   PetscReal origin[3], axis[3][3];
 } ContactFrame;
@@ -44,42 +48,52 @@ PETSC_INTERN PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *)
 PETSC_INTERN void      ContactFrameProject(const ContactFrame *, const PetscReal x[12], PetscReal p[4][2],
        PetscReal height[4]);
 
-/* clip.c: convex polygons in the plane, vertices counterclockwise */
+/* clip.c: convex polygons in the plane. Their vertices are counterclockwise. */
 #define CONTACT_MAX_POLYGON 32
 PETSC_INTERN PetscReal ContactPolygonArea(PetscInt n, const PetscReal p[][2]);
 PETSC_INTERN PetscInt  ContactClip(PetscInt nsubject, const PetscReal subject[][2], PetscInt nclip,
    const PetscReal clip[][2], PetscReal out[][2], PetscInt edge[][2]);
 
-/* extend.c: mortar facets continued beyond a border that both faces share */
+/* extend.c: extends mortar facets beyond the border of their face where the border of the nonmortar face coincides with
+   it */
 PETSC_INTERN PetscBool ContactExtendBorder(const PetscReal p1[4][2], PetscInt border1, PetscInt border2,
   PetscReal p2[4][2]);
 
-/* overlap.c: the part where a nonmortar and a mortar facet face each other. With quadrature points, weights and
-   nodal normals held fixed, the weighted gap is linear in the coordinates. */
+/* overlap.c: the part of a nonmortar facet onto which a mortar facet projects. The weighted gap is linear in the
+   coordinates as long as quadrature points, weights and nodal normals are held fixed. */
 #define CONTACT_MAX_CORNERS (2 * CONTACT_MAX_POLYGON)
 #define CONTACT_MAX_POINTS  (CONTACT_MAX_POLYGON * CONTACT_RULE_POINTS)
 typedef struct {
+  /* position in the plane of the nonmortar facet [length] */
   PetscReal y[2];
-  PetscInt  line[2][2]; /* the two lines that intersect there, each given by two vertices: 0 to 3 of the nonmortar
-                           facet, 4 to 7 of the mortar facet */
+  PetscInt  line[2][2]; /* the two lines that intersect at the corner. Each is given by the numbers of two vertices:
+                           0 to 3 of the nonmortar facet, 4 to 7 of the mortar facet. */
 } ContactCorner;
 typedef struct {
-  PetscInt  corner[3];
+  /* corners of the triangle, as numbers into the array corner of ContactOverlap */
+  PetscInt corner[3];
+  /* -1 if the part of the nonmortar facet that holds the triangle is clockwise in the plane, else 1 */
   PetscReal sign;
 } ContactTriangle;
 typedef struct {
   PetscInt        ncorners, ntriangles;
   ContactCorner   corner[CONTACT_MAX_CORNERS];
-  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* each has as many points as the rule, in this order */
+  ContactTriangle triangle[CONTACT_MAX_CORNERS]; /* triangle t has the quadrature points t * rule->n to (t + 1) *
+                                                    rule->n - 1 */
 
+  /* number of quadrature points */
   PetscInt  n;
-  PetscReal gap;                        /* mean height of the mortar facet above the nonmortar one [length] */
-  PetscReal area;                       /* area of the overlap in the plane of the nonmortar facet [length^2] */
-  PetscReal weight[CONTACT_MAX_POINTS]; /* [length^2] */
-  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* on the nonmortar facet */
-  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* on the mortar facet */
+  PetscReal gap;  /* mean height of the mortar facet above the nonmortar facet, along the nonmortar facet's normal
+                    [length] */
+  PetscReal area; /* area of the overlap in the plane of the nonmortar facet [length^2] */
+  PetscReal weight[CONTACT_MAX_POINTS]; /* weights of the quadrature points [length^2] */
+  PetscReal xi1[CONTACT_MAX_POINTS][2]; /* parameters of the points on the nonmortar facet */
+  PetscReal xi2[CONTACT_MAX_POINTS][2]; /* parameters of the points on the mortar facet */
 } ContactOverlap;
 typedef struct {
+  /* Two facets overlap only if the cosine of the angle between their normals is at most `cosine`, if their overlap is
+     larger than `overlap_drop` times the smaller facet, and if their mean gap [length] lies between -depth and
+     distance. */
   PetscReal cosine, overlap_drop, distance, depth;
 } ContactOverlapLimits;
 PETSC_INTERN PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *,
@@ -91,7 +105,8 @@ PETSC_INTERN PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscI
 PETSC_INTERN PetscReal ContactClosestPoint(const PetscReal x[12], const PetscReal p[3], PetscReal xi[2],
   PetscReal y[3]);
 
-/* box.c: axis-aligned boxes around facets and the prisms that they sweep */
+/* box.c: axis-aligned boxes, each given by its lower corner and its upper corner, around facets and the prisms that
+   facets sweep */
 PETSC_INTERN void      ContactFacetBox(const PetscReal x[12], PetscReal box[6]);
 PETSC_INTERN void      ContactSweptBox(const PetscReal x[12], PetscReal distance, PetscReal depth, PetscReal box[6]);
 PETSC_INTERN PetscBool ContactBoxesMeet(const PetscReal a[6], const PetscReal b[6]);

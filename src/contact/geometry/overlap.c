@@ -1,9 +1,9 @@
-/* Where two facets face each other: projection, clipping, quadrature points on both */
+/* The overlap of two facets: projection onto a plane, clipping, and quadrature points on both facets */
 #include "geometryimpl.h"
 
-/* tolerance for points on a line, relative to its length */
+/* distance from a line up to which a point counts as being on it, relative to the length of the line */
 #define ONE_LINE 1e-4
-/* distance of vertices, relative to the facets' size, that is rounding */
+/* distance of two vertices that is attributed to rounding, relative to the size of the smaller facet */
 #define ONE_VERTEX 1e-12
 
 static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt vertex[], PetscReal part[4][2])
@@ -14,8 +14,9 @@ static void OverlapPutPart(const PetscReal p[4][2], PetscInt n, const PetscInt v
 }
 
 /*
-   Splits a quadrilateral into convex parts, counterclockwise: itself (also a triangle), or two triangles if a corner is
-   reflex. If its edges cross, one of the triangles is clockwise: it is reversed and gets sign -1.
+   Splits a quadrilateral into convex parts with counterclockwise vertices and returns their number. A convex
+   quadrilateral or a triangle is one part. A quadrilateral with a reflex corner is two triangles. If its edges cross,
+   one of the triangles is clockwise: its vertices are reversed and its sign is -1.
 */
 static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], PetscReal part[2][4][2],
   PetscInt vertex[2][4], PetscReal sign[2])
@@ -46,7 +47,7 @@ static PetscInt OverlapConvexParts(const PetscReal p[4][2], PetscInt size[2], Pe
   return reflex < 0 ? 1 : 2;
 }
 
-/* Whether y is on the line through a and b */
+/* Returns whether y lies on the line through a and b, up to ONE_LINE */
 static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], const PetscReal y[2])
 {
   const PetscReal d[2] = {b[0] - a[0], b[1] - a[1]}, size = d[0] * d[0] + d[1] * d[1];
@@ -54,9 +55,11 @@ static PetscBool OverlapIsOnLine(const PetscReal a[2], const PetscReal b[2], con
   return (PetscBool)(PetscAbsReal(d[0] * (y[1] - a[1]) - d[1] * (y[0] - a[0])) <= ONE_LINE * size);
 }
 
-/* Removes edges as short as rounding beside vertices of one facet that lie on a line of the other: rounding would
-   decide whether such an edge exists, and the derivative would depend on that. size: of the facets. Returns the number
-   of vertices left */
+/*
+   Removes the edges of a polygon that are so short that rounding decides whether they exist. They arise where a vertex
+   of one facet lies on an edge of the other facet. The derivatives of the overlap would otherwise depend on rounding.
+   size: size of the facets [length]. Returns the number of vertices that remain.
+*/
 static PetscInt OverlapMergeVertices(PetscInt n, PetscReal size, PetscReal polygon[][2], PetscInt edge[][2])
 {
   PetscInt i = 0;
@@ -76,14 +79,17 @@ static PetscInt OverlapMergeVertices(PetscInt n, PetscReal size, PetscReal polyg
         edge[k][d]    = edge[k + 1][d];
       }
     }
-    if (!next) i = n; /* the last vertex has replaced the first: all others have been tested */
+    if (!next) i = n; /* The last vertex has replaced the first, and all other vertices have been tested. */
     --n;
   }
   return n;
 }
 
-/* Attributes an edge that both facets share to the nonmortar facet. The geometry on either side of such an edge is then
-   known, and an edge between two mortar facets does not end an overlap. nmortar: number of edges of the mortar facet */
+/*
+   Attributes those edges of the polygon that lie on edges of both facets to the nonmortar facet. The derivative is then
+   the same on either side of such an edge, and an edge between two mortar facets does not end an overlap. nmortar:
+   number of edges of the mortar facet; part: the nonmortar part with `size` vertices
+*/
 static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, PetscInt size,
   const PetscReal part[4][2], PetscInt edge[][2])
 {
@@ -99,8 +105,8 @@ static void OverlapShareEdges(PetscInt n, const PetscReal polygon[][2], PetscInt
   }
 }
 
-/* Stores the polygon's corners. vertex: their numbers among the nsize vertices of the clipped part of the nonmortar
-   facet */
+/* Appends the corners of the polygon to the overlap. vertex: numbers, within the nonmortar facet, of the `size`
+   vertices of its clipped part */
 static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscInt nmortar, const PetscInt edge[][2],
   PetscInt size, const PetscInt vertex[], ContactOverlap *o)
 {
@@ -117,7 +123,7 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
   }
 }
 
-/* The polygon's vertex that is nearest to y */
+/* Returns the number of the polygon's vertex that is nearest to y */
 static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], const PetscReal y[2])
 {
   PetscReal least   = PETSC_MAX_REAL;
@@ -134,13 +140,16 @@ static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], c
   return nearest;
 }
 
-/* Adds the quadrature points of the triangles between one vertex of the polygon and its edges, with this sign. If the
-   mortar facet is continued (most > 1), this vertex is the one nearest to a nonmortar vertex, so that rounding does
-   not choose it. first: number of the first corner; most: bound of the parameters on the mortar facet */
+/*
+   Adds the quadrature points of the triangles that connect one vertex of the polygon, the apex, with the edges of the
+   polygon. Their weights are multiplied by `sign`. If the mortar facet is extended beyond its border (bound > 1), the
+   apex is the vertex nearest to a nonmortar vertex, because rounding would otherwise decide which vertex comes first.
+   first: number of the polygon's first corner in the overlap; bound: bound of the parameters on the mortar facet
+*/
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
-  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal most, ContactOverlap *o)
+  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal bound, ContactOverlap *o)
 {
-  const PetscInt apex = most > 1.0 ? OverlapNearestVertex(n, polygon, p1[0]) : 0;
+  const PetscInt apex = bound > 1.0 ? OverlapNearestVertex(n, polygon, p1[0]) : 0;
 
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscInt  i = (apex + t) % n, j = (apex + t + 1) % n;
@@ -151,7 +160,8 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
     };
     const PetscReal area = sign * ContactPolygonArea(3, tri);
 
-    o->area += area; /* triangles of zero area are included, because their area may change */
+    /* Triangles without area are included, because their derivatives need not be zero. */
+    o->area += area;
     o->triangle[o->ntriangles++] = (ContactTriangle){{first + apex, first + i, first + j}, sign};
     for (PetscInt q = 0; q < rule->n; ++q) {
       PetscReal y[2] = {0.0, 0.0};
@@ -161,13 +171,13 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
       }
       o->weight[o->n] = area * rule->weight[q];
       ContactInverseMap(p1, y, 1.0, o->xi1[o->n]);
-      ContactInverseMap(p2, y, most, o->xi2[o->n]);
+      ContactInverseMap(p2, y, bound, o->xi2[o->n]);
       ++o->n;
     }
   }
 }
 
-/* Mean height of the mortar facet above the nonmortar facet over the overlap */
+/* Returns the mean height of the mortar facet above the nonmortar facet over the overlap [length] */
 static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], const PetscReal h2[4])
 {
   PetscReal gap = 0.0;
@@ -182,9 +192,11 @@ static PetscReal OverlapMeanGap(const ContactOverlap *o, const PetscReal h1[4], 
   return gap / o->area;
 }
 
-/* The mortar facet in the plane, counterclockwise. It is seen from inside its body, so its vertices are reversed. If
-   both facets are at the borders of their faces, it is continued a little beyond its border; returns whether it was.
-   Triangles are not continued. */
+/*
+   Stores the vertices of the mortar facet, projected onto the plane, in counterclockwise order. They are clockwise in
+   p2, because the mortar facet is seen from inside its body. If both facets have edges on the borders of their faces,
+   the mortar facet may be extended a little beyond its border. Returns whether it was. Triangles are never extended.
+*/
 static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, PetscInt nmortar,
   const PetscReal p2[4][2], PetscInt border2, PetscReal reversed[4][2])
 {
@@ -194,14 +206,16 @@ static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, Pe
     for (PetscInt d = 0; d < 2; ++d) reversed[a][d] = p2[nmortar - 1 - a][d];
   }
   if (nmortar < 4 || !(border1 & 15) || !(border2 & 15)) return PETSC_FALSE;
-  for (PetscInt e = 0; e < 4; ++e) border |= (border2 >> (6 - e) % 4 & 1) << e; /* from vertex 3 - e to 2 - e */
+  /* The edge e of the reversed facet is the edge from vertex 3 - e to vertex 2 - e of the mortar facet. */
+  for (PetscInt e = 0; e < 4; ++e) border |= (border2 >> (6 - e) % 4 & 1) << e;
   return ContactExtendBorder(p1, border1, border, reversed);
 }
 
 /*
-   Finds the overlap: projects both facets to the plane through the centre of the nonmortar facet x1 normal to its mean
-   normal, clips, and places quadrature points. Returns false if the facets do not face each other within the limits or
-   hardly overlap. Borders as in ContactSurface.
+   Finds the overlap of the nonmortar facet x1 and the mortar facet x2. Projects both onto the plane through the centre
+   of x1 perpendicular to its mean normal, clips one by the other, and places quadrature points. Returns false if the
+   facets do not overlap within the limits. border1 and border2: bits of the edges on the border of a face, as in
+   ContactSurface
 */
 PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, const PetscReal x2[12], PetscInt border2,
   const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
@@ -209,7 +223,7 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
   const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
   PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
   PetscInt       size[2], vertex[2][4], nparts;
-  PetscReal      most = 1.0;
+  PetscReal      bound = 1.0;
   ContactFrame   frame;
 
   o->n = o->ncorners = o->ntriangles = 0;
@@ -220,7 +234,7 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
   if (OverlapPutMortar((const PetscReal(*)[2])p1, border1, nmortar, (const PetscReal(*)[2])p2, border2, reversed))
-    most = 1.5; /* the facet is continued by a seventh at most */
+    bound = 1.5; /* An edge moves by at most a fifth of the facet's size: parameters on a rectangle stay below 1.4. */
   smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
   nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
   for (PetscInt k = 0; k < nparts; ++k) {
@@ -232,14 +246,14 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
     if (n < 3 || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
     OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
     OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
-    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, most, o);
+    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, bound, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   o->gap = OverlapMeanGap(o, h1, h2);
   return (PetscBool)(o->gap <= limits->distance && o->gap >= -limits->depth);
 }
 
-/* The same inside of faces, where borders do not matter */
+/* Finds the overlap of two facets without extending the mortar facet beyond the border of its face */
 PetscBool ContactOverlapFind(const PetscReal x1[12], const PetscReal x2[12], const ContactOverlapLimits *limits,
   const ContactRule *rule, ContactOverlap *o)
 {

@@ -1,13 +1,13 @@
-/* Quadrature on triangles */
+/* Quadrature rules on triangles */
 #include "geometryimpl.h"
 #include <petscdt.h>
 
-/* PETSc's rule with the fewest points that is exact to this degree: barycentric coordinates, weights that sum to 1 */
+/* Creates PETSc's rule on triangles with the fewest points that is exact for polynomials of this degree */
 PetscErrorCode ContactRuleCreate(PetscInt degree, ContactRule *rule)
 {
   PetscQuadrature  quadrature;
   PetscInt         n;
-  const PetscReal *x, *weight; /* on the triangle (-1, -1), (1, -1), (-1, 1), whose area is 2 */
+  const PetscReal *x, *weight; /* The rule is for the triangle (-1, -1), (1, -1), (-1, 1), whose area is 2. */
 
   PetscFunctionBegin;
   PetscCall(PetscDTSimplexQuadrature(2, degree, PETSCDTSIMPLEXQUAD_MINSYM, &quadrature));

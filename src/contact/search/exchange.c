@@ -1,17 +1,17 @@
-/* Sends mortar facets to the ranks whose part of the nonmortar face they may face. No other part of the mesh is
+/* Sends mortar facets to the ranks whose part of the nonmortar face they may meet. No other part of the mesh is
    exchanged. */
 #include <petscsf.h>
 #include "searchimpl.h"
 
-/* Facets to be sent, sorted by receiving rank */
+/* Facets to be sent, sorted by receiving rank; the arrays are those of ContactCandidates */
 typedef struct {
   PetscMPIInt nranks, *rank;
-  PetscInt   *range; /* [2 nranks] for each rank, first facet and number of facets */
+  PetscInt   *range; /* [2 nranks] first facet and number of facets for each receiving rank */
   PetscInt    n, *node, *border, *normal_id;
   PetscReal  *x, *patch;
 } Outgoing;
 
-/* Counts the facets for each rank; packs them if out->x is allocated */
+/* Counts the facets whose box meets the box of each rank. If out->x is allocated, copies them to the arrays as well. */
 static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt size, const PetscReal boxes[],
   Outgoing *out)
 {
@@ -46,7 +46,8 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
   PetscFunctionReturn(0);
 }
 
-/* Creates the star forest from outgoing facets (roots) to incoming facets (leaves), which are sorted by sending rank */
+/* Collective. Creates the star forest from outgoing facets (roots) to incoming facets (leaves). Incoming facets are
+   sorted by sending rank. */
 static PetscErrorCode ExchangeCreateForest(MPI_Comm comm, const Outgoing *out, PetscInt *nincoming, PetscSF *sf)
 {
   PetscMPIInt  nfrom, *from;
@@ -78,6 +79,7 @@ static PetscErrorCode ExchangeCreateForest(MPI_Comm comm, const Outgoing *out, P
   PetscFunctionReturn(0);
 }
 
+/* Collective. Sends `count` values of type `unit` per facet along the star forest */
 static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datatype unit, const void *out, void *in)
 {
   MPI_Datatype type;
@@ -91,7 +93,7 @@ static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datat
   PetscFunctionReturn(0);
 }
 
-/* Collective. Receives the facets of all ranks whose boxes meet this rank's box */
+/* Collective. Receives those facets of the surface s, from all ranks, whose boxes meet this rank's box */
 PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
   const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 1 : 0;

@@ -1,7 +1,7 @@
 /* Finds the facet nearest to a vertex by branch and bound in the tree of boxes */
 #include "searchimpl.h"
 
-/* Squared distance of a point from a box */
+/* Returns the squared distance of the point x from a box, 0 if x is inside [length^2] */
 static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3])
 {
   PetscReal sum = 0.0;
@@ -10,7 +10,8 @@ static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3]
   return sum;
 }
 
-/* Replaces the nearest facet by f if f faces the vertex and is nearer */
+/* Makes facet f the nearest facet if its normal opposes the vertex's normal and f is nearer than *distance. Of two
+   equally near facets the first one stays. */
 static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3],
   const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
 {
@@ -26,7 +27,8 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
   for (PetscInt c = 0; c < 3; ++c) nearest->y[c] = y[c];
 }
 
-/* Finds the nearest facet within reach of x whose normal has at most this cosine with the vertex's normal */
+/* Finds the nearest facet within the distance `reach` of the vertex x. Only facets count for which the cosine of the
+   angle between their normal and the vertex's normal is at most `cosine`. nearest->facet is -1 if there is none. */
 void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach,
   const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
 {
@@ -40,7 +42,8 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
     const ContactTreeNode *node = &t->node[self];
 
     if (NearestBoxDistance(node->box, x) > distance * distance) continue;
-    if (node->second) { /* the nearer child is looked at first */
+    /* The nearer child is popped from the stack first. */
+    if (node->second) {
       const PetscBool swap =
         (PetscBool)(NearestBoxDistance(t->node[node->second].box, x) < NearestBoxDistance(t->node[self + 1].box, x));
 

@@ -1,15 +1,19 @@
-/* Finds the mortar facets that may face a nonmortar facet: those along its normal */
+/* Finds the mortar facets that may face a nonmortar facet, along its normal */
 #include "searchimpl.h"
 
-/* The prism that a nonmortar facet sweeps along its normal, from the search depth below to the search distance
-   and the facet's own size above: a facet that is partly within the distance is needed as a whole. A sphere of that
-   radius would contain more facets the finer the mesh is. */
+/*
+   The prism that a nonmortar facet sweeps along its normal. It reaches from the search depth below the facet to above
+   the facet by the search distance plus the facet's diameter, because a facet that is partly within the search distance
+   is integrated as a whole. A sphere of that radius would contain more facets the finer the mesh is.
+*/
 typedef struct {
   ContactFrame frame;
-  PetscReal    low[3], high[3]; /* bounds in the frame's coordinates */
-  PetscReal    box[6];
+  PetscReal    low[3], high[3]; /* bounds in the frame's coordinates [length] */
+  /* axis-aligned box that contains the prism */
+  PetscReal box[6];
 } Prism;
 
+/* Creates the prism of the facet x. Returns false if the facet has no area. */
 static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscReal depth, Prism *p)
 {
   PetscReal y[4][2], h[4];
@@ -27,7 +31,7 @@ static PetscBool PrismCreate(const PetscReal x[12], PetscReal distance, PetscRea
   return PETSC_TRUE;
 }
 
-/* False if one of the coordinate axes or of the prism's axes separates prism and box */
+/* Returns false if one of the coordinate axes, or one of the prism's axes, separates prism and box */
 static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
 {
   if (!ContactBoxesMeet(p->box, box)) return PETSC_FALSE;
@@ -44,7 +48,7 @@ static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
   return PETSC_TRUE;
 }
 
-/* Counts the facets whose boxes meet the prism, and lists them in found unless it is NULL */
+/* Counts the facets whose boxes meet the prism. Stores their numbers in `found` unless it is NULL. */
 static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt found[])
 {
   PetscInt stack[CONTACT_TREE_DEPTH], depth = 0, n = 0;
@@ -69,7 +73,8 @@ static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt fo
   return n;
 }
 
-/* For each of this rank's nonmortar facets, lists the candidates along its normal within the search distances */
+/* Lists, for each of this rank's nonmortar facets, the mortar facets along its normal within the search distance and
+   depth [length] */
 PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscReal depth,
   const ContactCandidates *mortar, ContactNear *near)
 {

@@ -1,50 +1,52 @@
-/*
-   Search: facets of two faces that are near each other, on any rank.
-*/
+/* Search: facets of two faces that are near each other, on all ranks. */
 #ifndef SEARCHIMPL_H
 #define SEARCHIMPL_H
 
 #include "src/contact/surface/surfaceimpl.h"
 
-/* exchange.c: mortar facets of all ranks that may face this rank's part of the nonmortar face */
+/* exchange.c: the mortar facets of all ranks that may face this rank's part of the nonmortar face */
 typedef struct {
+  /* number of facets */
   PetscInt   n;
-  PetscInt  *node;      /* [4 n] */
-  PetscInt  *border;    /* [n] NULL unless the surface's border is known */
-  PetscReal *x;         /* [12 n] */
-  PetscReal *patch;     /* [12 n] NULL unless the surface is smooth */
-  PetscInt  *normal_id; /* [4 n] global numbers of the normals, with patch */
+  PetscInt  *node;      /* [4 n] global numbers of the vertices */
+  PetscInt  *border;    /* [n] as in ContactSurface; NULL unless the surface's border is known */
+  PetscReal *x;         /* [12 n] coordinates of the deformed vertices [length] */
+  PetscReal *patch;     /* [12 n] unit normals of the smooth surface; NULL unless the surface is smooth */
+  PetscInt  *normal_id; /* [4 n] global numbers of these normals; NULL unless the surface is smooth */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *,
   ContactCandidates *);
 PETSC_INTERN PetscErrorCode ContactCandidatesDestroy(ContactCandidates *);
 
-/* tree.c: a static tree of facets' bounding boxes, stored depth first: a node's first child follows it */
-#define CONTACT_TREE_DEPTH 128 /* depth of a tree of median splits is below this for any PetscInt number of facets */
+/* tree.c: a static tree of the facets' bounding boxes, stored depth first: the first child of node k is node k + 1 */
+/* the largest depth of the tree: below this for any number of facets, because the tree splits at medians */
+#define CONTACT_TREE_DEPTH 128
 typedef struct {
-  PetscReal box[6];      /* lower corner, upper corner of the node's box */
-  PetscInt  first, last; /* facets of a leaf: order[first] to order[last - 1] */
-  PetscInt  second;      /* index of the second child; 0 in a leaf */
+  PetscReal box[6];      /* lower corner and upper corner of the box that contains the node's facets */
+  PetscInt  first, last; /* the node's facets are order[first] to order[last - 1] */
+  PetscInt  second;      /* number of the second child; 0 if the node is a leaf */
 } ContactTreeNode;
 typedef struct {
   PetscInt         nnodes;
   ContactTreeNode *node;
-  PetscInt        *order;
-  PetscReal       *box; /* [6 n] boxes of the facets */
+  /* [n] numbers of the facets in the order of the leaves */
+  PetscInt  *order;
+  PetscReal *box; /* [6 n] boxes of the facets */
 } ContactTree;
 PETSC_INTERN PetscErrorCode ContactTreeCreate(const ContactCandidates *, ContactTree *);
 PETSC_INTERN PetscErrorCode ContactTreeDestroy(ContactTree *);
 
 /* nearest.c: the nearest facet that faces a vertex */
 typedef struct {
-  PetscInt  facet; /* index among the candidates; negative: none */
-  PetscReal xi[2]; /* parameters of its closest point */
+  PetscInt  facet; /* number among the candidates; -1: none */
+  PetscReal xi[2]; /* parameters of the facet's closest point */
+  /* coordinates of the closest point [length] */
   PetscReal y[3];
 } ContactNearest;
 PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach,
   const PetscReal x[3], const PetscReal normal[3], ContactNearest *);
 
-/* search.c: nonmortar facet f has the candidates facet[offset[f]] to facet[offset[f + 1] - 1] */
+/* search.c: the candidates of nonmortar facet f are facet[offset[f]] to facet[offset[f + 1] - 1] */
 typedef struct {
   PetscInt *offset, *facet;
 } ContactNear;

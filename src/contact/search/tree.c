@@ -1,15 +1,17 @@
-/* A static tree of the facets' bounding boxes; building and searching cost O(N log N) */
+/* A static tree of the facets' bounding boxes. It is built in O(N log N) operations, and a search takes O(log N) for
+   each facet found. */
 #include "searchimpl.h"
 
 #define TREE_LEAF_SIZE 4
 
-/* Twice the centre of a facet's box along an axis */
+/* Returns twice the coordinate of the centre of a facet's box along an axis [length] */
 static inline PetscReal TreeCentre(const ContactTree *t, PetscInt facet, PetscInt axis)
 {
   return t->box[6 * facet + axis] + t->box[6 * facet + 3 + axis];
 }
 
-/* Hoare's selection: reorders order[lo..hi] so that no facet before position k has a larger centre than one after it */
+/* Reorders order[lo..hi] by Hoare's selection so that no facet before position k has a larger centre than one after
+   position k */
 static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscInt hi, PetscInt k)
 {
   while (lo < hi) {
@@ -32,6 +34,8 @@ static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscIn
   }
 }
 
+/* Creates the node of the facets order[first] to order[last - 1] and, unless they fit into a leaf, its children. The
+   facets are split at the median along the axis along which their centres extend furthest. */
 static void TreeBuild(ContactTree *t, PetscInt first, PetscInt last)
 {
   const PetscInt   self = t->nnodes++;

@@ -1,19 +1,21 @@
-/* Derivatives of the normals of corner_normals.c by the nodes' coordinates, by the chain rule in the reverse order
-   of the computation. A matrix holds the derivatives of a normal's component in each row. */
+/* Derivatives of the normals of corner_normals.c with respect to the nodes' coordinates. The chain rule is applied in
+   the order opposite to the computation. Row i of a 3 x 3 matrix holds the derivatives of the normal's component i. */
 #include "smoothimpl.h"
 
-/* C = A + factor a b^T; A may be C, or NULL for none */
+/* Computes C = A + factor a b^T. A may be C; A = NULL stands for 0. */
 static void AddOuter(const PetscReal A[9], PetscReal factor, const PetscReal a[3], const PetscReal b[3], PetscReal C[9])
 {
   for (PetscInt i = 0; i < 9; ++i) C[i] = (A ? A[i] : 0.0) + factor * a[i / 3] * b[i % 3];
 }
 
+/* Computes b = A a */
 static void Times(const PetscReal A[9], const PetscReal a[3], PetscReal b[3])
 {
   for (PetscInt i = 0; i < 3; ++i) b[i] = VectorDot(&A[3 * i], a);
 }
 
-/* From the derivative A by v x a (factor 1) or a x v (factor -1) computes the derivative B by v */
+/* Applies the chain rule to a cross product. A is the derivative with respect to v x a (factor 1) or a x v (factor -1);
+   B is the derivative with respect to v. */
 static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal factor, PetscReal B[9])
 {
   for (PetscInt i = 0; i < 3; ++i) {
@@ -24,7 +26,8 @@ static void ThroughCross(const PetscReal A[9], const PetscReal a[3], PetscReal f
   }
 }
 
-/* From the derivative A by the unit vector n computes the derivative by the unscaled vector of this length */
+/* Applies the chain rule to a unit vector n = v / length. A is the derivative with respect to n; B is the derivative
+   with respect to v. */
 static void ThroughUnit(const PetscReal A[9], const PetscReal n[3], PetscReal length, PetscReal B[9])
 {
   PetscReal along[3];
@@ -34,6 +37,7 @@ static void ThroughUnit(const PetscReal A[9], const PetscReal n[3], PetscReal le
   for (PetscInt i = 0; i < 9; ++i) B[i] = length > 0.0 ? B[i] / length : 0.0;
 }
 
+/* Appends the block A of a node, or only counts it */
 static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *slopes)
 {
   if (slopes->node) {
@@ -43,8 +47,8 @@ static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *s
   ++slopes->n;
 }
 
-/* Adds factor A, a derivative by the node at a corner. A mirror image moves with its node, reversed across the
-   mirror plane, and with the nodes on the plane. */
+/* Adds factor A, a derivative with respect to the node at a corner. The position of a mirror image depends on its real
+   node, with the opposite sign along the axis of the mirror plane, and on the nodes on the plane. */
 static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -62,7 +66,8 @@ static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, 
   }
 }
 
-/* Adds A, a derivative by the edge from a corner to the next one (after), or to the previous one */
+/* Adds A, a derivative with respect to the edge vector from a corner to the next corner (`after`), or to the previous
+   one */
 static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -70,7 +75,7 @@ static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, c
   AddNode(ring, corner, -1.0, A, slopes);
 }
 
-/* Adds A, a derivative by the unit normal of ContactRingFanNormal() */
+/* Adds A, a derivative with respect to the unit normal of ContactRingFanNormal() */
 static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
@@ -95,6 +100,7 @@ static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const
   }
 }
 
+/* Adds A, a derivative with respect to the mean normal at a corner */
 static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[9], ContactNormalSlopes *slopes)
 {
   PetscInt first, last;
@@ -103,9 +109,12 @@ static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[
   AddFan(ring, first, last, A, slopes);
 }
 
-/* Adds A, a derivative by the corrected normal before it is scaled. The correction of MendCorner() is mean + d_0 b_0
-   + d_1 b_1; D: dual vectors of the edges d */
-static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
+/*
+   Adds A, a derivative with respect to the normal that CorrectCorner() computes, before it is scaled. That normal is n
+   + b_0 d_0 + b_1 d_1, where n is the mean normal and d are the edges. D: dual vectors of the edges, D_i.d_j = 1 for i
+   = j and 0 otherwise; m: mean normals at the other ends of the edges
+*/
+static void AddCorrectedCorner(const ContactRing *ring, PetscInt corner, const PetscReal n[3], const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
   PetscReal d[2][3], m[2][3], D[2][3] = {{0}}, G[3], b[2] = {0}, mean[9], B[9], AD[2][3], det;
@@ -143,12 +152,13 @@ static void AddMendedCorner(const ContactRing *ring, PetscInt corner, const Pets
   }
 }
 
-/* Sums of MendBorder() over the edges that lead inward: c_k = across.d_k, r_k = -(n + m_k).d_k, correction b = sum
-   r_k c_k / sum c_k^2 */
+/* Sums that CorrectBorder() computes over the edges d_k that lead away from the border. With c_k = across.d_k and r_k =
+   -(n + m_k).d_k, `squares` is sum c_k^2 and `slope` is sum r_k c_k / sum c_k^2. */
 typedef struct {
   PetscReal along[3], across[3], length, slope, squares;
 } Border;
 
+/* Computes the sums at the node of an open fan of corners with the mean normal n */
 static void BorderCreate(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3], Border *border)
 {
   PetscReal after[3], before[3], d[3], m[3], sum = 0.0;
@@ -168,9 +178,9 @@ static void BorderCreate(const ContactRing *ring, PetscInt first, PetscInt last,
   border->slope = border->squares > 0.0 ? sum / border->squares : 0.0;
 }
 
-/* Adds A, a derivative by the corrected normal before it is scaled: the mean plus b times the direction across the
-   border */
-static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
+/* Adds A, a derivative with respect to the normal that CorrectBorder() computes, before it is scaled: the mean normal n
+   plus slope times `across` */
+static void AddCorrectedBorder(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal n[3],
   const PetscReal A[9], ContactNormalSlopes *slopes)
 {
   PetscReal AX[3], mean[9], across[9], B[9];
@@ -208,23 +218,23 @@ static void AddMendedBorder(const ContactRing *ring, PetscInt first, PetscInt la
   AddEdge(ring, last, PETSC_FALSE, B, slopes);
 }
 
-/* Computes the derivative blocks of the normal at a corner. Their number and nodes do not depend on the
+/* Computes the derivative blocks of the normal at a corner. Their number and their nodes do not depend on the
    displacement. */
 void ContactRingNormalSlopes(const ContactRing *ring, PetscInt corner, ContactNormalSlopes *slopes)
 {
   const PetscReal identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   PetscInt        first, last;
-  PetscReal       n[3], mended[3], length, A[9];
+  PetscReal       n[3], corrected[3], length, A[9];
 
   if (ContactRingFan(ring, corner, &first, &last)) {
     AddFan(ring, first, last, identity, slopes);
     return;
   }
   (void)ContactRingFanNormal(ring, first, last, n);
-  for (PetscInt c = 0; c < 3; ++c) mended[c] = n[c];
-  ContactRingMend(ring, first, last, mended);
-  length = VectorScaleToUnit(mended);
-  ThroughUnit(identity, mended, length, A);
-  if (first == last) AddMendedCorner(ring, corner, n, A, slopes);
-  else AddMendedBorder(ring, first, last, n, A, slopes);
+  for (PetscInt c = 0; c < 3; ++c) corrected[c] = n[c];
+  ContactRingCorrectNormal(ring, first, last, corrected);
+  length = VectorScaleToUnit(corrected);
+  ThroughUnit(identity, corrected, length, A);
+  if (first == last) AddCorrectedCorner(ring, corner, n, A, slopes);
+  else AddCorrectedBorder(ring, first, last, n, A, slopes);
 }

@@ -1,11 +1,11 @@
-/* Normals of the smooth surface at the facets' corners: means over the facets around a node, corrected at the border
-   of the surface */
+/* Normals of the smooth surface at the facets' corners: means over the facets around a node, with a correction at the
+   border of the surface */
 #include "smoothimpl.h"
 
 /*
-   n: sum over the corners from first to last of (e x f) / (e.e f.f), where e and f are the edges that meet there,
-   scaled to length 1. It is exact on spheres and cylinders for any edge lengths (N. Max, Weights for computing vertex
-   normals from facet normals, J. Graphics Tools 4 (1999)). Returns the length before scaling.
+   Computes n, the sum of (e x f) / (e.e f.f) over the corners from `first` to `last`, scaled to length 1. The edges e
+   and f meet at the corner. The normal is exact on spheres and cylinders for any edge lengths (N. Max, Weights for
+   computing vertex normals from facet normals, J. Graphics Tools 4 (1999)). Returns the length before scaling.
 */
 PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
@@ -22,7 +22,7 @@ PetscReal ContactRingFanNormal(const ContactRing *ring, PetscInt first, PetscInt
   return VectorScaleToUnit(n);
 }
 
-/* Mean over all facets around a corner's node that are not separated by a sharp edge */
+/* Computes the mean normal n over those facets around a corner's node that are not separated by a sharp edge */
 void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt first, last;
@@ -31,9 +31,9 @@ void ContactRingMeanNormal(const ContactRing *ring, PetscInt corner, PetscReal n
   (void)ContactRingFanNormal(ring, first, last, n);
 }
 
-/* Corrects the normal at a corner with a single facet: along both its edges the surface is continued as an arc,
-   whose end normals are mirror images */
-static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
+/* Corrects the normal n at a node that only one facet has. Along both edges of the facet the surface is continued as an
+   arc: the normals at the two ends of an arc are mirror images. */
+static void CorrectCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscReal d[2][3], m[3], G[3], rhs[2], det;
 
@@ -50,9 +50,12 @@ static void MendCorner(const ContactRing *ring, PetscInt corner, PetscReal n[3])
     n[c] += ((G[1] * rhs[0] - G[2] * rhs[1]) * d[0][c] + (G[0] * rhs[1] - G[2] * rhs[0]) * d[1][c]) / det;
 }
 
-/* Corrects the normal of a vertex on the border. Along the border the mean is right. Across it, the surface is
-   continued as an arc along the edges that lead inward, by least squares. */
-static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
+/*
+   Corrects the normal n of a node on the border. The component along the border is that of the mean normal. The
+   component across the border is determined by least squares, so that the surface continues as an arc along the edges
+   that lead away from the border.
+*/
+static void CorrectBorder(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal after[3], before[3], d[3], m[3], along[3], across[3], sum = 0.0, squares = 0.0;
 
@@ -71,15 +74,16 @@ static void MendBorder(const ContactRing *ring, PetscInt first, PetscInt last, P
   for (PetscInt c = 0; c < 3; ++c) n[c] += sum / squares * across[c];
 }
 
-/* Corrects the unit mean n of an open fan of facets so that the surface ends as an arc; the result is not scaled */
-void ContactRingMend(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
+/* Corrects the mean unit normal n at the node of an open fan of corners so that the surface ends as an arc. The result
+   has not length 1. */
+void ContactRingCorrectNormal(const ContactRing *ring, PetscInt first, PetscInt last, PetscReal n[3])
 {
-  if (first == last) MendCorner(ring, first, n);
-  else MendBorder(ring, first, last, n);
+  if (first == last) CorrectCorner(ring, first, n);
+  else CorrectBorder(ring, first, last, n);
 }
 
-/* Unit normal at a corner: mean over the facets around its node that are not separated by a sharp edge; zero if they
-   cancel */
+/* Computes the unit normal at a corner: the mean over the facets around its node that are not separated by a sharp
+   edge, corrected at the border. The normal is zero if the contributions cancel. */
 void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 {
   PetscInt        first, last;
@@ -87,6 +91,6 @@ void ContactRingNormal(const ContactRing *ring, PetscInt corner, PetscReal n[3])
 
   (void)ContactRingFanNormal(ring, first, last, n);
   if (closed) return;
-  ContactRingMend(ring, first, last, n);
+  ContactRingCorrectNormal(ring, first, last, n);
   (void)VectorScaleToUnit(n);
 }

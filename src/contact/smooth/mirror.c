@@ -1,26 +1,32 @@
-/* Where a face ends on a plane on which its body is held, the smooth surface is continued by its mirror image. The
-   facets of a ring near such a plane are mirrored, so that normals on the border are ordinary means. */
+/*
+   Where a face ends on a plane on which its body is held along the plane's normal, the smooth surface is continued by
+   its mirror image. The facets of a ring near such a plane are mirrored, so that normals on the border are means over
+   facets on both sides.
+*/
 #include "smoothimpl.h"
 
-/* tolerance for the angle to the plane: the normal extrapolated to the undeformed border may lean out of the plane
-   by this fraction of the facet's normal */
+/* A surface counts as perpendicular to the plane if the component of the vertex normal along the plane's normal is at
+   most this fraction of the facet normal's component, */
 #define MIRROR_OBLIQUE 0.2
-/* and by this much for rounding in mesh files */
+/* plus this much for rounding in mesh files. */
 #define MIRROR_ROUNDING 1e-6
 
-/* A plane normal to an axis that contains edges of the border, which are held along the axis */
+/* A plane perpendicular to an axis that contains edges of the border, which are held along that axis. All fields are
+   real, so that planes can be sent as one array. */
 typedef struct {
+  /* number of the axis, and coordinate of the plane along the axis [length] */
   PetscReal axis, place;
-  PetscReal oblique; /* 0 or 1: the surface is not perpendicular to the plane, on any rank */
+  PetscReal oblique; /* 1 if the surface is not perpendicular to the plane, on any rank; else 0 */
 } MirrorPlane;
 #define MIRROR_REALS ((PetscMPIInt)(sizeof(MirrorPlane) / sizeof(PetscReal)))
 
+/* Returns whether a node is held along the axis */
 static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt axis)
 {
   return (PetscBool)((ring->held[node] >> axis & 1) != 0);
 }
 
-/* Whether the surface at a corner is not perpendicular to the plane */
+/* Returns whether the surface at a corner is not perpendicular to a plane normal to the axis */
 static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, PetscInt axis)
 {
   PetscReal x[12], facet[3], n[3];
@@ -31,7 +37,7 @@ static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, Petsc
   return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
 }
 
-/* Adds a plane, or updates an existing one */
+/* Adds a plane, or updates `oblique` of an existing plane */
 static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, MirrorPlane planes[])
 {
   for (PetscInt k = 0; k < *n; ++k) {
@@ -42,7 +48,7 @@ static void MirrorAddPlane(MirrorPlane plane, PetscReal tolerance, PetscInt *n, 
   planes[(*n)++] = plane;
 }
 
-/* Finds the planes of this rank's own facets; needs space for three per edge */
+/* Finds the planes of the facets that this rank owns. The array must have space for three planes per edge. */
 static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, PetscReal tolerance, PetscInt *n,
   MirrorPlane planes[])
 {
@@ -64,7 +70,7 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds all planes of the surface, identical on every rank; the caller frees planes */
+/* Collective. Finds all planes of the surface, equal on every rank. The caller frees *planes. */
 static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance,
   PetscInt *n, MirrorPlane **planes)
 {
@@ -83,15 +89,15 @@ static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, P
   PetscCall(PetscMalloc1(start[size] / MIRROR_REALS, &all));
   PetscCallMPI(MPI_Allgatherv(own, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
   *n      = 0;
-  *planes = all; /* this buffer is free again */
+  *planes = all; /* The planes that remain are stored at the beginning of the same array. */
   for (PetscInt k = 0; k < start[size] / MIRROR_REALS; ++k) MirrorAddPlane(all[k], tolerance, n, all);
   PetscCall(PetscFree2(count, start));
   PetscCall(PetscFree(own));
   PetscFunctionReturn(0);
 }
 
-/* on[v]: node v is on the plane and held there; near[v]: node v is at most two facets away from such a node. any:
-   whether any node is on the plane */
+/* Sets on[v] if node v is on the plane and held there, and near[v] if node v is at most two facets away from such a
+   node. *any: a real node on the plane, or -1 if there is none */
 static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance,
   PetscBool on[], PetscBool near[], PetscInt *any)
 {
@@ -137,7 +143,8 @@ static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis
   PetscFunctionReturn(0);
 }
 
-/* Adds the mirror images of the facets near a plane. flips[f]: bits of the axes along which facet f is mirrored */
+/* Adds the mirror images of the facets near a plane. Bit c of flips[f] is set if facet f is a mirror image along axis
+   c. */
 static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane, PetscReal tolerance, PetscInt **flips)
 {
   const PetscInt axis = (PetscInt)plane->axis, nfacets = ring->nfacets, nnodes = ring->nnodes;
@@ -158,7 +165,8 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
     PetscCall(PetscRealloc((ring->nfacets + 1) * sizeof(PetscInt), flips));
     node                    = &ring->node[4 * f];
     (*flips)[ring->nfacets] = (*flips)[f] | 1 << axis;
-    for (PetscInt a = 0; a < 4; ++a) { /* reversed, so that it is counterclockwise from outside */
+    for (PetscInt a = 0; a < 4; ++a) { /* The order is reversed, so that the vertices are counterclockwise seen from
+                                          outside. */
       static const PetscInt of_triangle[4] = {0, 2, 1, 1};
       const PetscInt        v              = node[node[2] == node[3] ? of_triangle[a] : (4 - a) % 4];
 
@@ -174,8 +182,8 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the mirror images of a ring's facets in all planes on which the surface ends perpendicularly.
-   Neighbours across their edges are set later. length: size of a facet */
+/* Collective. Adds the mirror images of a ring's facets in all planes to which the surface is perpendicular where it
+   ends. Sets no neighbours of the new facets. length: size of the largest facet [length] */
 PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
 {
   const PetscReal tolerance = MIRROR_ROUNDING * length;

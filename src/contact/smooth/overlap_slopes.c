@@ -1,40 +1,47 @@
 /*
-   The gap of two smooth surfaces over an overlap, int phi_A (H2 - H1), where H is the height above the plane of the
-   nonmortar facet, and the covered area int phi_A. Both are computed with their derivatives by everything that moves:
-   positions and weights of the quadrature points, the plane, and the patches. A rigid motion changes nothing in the
-   plane's own axes. Hence the forces from these derivatives and their moments balance up to rounding.
+   The weighted gap between two smooth surfaces over an overlap, int phi_A (H2 - H1), and the covered area int phi_A. H1
+   and H2 are the heights of the surfaces above the plane of the nonmortar facet. The derivatives include everything
+   that moves: positions and weights of the quadrature points, the plane, and the patches. A rigid motion changes none
+   of the quantities in the plane's own axes. Hence forces computed from these derivatives, and their moments, balance
+   up to rounding.
 */
 #include "smoothimpl.h"
 
-/* sine of the angle below which two lines count as parallel: their intersection would be too inaccurate */
+/* Two lines count as parallel if the sine of the angle between them is smaller. Their intersection would be too
+   inaccurate. */
 #define PARALLEL 5e-3
 
+/* Two facets in the plane of the nonmortar facet */
 typedef struct {
   ContactFrame        frame;
-  const ContactPatch *patch[2];                 /* nonmortar, mortar */
-  PetscReal           p[2][4][2], height[2][4]; /* coordinates of the vertices in the plane, and heights above it */
+  const ContactPatch *patch[2];                 /* patches of the nonmortar and of the mortar facet */
+  PetscReal           p[2][4][2], height[2][4]; /* coordinates of the vertices in the plane, and heights above it
+                                                   [length] */
 } PlanePair;
 
-/* Derivatives in the plane's axes: by the facets' vertices, and by the corners of the overlap */
+/* Derivatives of a quantity with respect to the positions, in the plane's axes, of the facets' vertices and of the
+   corners of the overlap */
 typedef struct {
   PetscReal p[2][4][2], corner[CONTACT_MAX_CORNERS][2];
 } PlaneMotion;
 
-/* Derivatives of one row's gap and covered area */
+/* Derivatives of one row's weighted gap and of its covered area */
 typedef struct {
   PlaneMotion  gap, cover;
-  PetscReal    height[2][4];
-  ContactPatch patch[2];
+  PetscReal    height[2][4]; /* derivatives of the gap with respect to the heights of the vertices above the plane */
+  ContactPatch patch[2];     /* derivatives of the gap with respect to the coefficients of the patches */
 } PlaneSlopes;
 
-/* A quadrature point in the plane's axes; slopes are derivatives by its position in the plane for a fixed surface */
+/* A quadrature point on one facet, in the plane's axes. Slopes are derivatives with respect to its position in the
+   plane. */
 typedef struct {
-  PetscReal    phi[4], slope[4][2]; /* shape functions */
-  PetscReal    height, tilt[2];     /* height and slopes of the smooth surface */
-  ContactPatch by;
+  PetscReal    phi[4], slope[4][2]; /* shape functions and their slopes */
+  PetscReal    height, tilt[2];     /* height of the smooth surface above the plane, and its slopes */
+  ContactPatch by;                  /* derivatives of the height with respect to the patch */
 } PlanePoint;
 
-/* Turns derivatives by the parameters into derivatives by position in the plane */
+/* Converts derivatives with respect to the parameters xi into derivatives with respect to the position in the plane. J:
+   derivative of the position with respect to xi */
 static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], PetscReal gradient[2])
 {
   const PetscReal det = J[0][0] * J[1][1] - J[0][1] * J[1][0];
@@ -43,6 +50,7 @@ static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], Pet
   gradient[1] = det != 0.0 ? (J[0][0] * by_xi[1] - J[0][1] * by_xi[0]) / det : 0.0;
 }
 
+/* Evaluates a quadrature point with the parameters xi on one side (0 nonmortar, 1 mortar) */
 static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PlanePoint *point)
 {
   PetscReal dphi[4][2], J[2][2] = {{0}}, by_xi[2];
@@ -61,6 +69,7 @@ static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const Petsc
   for (PetscInt a = 0; a < 4; ++a) PlaneGradient(J, dphi[a], point->slope[a]);
 }
 
+/* Adds factor times the derivatives `by` to `sum` */
 static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum)
 {
   for (PetscInt e = 0; e < 4; ++e) {
@@ -72,8 +81,8 @@ static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum
   }
 }
 
-/* Adds a point with this weight to row a's gap and returns its part. place: derivative of the gap by the point's
-   position in the plane */
+/* Adds the derivatives at one quadrature point to those of row a's weighted gap, and returns the point's part of the
+   gap [length^3]. place: derivative of the gap with respect to the point's position in the plane */
 static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
@@ -96,7 +105,8 @@ static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weigh
   return share * gap;
 }
 
-/* The same for the covered area */
+/* Adds the derivatives at one quadrature point to those of row a's covered area, and returns the point's part of the
+   area [length^2]. place: derivative with respect to the point's position in the plane */
 static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal weight, PlaneMotion *by,
   PetscReal place[2])
 {
@@ -107,7 +117,8 @@ static PetscReal AddPointCover(const PlanePoint *point, PetscInt a, PetscReal we
   return weight * point->phi[a];
 }
 
-/* Distributes the derivative by a point of a triangle to the triangle's corners */
+/* Distributes `place`, the derivative with respect to a point of a triangle, to the triangle's corners by its
+   barycentric coordinates */
 static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentric[3], const PetscReal place[2],
   PlaneMotion *by)
 {
@@ -116,7 +127,7 @@ static void AddPlace(const ContactTriangle *triangle, const PetscReal barycentri
   }
 }
 
-/* Adds the derivative through a triangle's area; mean: the sum over the triangle per area */
+/* Adds the derivative with respect to a triangle's area. mean: the integral over the triangle divided by its area */
 static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, PetscReal mean, PlaneMotion *by)
 {
   for (PetscInt v = 0; v < 3; ++v) {
@@ -128,7 +139,7 @@ static void AddArea(const ContactOverlap *o, const ContactTriangle *triangle, Pe
   }
 }
 
-/* Adds the points of triangle t and the derivative by its area, which exists also if the area is zero */
+/* Adds the points of triangle t and the derivative with respect to its area, which is not zero even if the area is */
 static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscInt t, const PlanePair *pair,
   PetscReal gap[4], PetscReal cover[4], PlaneSlopes by[4])
 {
@@ -158,7 +169,8 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
   }
 }
 
-/* Distributes the derivative by a corner that moves with its line k to the two vertices of that line */
+/* Distributes `force`, the derivative with respect to a corner that moves with its line k, to the two vertices of that
+   line */
 static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscInt k, const PetscReal force[2],
   PlaneMotion *by)
 {
@@ -173,8 +185,8 @@ static void MoveLine(const PlanePair *pair, const ContactCorner *corner, PetscIn
   }
 }
 
-/* Distributes the derivative by a corner to the vertices of the two lines that intersect there. If they are almost
-   parallel, the corner is taken as fixed on the nonmortar facet. */
+/* Distributes `force`, the derivative with respect to a corner, to the vertices of the two lines that intersect there.
+   If the lines are almost parallel, the corner moves with the line of the nonmortar facet. */
 static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const PetscReal force[2], PlaneMotion *by)
 {
   PetscReal normal[2][2], along[2][2], staying[2], sine, stays;
@@ -189,9 +201,8 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
     PetscReal        length;
 
     if (corner->line[0][0] / 4 == corner->line[1][0] / 4 &&
-        (from == corner->line[1 - k][0] ||
-          from == corner->line[1 - k][1])) { /* both lines belong to the same facet: the corner is their common
-                                                vertex */
+        (from == corner->line[1 - k][0] || from == corner->line[1 - k][1])) {
+      /* Both lines belong to the same facet, so that the corner is their common vertex. */
       for (PetscInt c = 0; c < 2; ++c) by->p[from / 4][from % 4][c] += force[c];
       return;
     }
@@ -214,8 +225,8 @@ static void MoveCorner(const PlanePair *pair, const ContactCorner *corner, const
   }
 }
 
-/* Turns derivatives in the plane's axes into derivatives by the vertices of one facet. height: derivatives by
-   heights above the plane; NULL: none */
+/* Converts derivatives in the plane's axes into derivatives by_x with respect to the vertices of one facet. height:
+   derivatives with respect to the heights above the plane; NULL: zero */
 static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const PetscReal *height, PetscReal by_x[12])
 {
   const PetscReal(*axis)[3] = pair->frame.axis;
@@ -227,7 +238,7 @@ static void LeavePlane(const PlanePair *pair, const PetscReal p[4][2], const Pet
   }
 }
 
-/* Adds to moment the moment of derivatives by the vertices about the plane's origin */
+/* Adds to `moment` the moment of the derivatives by_x, taken as forces on the vertices x, about the plane's origin */
 static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const PetscReal by_x[12], PetscReal moment[3])
 {
   for (PetscInt b = 0; b < 4; ++b) {
@@ -240,9 +251,12 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
   }
 }
 
-/* Derivatives of row a. The plane turns with the nonmortar facet, so everything measured in its axes turns back. Two
-   variants: patches bend with the normals; or patches keep their shape and turn with their facets (the nonmortar
-   patch then turns with the plane). */
+/*
+   Adds the derivatives of row a's weighted gap. The plane rotates with the nonmortar facet. Quantities that were held
+   fixed in the plane's axes therefore rotate too, which adds a moment. There are two variants: in `x` and `normal`
+   patches bend with the normals; in `rigid` patches keep their shape and rotate with their facets, the nonmortar patch
+   together with the plane.
+*/
 static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
@@ -272,7 +286,7 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
   for (PetscInt i = 0; i < 12; ++i) nonmortar->x[a][i] += tilt[i];
 }
 
-/* Derivatives of row a's covered area */
+/* Adds the derivatives of row a's covered area */
 static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneMotion *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
@@ -290,8 +304,9 @@ static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *cons
 }
 
 /*
-   gap[A] = int phi_A (H2 - H1) and cover[A] = int phi_A over the overlap of x1 and x2 found by ContactOverlapFind().
-   Derivatives are stored in mortar and added to nonmortar; both NULL: without derivatives.
+   Computes gap[A] = int phi_A (H2 - H1) [length^3] and cover[A] = int phi_A [length^2] over the overlap of x1 and x2
+   that ContactOverlapFind() has found. The derivatives with respect to the mortar facet are stored in `mortar`; those
+   with respect to the nonmortar facet are added to `nonmortar`. If both are NULL, no derivatives are computed.
 */
 void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],

@@ -1,25 +1,25 @@
 /*
-   The smooth surface through a facet: the facet plus the heights of curved edges over its straight ones. An edge
-   between vertices with normals n0 and n1 is a cubic over its chord, the straight edge d. It bends along the mean N of
-   the normals. Its height at eta in [0, 1] is
+   The smooth surface over a facet: the facet plus the heights of curved edges above its straight edges. An edge between
+   vertices with normals n0 and n1 is a cubic curve over its chord d, the straight edge. Its heights are measured in the
+   direction of the mean N of the normals. The height at eta in [0, 1] is
 
      eta (1 - eta) (a0 (1 - eta) - a1 eta),   a = -2 d.n/(1 + N.n).
 
-   This is twice the tangent of half an angle instead of the tangent of the angle, so that the midpoint of an arc is
-   exact. Heights of opposite edges are blended linearly (S. A. Coons 1967; with quadratic edges T. Nagata, Comput.
-   Aided Geom. Design 22 (2005)). In a triangle the third edge is a point, and the height of the first edge is blended
-   quadratically; quadratic edges then give the quadratic surface.
+   The slope a is twice the tangent of half the angle between edge and chord, instead of the tangent of the angle, so
+   that the midpoint of an arc is exact. Heights of opposite edges are blended linearly (S. A. Coons 1967; with
+   quadratic edges T. Nagata, Computer Aided Geom. Design 22 (2005)). In a triangle the third edge is a point, and the
+   height of the first edge is blended quadratically. Quadratic edges then give the quadratic surface.
 */
 #include "smoothimpl.h"
 
-/* limit of the slope at an edge's end against its chord; steeper normals belong to a crumpled face and are
-   meaningless */
+/* largest slope of an edge's end relative to its chord. Steeper normals belong to a crumpled face and are
+   meaningless. */
 #define STEEPEST 0.7
-/* limit of the length of the sum of the two normals: an edge stays straight if a normal is missing or they differ by
-   119 degrees or more */
+/* An edge stays straight if the sum of its two unit normals is not longer than this: a normal is missing, or the
+   normals differ by 119 degrees or more. */
 #define LEAST_SUM 1.01
 
-/* Whether edge e has two usable normals */
+/* Returns whether edge e has two usable normals */
 PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
 {
   const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
@@ -29,7 +29,7 @@ PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
   return (PetscBool)(VectorDot(N, N) > PetscSqr(LEAST_SUM));
 }
 
-/* Computes edge e from vertex e to the next; straight if a normal is missing or the two are opposite */
+/* Computes the curve of edge e, from vertex e to the next. The edge is straight if ContactPatchIsBent() is false. */
 static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
 {
   const PetscReal *x0 = &x[3 * e], *x1 = &x[3 * ((e + 1) % 4)],
@@ -49,7 +49,7 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
     p->slope[e][i] = PetscClipInterval(-2.0 * VectorDot(d, n[i]) / (1.0 + VectorDot(N, n[i])), -steepest, steepest);
 }
 
-/* Creates the patch of the facet x with these unit normals at its vertices; a zero normal means a missing one */
+/* Creates the patch of the facet x. normal: unit normals at its vertices; zero for a missing normal */
 void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *p)
 {
   p->triangle = ContactFacetIsTriangle(x);
@@ -57,7 +57,7 @@ void ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], Conta
   for (PetscInt e = 0; e < 4; ++e) BendEdge(x, e, p);
 }
 
-/* Largest distance of the patch from the facet */
+/* Returns an upper bound of the distance between the patch and the facet [length] */
 PetscReal ContactPatchBulge(const ContactPatch *p)
 {
   PetscReal bulge = 0.0;
@@ -66,7 +66,8 @@ PetscReal ContactPatchBulge(const ContactPatch *p)
   return bulge;
 }
 
-/* offset: position on the patch minus position on the facet at xi; normal: of the patch there */
+/* Computes offset, the vector from the facet's point xi to the patch's point [length], and the normal of the patch
+   there, which is not scaled to length 1 */
 void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3])
 {
   const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},

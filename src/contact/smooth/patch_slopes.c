@@ -1,12 +1,13 @@
-/* Derivatives of quantities at a patch's points: by the parameters, by the patch's coefficients, and by the vertices
-   and normals that determine these */
+/* Derivatives of quantities at a patch's points with respect to the parameters, to the patch's coefficients, and to the
+   vertices and normals that determine these coefficients */
 #include "smoothimpl.h"
 
-/* heights are not measured along a direction that makes more than 60 degrees with the patch's normal (squared
-   cosine) */
+/* Squared cosine of 60 degrees. If a direction makes a larger angle with the patch's normal, heights along it are not
+   measured with the tangent plane. */
 #define STEEPEST_SQUARED_COSINE 0.25
 
-/* Height of edge e at eta in [0, 1], times blend; by: its derivatives by eta, by blend and by the two slopes */
+/* Returns the height of edge e at eta in [0, 1], multiplied by `blend` [length]. by: its derivatives with respect to
+   eta, to blend and to the two slopes */
 static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal by[4])
 {
   const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta),
@@ -19,7 +20,8 @@ static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, Pe
   return blend * bump * tilt;
 }
 
-/* Turns derivatives by offset and normal of ContactPatchEvaluate() at xi into derivatives by xi and by the patch */
+/* Converts derivatives with respect to offset and normal, as computed by ContactPatchEvaluate() at xi, into derivatives
+   with respect to xi and to the patch's coefficients */
 void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
 {
@@ -49,8 +51,8 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
   }
 }
 
-/* Height of the patch above its facet at xi along a unit direction, measured with the tangent plane at the patch's
-   point; with derivatives */
+/* Returns the height of the patch above its facet's point xi along a unit direction [length], measured to the tangent
+   plane at the patch's point. Computes the derivatives of the height with respect to xi and to the patch. */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], ContactPatch *by)
 {
@@ -65,7 +67,8 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
       by_normal[c] = 0.0;
     }
   } else {
-    height = cosine != 0.0 ? VectorDot(offset, normal) / cosine : 0.0; /* if there is no normal there is no offset */
+    /* If there is no normal, the offset is zero. */
+    height = cosine != 0.0 ? VectorDot(offset, normal) / cosine : 0.0;
     for (PetscInt c = 0; c < 3; ++c) {
       by_offset[c] = cosine != 0.0 ? normal[c] / cosine : 0.0;
       by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
@@ -75,7 +78,8 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
   return height;
 }
 
-/* Adds the derivatives of edge e's slopes and direction by its chord and by the normals at its ends */
+/* Adds the derivatives through edge e's slopes and direction, with respect to its chord d and to the normals at its
+   ends */
 static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by,
   PetscReal by_chord[3], PetscReal by_normal[2][3])
 {
@@ -86,9 +90,8 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   for (PetscInt i = 0; i < 2; ++i) {
     const PetscReal half = 1.0 + VectorDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
 
-    if (PetscAbsReal(-2.0 * VectorDot(d, n[i]) / half) >
-        PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) { /* the slope is at its limit, a fixed fraction of
-                                                                       the chord */
+    if (PetscAbsReal(-2.0 * VectorDot(d, n[i]) / half) > PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) {
+      /* The slope is at its limit, a fixed fraction of the chord's length. */
       for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / VectorDot(d, d) * d[c];
       continue;
     }
@@ -104,8 +107,8 @@ static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, c
   }
 }
 
-/* Turns derivatives by the patch into derivatives by the facet's vertices x and the unit normals there, and adds
-   them */
+/* Converts derivatives with respect to the patch's coefficients into derivatives with respect to the facet's vertices x
+   and to the unit normals there, and adds them to by_x and by_normal */
 void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
   PetscReal by_normal[12])
 {
@@ -124,7 +127,7 @@ void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const Conta
   }
 }
 
-/* moment: derivative by a rotation of the patch about each axis */
+/* Computes `moment`, the derivative with respect to a rotation [rad] of the patch about each axis */
 void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal moment[3])
 {
   for (PetscInt c = 0; c < 3; ++c) moment[c] = 0.0;

@@ -1,12 +1,12 @@
 /*
-   The ring: this rank's facets and two layers of facets around them, fetched from any rank. The normals of a smooth
-   surface are computed from it. Corner 4 f + a is vertex a of facet f (a triangle has three); it also stands for the
-   edge from that vertex to the next. Facets are not neighbours across an edge that is sharper, undeformed, than the
-   feature angle: each side has its own normals.
+   The ring consists of this rank's facets and of two layers of facets around them, fetched from any rank. The normals
+   of a smooth surface are computed from it. Corner 4 f + a is vertex a of facet f; a triangle has three corners. A
+   corner also represents the edge from its vertex to the next. Two facets are not neighbours across an edge if the
+   angle between their undeformed normals exceeds the feature angle. Each side of such a sharp edge has its own normals.
 */
 #include "smoothimpl.h"
 
-/* Number of corners of the facet; a triangle stores its last node twice */
+/* Returns the number of corners of a corner's facet. A triangle stores its last node twice. */
 static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)
 {
   const PetscInt *node = &ring->node[4 * (corner / 4)];
@@ -14,11 +14,13 @@ static PetscInt RingCountCorners(const ContactRing *ring, PetscInt corner)
   return node[2] == node[3] ? 3 : 4;
 }
 
+/* Returns the next corner of the facet, counterclockwise */
 PetscInt ContactCornerAfter(const ContactRing *ring, PetscInt corner)
 {
   return 4 * (corner / 4) + (corner % 4 + 1) % RingCountCorners(ring, corner);
 }
 
+/* Returns the previous corner of the facet */
 PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
 {
   const PetscInt n = RingCountCorners(ring, corner);
@@ -26,14 +28,14 @@ PetscInt ContactCornerBefore(const ContactRing *ring, PetscInt corner)
   return 4 * (corner / 4) + (corner % 4 + n - 1) % n;
 }
 
-/* Whether it is the fourth corner of a triangle, which is not used */
+/* Returns whether a corner is the fourth corner of a triangle, which is not used */
 PetscBool ContactCornerIsNone(const ContactRing *ring, PetscInt corner)
 {
   return (PetscBool)(corner % 4 >= RingCountCorners(ring, corner));
 }
 
-/* First (clockwise) and last corner around a corner's node before a sharp edge or the border; returns true if there
-   is neither */
+/* Finds the first (clockwise) and the last corner around a corner's node before a sharp edge or the border. Returns
+   true if there is neither, so that the corners form a closed fan. */
 PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -48,7 +50,7 @@ PetscBool ContactRingFan(const ContactRing *ring, PetscInt corner, PetscInt *fir
   return PETSC_FALSE;
 }
 
-/* Computes the position of the image v from its real node and the mirror planes */
+/* Computes the position of the mirror image v from its real node and the mirror planes */
 void ContactRingReflect(ContactRing *ring, PetscInt v)
 {
   const ContactImage *image = &ring->image[v - ring->nreal];
@@ -60,7 +62,7 @@ void ContactRingReflect(ContactRing *ring, PetscInt v)
   }
 }
 
-/* Collective. Moves the nodes by a global displacement vector */
+/* Collective. Moves the nodes to the global displacement vector u */
 PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
 {
   const PetscScalar *a;
@@ -75,7 +77,7 @@ PetscErrorCode ContactRingDeform(Vec u, ContactRing *ring)
   PetscFunctionReturn(0);
 }
 
-/* Edge vectors from a corner's vertex to the next and to the previous vertex of its facet */
+/* Computes the edge vectors from a corner's vertex to the next and to the previous vertex of its facet [length] */
 void ContactRingEdges(const ContactRing *ring, PetscInt corner, PetscReal after[3], PetscReal before[3])
 {
   const PetscReal *x = &ring->x[3 * ring->node[corner]],

@@ -1,8 +1,8 @@
-/* Creates a ring: fetches facets from their ranks, numbers nodes, finds neighbours and numbers normals */
+/* Creates a ring: fetches facets from other ranks, numbers nodes, finds neighbours across edges, and numbers normals */
 #include "smoothimpl.h"
 
-/* Box around this rank's undeformed facets, enlarged to contain neighbouring facets; length: size of the largest
-   facet on all ranks, the amount of enlargement */
+/* Collective. Computes the box around this rank's undeformed facets, enlarged to contain neighbouring facets. *length:
+   size of the largest facet on all ranks [length], by which the box is enlarged */
 static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal box[6], PetscReal *length)
 {
   PetscReal largest = 0.0;
@@ -31,7 +31,7 @@ static PetscErrorCode RingBox(MPI_Comm comm, const ContactSurface *s, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Finds the first of this rank's own facets among the candidates, where they are consecutive */
+/* Finds this rank's first own facet among the candidates. The own facets are consecutive there. */
 static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *facets, PetscInt *own)
 {
   PetscBool same = PETSC_FALSE;
@@ -48,7 +48,7 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
   PetscFunctionReturn(0);
 }
 
-/* Numbers the nodes from 0 and creates the scatter that gathers them from a displacement */
+/* Collective. Numbers the nodes of the ring from 0, and creates the scatter that gathers their displacements from u */
 static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, ContactRing *ring)
 {
   IS rows;
@@ -75,7 +75,8 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscFunctionReturn(0);
 }
 
-/* The corner whose edge has the same nodes in opposite order; negative: there is none, or several */
+/* Returns the corner whose edge has the nodes of corner `of` in opposite order. Returns -1 if there is none, or if
+   there are several. */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
   const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
@@ -89,6 +90,7 @@ static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const 
   return twin;
 }
 
+/* Computes the unit normal of a facet. Returns false if the facet has no area. */
 static PetscBool FacetNormal(const ContactRing *ring, PetscInt f, PetscReal n[3])
 {
   PetscReal x[12];
@@ -97,10 +99,11 @@ static PetscBool FacetNormal(const ContactRing *ring, PetscInt f, PetscReal n[3]
   return ContactFacetNormal(x, n);
 }
 
-/* Finds the neighbours across edges of the undeformed facets that are not sharp */
+/* Finds the neighbouring facets across edges of the undeformed facets that are not sharp. cosine: of the feature
+   angle */
 static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
 {
-  PetscInt *first, *corner; /* corners at a node */
+  PetscInt *first, *corner; /* [first[v], first[v + 1]) is the range of node v's corners in `corner` */
 
   PetscFunctionBegin;
   PetscCall(PetscFree(ring->twin));
@@ -125,12 +128,12 @@ static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
   PetscFunctionReturn(0);
 }
 
-/* Numbers the normals at the surface's own corners from 0. The corners of a fan share one normal, computed at its
-   first corner. */
+/* Numbers the normals at the corners of the facets that this rank owns, from 0. The corners of a fan share one normal,
+   computed at its first corner. */
 static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
 {
-  PetscInt *number; /* number of the normal, stored at the first corner of a fan, or at its lowest corner if it is
-                       closed */
+  PetscInt *number; /* number of a fan's normal, stored at the first corner of an open fan or at the lowest corner of
+                       a closed fan; -1: none yet */
 
   PetscFunctionBegin;
   ring->nnormals = 0;
@@ -160,7 +163,7 @@ static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the ring; cosine: of the feature angle; u: any displacement vector */
+/* Collective. Creates the ring. cosine: of the feature angle; u: any displacement vector of the mesh */
 PetscErrorCode ContactRingCreate(MPI_Comm comm, Vec u, PetscReal cosine, const ContactSurface *s, ContactRing *ring)
 {
   ContactSurface    undeformed = *s;

@@ -6,12 +6,13 @@
 
 #include "src/contact/search/searchimpl.h"
 
-/* patch.c: the smooth surface through a facet */
+/* patch.c: the smooth surface over a facet */
 typedef struct {
-  PetscReal slope[4][2],
-    direction[4][3]; /* edge from vertex e to the next is a cubic curve: its slopes at both ends [length] along the unit
-                           vector `direction` */
-  PetscReal normal[12]; /* unit, at the vertices */
+  /* Edge e, from vertex e to the next, is a cubic curve whose height over the chord is measured along the unit vector
+     direction[e]. slope[e]: derivatives of the height with respect to the position eta in [0, 1], at both ends
+     [length] */
+  PetscReal slope[4][2], direction[4][3];
+  PetscReal normal[12]; /* unit normals at the vertices */
   PetscBool triangle;
 } ContactPatch;
 PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
@@ -20,8 +21,8 @@ PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3],
        PetscReal normal[3]);
 
-/* patch_slopes.c: derivatives of quantities at a patch's points. `by` is a patch that holds the derivative by each
-   of its coefficients */
+/* patch_slopes.c: derivatives with respect to a patch. `by` is a struct of equal layout that holds the derivative with
+   respect to each coefficient of the patch. */
 PETSC_INTERN void ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
 PETSC_INTERN PetscReal ContactPatchHeight(const ContactPatch *, const PetscReal xi[2], const PetscReal direction[3],
@@ -30,27 +31,27 @@ PETSC_INTERN void      ContactPatchChain(const PetscReal x[12], const ContactPat
        PetscReal by_x[12], PetscReal by_normal[12]);
 PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPatch *by, PetscReal moment[3]);
 
-/* ring.c: this rank's facets, two layers around them, and their neighbours. Corner 4 f + a is vertex a of facet f */
+/* ring.c: this rank's facets, two layers of facets around them, and their neighbours. Corner 4 f + a is vertex a of
+   facet f. */
 typedef struct {
-  PetscInt of, plane[3]; /* number of the real node, and of one real node on each mirror plane in which it is an image;
-                 negative: none */
+  PetscInt of, plane[3]; /* number of the real node of a mirror image; for each axis, a real node on the mirror plane
+                            perpendicular to it, or -1 if the image is not mirrored along that axis */
 } ContactImage;
 typedef struct {
-  PetscInt   nfacets, own;  /* the surface's own facets are numbers own, own + 1, ... */
-  PetscInt   nnodes, *node; /* nnodes; node[4 nfacets]: number of the node at a corner */
-  PetscInt  *twin;          /* [4 nfacets] corner with the same edge in the neighbouring facet; negative: sharp edge or
-                       border */
-  PetscInt   nreal;         /* nodes from this number on are mirror images of earlier ones */
-  PetscInt  *global;        /* [nreal] global numbers of the nodes */
-  PetscInt  *held;          /* [nnodes] bits of the axes along which the face is held */
-  PetscInt   nnormals;      /* number of normals at the surface's own corners on this rank; corners share one unless a
-                          sharp edge separates them */
-  PetscInt  *normal, *at;   /* normal[4 own facets]: number of the normal at a corner; at[nnormals]: a corner with
-                               that normal */
-  PetscReal *reference, *x; /* reference[3 nreal], x[3 nnodes]: undeformed and deformed coordinates of the nodes
-                               [length] */
-  Vec        u;             /* displacements of the nodes */
-  VecScatter scatter;
+  PetscInt   nfacets, own;  /* number of facets; the facets that this rank owns are numbers own, own + 1, ... */
+  PetscInt   nnodes, *node; /* number of nodes; [4 nfacets] number of the node at each corner */
+  PetscInt  *twin;     /* [4 nfacets] corner that represents the same edge in the neighbouring facet; -1 at a sharp edge
+                      or at the border */
+  PetscInt   nreal;    /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
+  PetscInt  *global;   /* [nreal] global numbers of the nodes */
+  PetscInt  *held;     /* [nnodes] bit c is set if the face is held along axis c */
+  PetscInt   nnormals; /* number of normals at the corners of the facets that this rank owns. Corners of a node share
+                          one normal unless a sharp edge separates them. */
+  PetscInt  *normal, *at;   /* [4 own facets] number of the normal at each corner; [nnormals] a corner that has the
+                             normal */
+  PetscReal *reference, *x; /* coordinates of the nodes [length]: undeformed [3 nreal], and deformed [3 nnodes] */
+  Vec        u;             /* [3 nreal] displacements of the nodes [length] */
+  VecScatter scatter;       /* gathers u from the displacement of the mesh */
 
   ContactImage *image; /* [nnodes - nreal] the mirror images */
 } ContactRing;
@@ -63,37 +64,38 @@ PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner,
 PETSC_INTERN void ContactRingEdges(const ContactRing *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
 
-/* corner_normals.c: normals of the smooth surface at the facets' corners */
-#define CONTACT_FLAT_CORNER \
-  1e-4 /* a facet's corner counts as straight if the squared sine of its angle is below
-                                    this */
+/* corner_normals.c: normals of the smooth surface at the facets' corners. A corner counts as straight if the squared
+   sine of its angle is below CONTACT_FLAT_CORNER. */
+#define CONTACT_FLAT_CORNER 1e-4
 PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
 PETSC_INTERN void      ContactRingMeanNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
-PETSC_INTERN void      ContactRingMend(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
-PETSC_INTERN void      ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
+PETSC_INTERN void ContactRingCorrectNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
+PETSC_INTERN void ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
 
-/* mirror.c: mirror images of a ring in planes on which the surface ends */
+/* mirror.c: adds the mirror images of a ring in the symmetry planes on which the surface ends */
 PETSC_INTERN PetscErrorCode ContactRingAddImages(MPI_Comm, PetscReal length, PetscInt nown, ContactRing *);
 
 /* ring_create.c: creates a ring */
 PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
 
-/* corner_normal_slopes.c: derivatives of the normals by the nodes */
+/* corner_normal_slopes.c: derivatives of the normals with respect to the coordinates of the nodes */
 typedef struct {
   PetscInt     n;     /* number of blocks */
-  PetscInt    *node;  /* [n] node of the ring; NULL: blocks are only counted */
-  PetscScalar *value; /* [9 n] derivatives of the three components by the node's three coordinates; repeated nodes
-                         are to be added */
+  PetscInt    *node;  /* [n] node of the ring for each block; NULL: blocks are only counted */
+  PetscScalar *value; /* [9 n] derivatives of the normal's three components (rows) with respect to the node's three
+                         coordinates [1/length]. Blocks of repeated nodes must be added. */
 } ContactNormalSlopes;
 PETSC_INTERN void ContactRingNormalSlopes(const ContactRing *, PetscInt corner, ContactNormalSlopes *);
 
-/* overlap_slopes.c: the weighted gap of two smooth surfaces over an overlap, and its derivatives */
+/* overlap_slopes.c: the weighted gap between two smooth surfaces over an overlap, and its derivatives with respect to
+   the vertices of one facet */
 typedef struct {
-  PetscReal x[4][12],
-    normal[4][12];        /* derivatives of int phi_A gap for the four A: by a facet's vertices, and by the unit
-                             normals there */
-  PetscReal rigid[4][12]; /* by its vertices, with patches that keep their shape and turn with their facets */
-  PetscReal cover[4][12]; /* derivatives of int phi_A by its vertices */
+  /* derivatives of int phi_A gap, for the four A, with respect to the facet's vertices [length^2] and to the unit
+     normals there [length^3] */
+  PetscReal x[4][12], normal[4][12];
+  PetscReal rigid[4][12]; /* derivatives of int phi_A gap with respect to the vertices, if the patches keep their
+                             shape and rotate with their facets [length^2] */
+  PetscReal cover[4][12]; /* derivatives of int phi_A with respect to the vertices [length] */
 } ContactSlopes;
 PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], PetscReal cover[4],

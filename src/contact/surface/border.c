@@ -1,8 +1,10 @@
-/* The border of a face: edges with a facet of the face on one side only, on all ranks */
+/* The border of a face, and the vertices of a face whose displacement is prescribed. An edge is on the border if only
+   one facet of the face, on any rank, has it. */
 #include <petscsf.h>
 #include <mesh.h>
 #include "surfaceimpl.h"
 
+/* Reduces the values of a shared mesh point on all ranks by `op`, and sets the result on all ranks */
 static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
 {
   PetscInt nroots;
@@ -17,8 +19,12 @@ static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value
   PetscFunctionReturn(0);
 }
 
-/* Finds the mesh's edge between two vertices. If one of them is the midside node of an edge or facet that contains
-   the other, gets that edge or facet. Negative: inside a triangle, or no edge */
+/*
+   Finds the edge of the mesh between two vertices of a facet. If the facet is a part of a facet of order 2, one of its
+   vertices may be the midside node of an edge, or the centre of a facet; the result is then that edge or facet. *edge
+   is -1 for an edge inside a triangle, and for the edge of length zero of a triangle, whose last vertex is stored
+   twice.
+*/
 static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *edge)
 {
   const PetscInt  vertices[2] = {v, w};
@@ -37,12 +43,13 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the border of s and stores it */
+/* Collective. Finds the border of the surface s. Sets s->border, s->rim and s->bordered. */
 PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
 {
-  PetscSF  sf;
-  PetscInt npoints, *count, *ends,
-    *edge; /* number of facets at an edge (2 per half if it is divided); 1 for a vertex on the border */
+  PetscSF   sf;
+  PetscInt  npoints, *count; /* 2 for each facet of the face at an edge of the mesh, or 1 for each half of the edge */
+  PetscInt *ends;            /* 1 for each vertex on the border */
+  PetscInt *edge;            /* mesh edge from each vertex of a facet to the next */
 
   PetscFunctionBegin;
   PetscCall(DMGetPointSF(dm, &sf));
@@ -65,6 +72,8 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
     if (ends[v]) PetscCall(PetscBTSet(s->rim, v));
   }
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    /* The last vertex of a triangle is stored twice. The edge of length zero in between is on the border if the vertex
+       is. */
     const PetscBool point = (PetscBool)(i % 4 == 2 && s->vertex[i] == s->vertex[i + 1]);
 
     if (point ? ends[s->vertex[i]] : edge[i] >= 0 && count[edge[i]] == 2) s->border[i / 4] |= 1 << (i % 4);
@@ -76,7 +85,8 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* Marks the nodes of all facets of a face on this rank: combines marks with value by MPI_BOR or MPI_MAX */
+/* Combines `value` with the marks of the nodes of all facets of a face on this rank: by bitwise or if op is MPI_BOR,
+   else by the maximum */
 static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscInt value, PetscInt marks[])
 {
   IS              facets;
@@ -99,7 +109,8 @@ static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the vertices of s where faces with these prescribed displacements hold them, and stores the axes */
+/* Collective. Finds the vertices of s at which faces with these prescribed displacements hold the mesh. Sets
+   s->held. */
 PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
 {
   PetscSF  sf;
@@ -123,8 +134,8 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
   PetscFunctionReturn(0);
 }
 
-/* The first displacement that moves its face along an axis like displacement k; CONTACT_AT_REST: the face does not
-   move */
+/* Returns the number of the first displacement that prescribes the same motion along the axis as displacement k: an
+   equal value with an equal ramp. Returns CONTACT_AT_REST if displacement k prescribes zero. */
 static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscInt k, PetscInt axis)
 {
   const SceneDisplacement *d     = &displacements[k];
@@ -137,10 +148,8 @@ static PetscInt BorderFindMotion(const SceneDisplacement displacements[], PetscI
   return first;
 }
 
-/*
-   Collective. motion[4 i + a]: what prescribes the displacement of vertex a of facet i along an axis: the number of a
-   displacement, CONTACT_AT_REST or CONTACT_FREE
-*/
+/* Collective. Computes motion[4 i + a], which says what prescribes the displacement of vertex a of facet i along the
+   axis: the number of a displacement, CONTACT_AT_REST, or CONTACT_FREE */
 PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacement displacements[], PetscInt axis,
   const ContactSurface *s, PetscInt motion[])
 {
@@ -162,8 +171,8 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
   PetscFunctionReturn(0);
 }
 
-/* Collective. plane[4 i + a]: 1 + the number of the inclined symmetry plane that contains vertex a of facet i; 0:
-   none */
+/* Collective. Computes plane[4 i + a]: 1 + the number of the inclined symmetry plane that contains vertex a of facet i,
+   or 0 if there is none */
 PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplacement displacements[],
   const ContactSurface *s, PetscInt plane[])
 {

@@ -1,8 +1,9 @@
-/* The undeformed boundary of all bodies: thickness, boxes, and inside tests */
+/* The undeformed boundary of all bodies: mean thickness, bounding boxes, and solid angles for tests whether a point is
+   inside */
 #include <mesh.h>
 #include "surfaceimpl.h"
 
-/* Number of bodies, on all ranks */
+/* Collective. Counts the bodies on all ranks */
 static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)dm);
@@ -21,7 +22,7 @@ static PetscErrorCode BoundaryCountBodies(DM dm, PetscInt *nbodies)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Collects the boundary facets on this rank */
+/* Collective. Collects the boundary facets of the bodies on this rank */
 PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
 {
   PetscInt   start, end;
@@ -60,10 +61,8 @@ PetscErrorCode ContactBoundaryDestroy(ContactBoundary *b)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Mean thickness of each body: 2 volume / boundary area, with 3 volume = int x.n. This is the thickness of
-   a thin plate or shell; for a compact body it is smaller than any width.
-*/
+/* Collective. Computes the mean thickness of each body [length]: 2 volume / boundary area, where 3 volume = int x.n dA.
+   For a thin plate or shell this is its thickness. For a compact body it is smaller than any width of the body. */
 PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thickness[])
 {
   PetscReal *volume = thickness, *area;
@@ -86,10 +85,11 @@ PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thic
   PetscFunctionReturn(0);
 }
 
-/* Collective. Bounding boxes of the bodies */
+/* Collective. Computes the bounding boxes of the bodies: box[6 * body + 0..2] is the lower corner, box[6 * body + 3..5]
+   the upper one */
 PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
 {
-  PetscReal *low; /* lower corner, and negative of the upper corner */
+  PetscReal *low; /* lower corner and negative of the upper corner, so that one minimum reduces both */
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * b->nbodies, &low));
@@ -111,8 +111,8 @@ PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
   PetscFunctionReturn(0);
 }
 
-/* Solid angle of the triangle p, q, r as seen from the origin, positive from its back (Van Oosterom and Strackee
-   1983) */
+/* Returns the solid angle of the triangle p, q, r as seen from the origin, positive if the origin is on the back of the
+   triangle (Van Oosterom and Strackee 1983) */
 static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
 {
   const PetscReal triple =
@@ -133,8 +133,8 @@ static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3
   return 2.0 * PetscAtan2Real(triple, pp * qq * rr + pq * rr + qr * pp + rp * qq);
 }
 
-/* This rank's part of the solid angle of a body's boundary as seen from a point; the sum over ranks is 4 pi inside
-   the body and 0 outside */
+/* Returns this rank's part of the solid angle of a body's boundary as seen from the point `from`. The sum over all
+   ranks is 4 pi if the point is inside the body, and 0 if it is outside. */
 PetscReal ContactBoundarySolidAngle(const ContactBoundary *b, PetscInt body, const PetscReal from[3])
 {
   PetscReal sum = 0.0;

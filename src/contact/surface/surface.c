@@ -1,10 +1,10 @@
-/* The facets of a named face; facets of order 2 are cut into four. They are taken from the mesh once and deformed at
-   every contact update. */
+/* The facets of a named face. Facets of order 2 are divided into four. The facets are taken from the mesh once; their
+   coordinates are updated to the displacement at every contact update. */
 #include <mesh.h>
 #include "surfaceimpl.h"
 
-/* Global number of a vertex (any node of the mesh). The section has 3 rows a node; rows of other ranks are encoded
-   as negative numbers. */
+/* Computes the global number of a vertex, which may be any node of the mesh. The section has 3 rows per node and
+   encodes rows of other ranks as negative numbers. */
 static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, PetscInt *node)
 {
   PetscInt offset;
@@ -15,7 +15,7 @@ static PetscErrorCode SurfaceVertexNode(PetscSection global, PetscInt vertex, Pe
   PetscFunctionReturn(0);
 }
 
-/* x = values of a local vector of 3 components per vertex at n vertices */
+/* Copies the values of a local vector with 3 components per node at n vertices to x */
 static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, PetscInt n, const PetscInt vertex[],
   PetscReal x[])
 {
@@ -33,7 +33,7 @@ static PetscErrorCode SurfaceGatherVertices(PetscSection section, Vec local, Pet
   PetscFunctionReturn(0);
 }
 
-/* Finds the body that these facets belong to, on all ranks */
+/* Collective. Finds the body that these facets belong to; ranks without facets get it from the other ranks */
 static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt facet[], PetscInt *body)
 {
   PetscInt mine = -1;
@@ -49,7 +49,8 @@ static PetscErrorCode SurfaceFindBody(DM dm, PetscInt nfacets, const PetscInt fa
   PetscFunctionReturn(0);
 }
 
-/* Cuts n facets of the mesh into facets with four or three nodes; stores local and global numbers of their nodes */
+/* Divides n facets of the mesh into facets with four or three vertices. Stores the local and the global numbers of
+   their vertices. */
 static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], ContactSurface *s)
 {
   PetscSection global;
@@ -74,7 +75,7 @@ static PetscErrorCode SurfaceCut(DM dm, PetscInt n, const PetscInt facet[], Cont
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the surface of a face; thickness: of every body */
+/* Collective. Creates the surface of a face. thickness[body]: mean thickness of every body [length] */
 PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal thickness[], ContactSurface *s)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -105,7 +106,7 @@ PetscErrorCode ContactSurfaceCreate(DM dm, const char face[], const PetscReal th
   PetscFunctionReturn(0);
 }
 
-/* Coordinates of n vertices, displaced by a local vector */
+/* Computes the coordinates x of n vertices, displaced by the local vector ulocal [length] */
 PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[])
 {
   PetscSection section;
@@ -123,7 +124,7 @@ PetscErrorCode ContactVerticesDeform(DM dm, Vec ulocal, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Coordinates of the surface's vertices, displaced by a local vector */
+/* Updates the coordinates of the surface's vertices to the local displacement vector ulocal */
 PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
 {
   PetscSection section;
@@ -135,15 +136,16 @@ PetscErrorCode ContactSurfaceDeform(DM dm, Vec ulocal, ContactSurface *s)
   PetscFunctionReturn(0);
 }
 
+/* Scales n vectors to length 1; zero vectors stay zero */
 static void SurfaceNormalize(PetscInt n, PetscReal normal[])
 {
   for (PetscInt i = 0; i < n; ++i) (void)VectorScaleToUnit(&normal[3 * i]);
 }
 
 /*
-   Collective. Averaged unit normals at the facets' vertices, and at n vertices of the face that this rank owns: the sum
-   of the area vectors of the face's facets around a vertex on all ranks, scaled to length 1. A normal is zero if they
-   cancel; the vertex then has an empty row.
+   Collective. Computes averaged unit normals at the facets' vertices (normal), and at n vertices of the face that this
+   rank owns (vertexnormal). The normal of a vertex is the sum of the area vectors of the facets of the face around it,
+   on all ranks, scaled to length 1. It is zero if the area vectors cancel; the vertex then has an empty contact row.
 */
 PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n,
   const PetscInt vertex[], PetscReal vertexnormal[])

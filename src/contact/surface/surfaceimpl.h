@@ -1,6 +1,4 @@
-/*
-   Faces of the bodies as facets: positions, border, and where they are held.
-*/
+/* Faces of the bodies as facets: coordinates, borders, and vertices with prescribed displacements. */
 #ifndef SURFACEIMPL_H
 #define SURFACEIMPL_H
 
@@ -8,11 +6,12 @@
 #include <mesh.h>
 #include <petscbt.h>
 
-/* boundary.c: undeformed boundary facets of all bodies on this rank */
+/* boundary.c: the undeformed boundary facets of all bodies on this rank */
 typedef struct {
   MPI_Comm   comm;
-  PetscInt   nbodies, n, *body;
-  PetscReal *x; /* [12 n] corners, counterclockwise seen from outside [length] */
+  PetscInt   nbodies;
+  PetscInt   n, *body; /* number of facets, and the body of each */
+  PetscReal *x;        /* [12 n] coordinates of the facets' vertices, counterclockwise seen from outside [length] */
 } ContactBoundary;
 PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
@@ -24,24 +23,24 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 typedef struct {
   char      *name;
   PetscInt   nfacets;
-  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points with nodes, counterclockwise seen from outside; a triangle
-                       stores its last one twice */
+  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points that carry the vertices' nodes, counterclockwise seen from
+                        outside; a triangle stores its last vertex twice */
   PetscInt  *node;      /* [4 nfacets] global numbers of the vertices (first global row / 3) */
   PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
   PetscInt  *normal_id; /* [4 nfacets] global numbers of these normals */
-  PetscBool  patched;   /* whether patch and normal_id exist; the same on all ranks */
-  PetscBool  cut;       /* whether the facets are parts of order-2 facets; the same on all ranks */
-  PetscInt
-    *held; /* [nfacets] bit 3 a + c: the displacement of vertex a along axis c is prescribed by a face of the mesh */
-  PetscInt *border;    /* [nfacets] bit a: the edge from vertex a to the next is on the face's border; bit 4 + a: vertex
-                       a is on it. For a triangle bit 2 stands for its last vertex */
-  PetscBT   rim;       /* bit p: the local DMPlex point p is a vertex on the border; NULL unless bordered */
-  PetscBool bordered;  /* whether `border` has been computed; the same on all ranks */
-  PetscReal area;      /* area of the whole undeformed face, on all ranks [length^2] */
-  PetscInt  body;      /* body that the face belongs to */
-  PetscReal thickness; /* mean thickness of that body [length] */
+  PetscBool  patched;   /* whether patch and normal_id exist; equal on all ranks */
+  PetscBool  cut;       /* whether the facets are parts of facets of order 2; equal on all ranks */
+  PetscInt  *held;      /* [nfacets] Bit 3 a + c is set if a face of the mesh prescribes the displacement of vertex a
+                        along axis c. */
+  PetscInt  *border;    /* [nfacets] Bit a is set if the edge from vertex a to the next is on the face's border, and bit
+                       4 + a if vertex a is on the border. Bit 2 of a triangle stands for its last vertex. */
+  PetscBT    rim;       /* Bit p is set if the local DMPlex point p is a vertex on the border. NULL unless bordered. */
+  PetscBool  bordered;  /* whether `border` has been computed; equal on all ranks */
+  PetscReal  area;      /* area of the whole undeformed face, summed over all ranks [length^2] */
+  PetscInt   body;      /* number of the body that the face belongs to */
+  PetscReal  thickness; /* mean thickness of that body [length] */
 } ContactSurface;
 PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
@@ -50,8 +49,8 @@ PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, Pe
   const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
-/* trace.c: correction from the displacement of the mesh's nodes to that of the surfaces' vertices; a NULL matrix
-   means none */
+/* trace.c: the matrix T - 1, or T^-1 - 1, where T maps the displacement of the mesh's nodes to that of the surfaces'
+   vertices. A NULL matrix stands for T = 1. */
 typedef enum { CONTACT_TRACE_FORWARD, CONTACT_TRACE_INVERSE } ContactTraceType;
 PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType, PetscInt components, Mat *correction);
@@ -59,7 +58,7 @@ PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec loc
 PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian);
 PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 
-/* border.c: the border of a surface, and where it is held */
+/* border.c: the border of a surface, and the vertices whose displacement is prescribed */
 #define CONTACT_FREE    -2 /* no displacement is prescribed */
 #define CONTACT_AT_REST -1 /* a displacement of 0 is prescribed */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);

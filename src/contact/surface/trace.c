@@ -1,13 +1,15 @@
 /*
-   Faces of order 2 are cut at their nodes into four facets each, and contact forces act on the vertices of these.
-   However, bilinear interpolation between the nodes differs from the quadratic displacement of the face, and a uniform
-   pressure distributed that way would bend the cells. The matrix T corrects this. Along each edge
+   Faces of order 2 are divided at their nodes into four facets each, and contact forces act on the vertices of these
+   facets. Bilinear interpolation between the nodes differs from the quadratic displacement of the face. Without a
+   correction, nodal forces from a uniform pressure would bend the cells. The correction is the matrix T. Along each
+   edge
 
-     (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6,
+     (T u)_middle = u_middle + (2 u_middle - u_first - u_last)/6.
 
-   and likewise in the middle of a facet, in both directions. T u, interpolated on the halves, has the integral of the
-   quadratic u, and equals u where u is linear. Hence T^T turns loads on bilinear facets into loads on the quadratic
-   face: exactly if the facets are plane and fully covered, and with the same resultant always.
+   At the centre of a facet this is applied in both directions. Bilinear interpolation of T u on the four parts has the
+   same integral as the quadratic u, and equals u where u is linear. Hence T^T maps nodal forces of bilinear facets to
+   nodal forces of the quadratic face. They are exact if the facets are plane and fully covered. The resultant is
+   always exact.
 */
 #include <petscsf.h>
 #include <mesh.h>
@@ -15,7 +17,8 @@
 
 #define TRACE_MAX_NODES MESH_MAX_FACET_NODES
 
-/* Marks the edges and facets of the surfaces that carry nodes: those of this rank's facets, and those it owns */
+/* Marks the mesh points, edges and facets, that carry midside nodes of the surfaces: those of this rank's facets, and
+   those that this rank owns */
 static PetscErrorCode TraceMark(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[], PetscInt marked[])
 {
   PetscSF  sf;
@@ -38,17 +41,18 @@ static PetscErrorCode TraceMark(DM dm, PetscInt nsurfaces, const ContactSurface 
   PetscFunctionReturn(0);
 }
 
-/* A point's rows of T - 1 or of its inverse: the columns of the nodes it depends on and their weights. A facet's
-   weights are products of those along edges. */
+/* One node's rows of T - 1 or of T^-1 - 1: the nodes that it depends on, and their weights. The weights at a facet's
+   centre are products of the weights along edges. */
 typedef struct {
-  PetscInt row, n,
-    column[TRACE_MAX_NODES]; /* first global column of each node; row is negative if another rank owns the point */
+  PetscInt  row;                     /* first global row of the node; negative if another rank owns the node */
+  PetscInt  n;                       /* number of weights */
+  PetscInt  column[TRACE_MAX_NODES]; /* first global column of each node that it depends on */
   PetscReal weight[TRACE_MAX_NODES];
 } TracePoint;
 
 static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type, TracePoint *trace)
 {
-  /* indexed by the type of correction and by the depth of the node's point */
+  /* The first index is the type of the correction, the second the depth of the mesh point that carries the node. */
   static const PetscReal of_edge[2][2]  = {{-1.0 / 6.0, 1.0 / 3.0}, {1.0 / 8.0, -1.0 / 4.0}};
   static const PetscReal of_facet[2][3] = {{1.0 / 36.0, -2.0 / 9.0, 7.0 / 9.0}, {1.0 / 64.0, 3.0 / 32.0, -7.0 / 16.0}};
   PetscSection           global;
@@ -72,15 +76,15 @@ static PetscErrorCode TraceGetPoint(DM dm, PetscInt point, ContactTraceType type
   PetscFunctionReturn(0);
 }
 
-/* Type of correction, and number of components per node */
+/* The layout of a correction: its type, and the number of components per node */
 typedef struct {
   DM               dm;
   ContactTraceType type;
   PetscInt         components;
 } TraceLayout;
 
-/* Processes the rows of marked points that this rank owns: counts their entries in diagonal and offdiagonal, or
-   inserts them if these are NULL */
+/* Processes the rows of the marked points that this rank owns. If diagonal and offdiagonal are given, counts their
+   entries; if both are NULL, inserts the entries into the matrix. */
 static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[], PetscInt rstart,
   PetscInt rend, PetscInt diagonal[], PetscInt offdiagonal[], Mat correction)
 {
@@ -105,6 +109,7 @@ static PetscErrorCode TraceFill(const TraceLayout *layout, PetscInt npoints, con
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates T - 1 or T^-1 - 1, with nonzero rows at the marked points only */
 static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoints, const PetscInt marked[],
   Mat *correction)
 {
@@ -130,8 +135,8 @@ static PetscErrorCode TraceCreateMatrix(const TraceLayout *layout, PetscInt npoi
   PetscFunctionReturn(0);
 }
 
-/* Collective. correction: T - 1, or T^-1 - 1, with this number of components per node; NULL if no surface has order
-   2 */
+/* Collective. Creates the matrix T - 1, or T^-1 - 1, for the given number of components per node. *correction is NULL
+   if no surface has order 2. */
 PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType type, PetscInt components, Mat *correction)
 {
@@ -151,7 +156,7 @@ PetscErrorCode ContactTraceCreate(DM dm, PetscInt nsurfaces, const ContactSurfac
   PetscFunctionReturn(0);
 }
 
-/* local: displacement of the surfaces' vertices, from the global displacement u of the mesh */
+/* Computes the displacement `local` of the surfaces' vertices from the global displacement u of the mesh: T u */
 PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
 {
   Vec trace;
@@ -164,8 +169,11 @@ PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
   PetscFunctionReturn(0);
 }
 
-/* Turns derivatives by the displacement of the surfaces' vertices into derivatives by that of the mesh's nodes, in
-   rows where `which` is 1 (NULL: all) */
+/*
+   Multiplies rows of a Jacobian by T from the right: derivatives with respect to the displacement of the surfaces'
+   vertices become derivatives with respect to the displacement of the mesh's nodes. This is done in rows where `which`
+   is 1, or in all rows if `which` is NULL.
+*/
 PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian)
 {
   Mat product;
@@ -178,8 +186,8 @@ PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian
   PetscFunctionReturn(0);
 }
 
-/* Turns rows for the displacement of a surface's vertices into rows for that of the mesh's nodes; correction: of the
-   inverse */
+/* Multiplies `rows` by T^-1 from the left: rows that give the displacement of a surface's vertices become rows that
+   give the displacement of the mesh's nodes. correction: T^-1 - 1 */
 PetscErrorCode ContactTraceRecover(Mat correction, Mat rows)
 {
   Mat product;
