@@ -6,7 +6,7 @@
 #include <petsc/private/pcimpl.h>
 #include <petscamgf.h>
 
-/* Source of the subspace, in order of precedence after NONE */
+/* Where the subspace comes from. If several sources are given, the first one after NONE is used. */
 typedef enum {
   AMGF_SOURCE_NONE,
   AMGF_SOURCE_CALL,
@@ -15,73 +15,80 @@ typedef enum {
   AMGF_SOURCE_DETECT
 } AMGFSource;
 
-/* Identifies a matrix and its state: object, values, nonzero pattern */
+/* Identifies a state of a matrix: the object's id, the state of its values, and the state of its nonzero pattern */
 typedef struct {
   PetscObjectId    id;
   PetscObjectState state, pattern;
 } AMGFStamp;
 
-/* Special values of PCAMGFSetAMGLag(); unset: default of the cycle */
+/* Special values of the lag, see PCAMGFSetAMGLag(). UNSET selects the default of the cycle. */
 #define AMGF_LAG_AUTO  0
 #define AMGF_LAG_NEVER (-1)
 #define AMGF_LAG_UNSET (-2)
 
-/* Automatic lag: the AMG is rebuilt if costs, or a diagonal entry outside the subspace, grow by this factor */
+/*
+   With the automatic lag, the AMG is rebuilt if the iterations per digit of residual reduction, or a diagonal entry
+   outside the subspace, change by more than this factor.
+*/
 #define AMGF_LAG_RATIO 1.5
 
-/* Rule for rebuilding the AMG */
+/* The rule for rebuilding the AMG, and what the rule needs to know of the last set-up and solve */
 typedef struct {
-  PetscInt  every; /* as PCAMGFSetAMGLag() */
+  PetscInt  every; /* number of changed operators from one rebuild to the next, or AMGF_LAG_*; the argument of
+                      PCAMGFSetAMGLag() */
   PetscBool built;
-  PetscInt  age;      /* number of changed operators since the last rebuild */
-  AMGFStamp seen;     /* operator at the last set-up */
-  Vec       diagonal; /* diagonal of the operator from which the AMG was built; automatic lag only */
-  PetscBool overdue;  /* the last solve was too expensive */
-  PetscInt  its;      /* reference: iterations, */
-  PetscReal digits;   /* and its digits of residual reduction */
-  PetscInt  history;  /* length of the residual history when the solve began */
+  PetscInt  age;      /* number of operators with changed values since the last rebuild */
+  AMGFStamp seen;     /* stamp of the operator at the last set-up */
+  Vec       diagonal; /* diagonal of the operator from which the AMG was built; NULL unless the lag is automatic */
+  PetscBool overdue;  /* the last solve took too many iterations: rebuild the AMG for the next operator */
+  PetscInt  its;      /* iterations of the reference solve, with which later solves are compared; 0: no reference yet */
+  PetscReal digits;   /* decimal digits by which the reference solve reduced the residual; 0: unknown */
+  PetscInt  history;  /* number of entries of the KSP's residual history before the present solve */
 } AMGFLag;
 
-/* A factorization of the operator that replaces the AMG as B */
+/* A Cholesky factorization of the operator, which is used instead of the AMG as the preconditioner B */
 typedef struct {
   PCAMGFFactorUse use;
-  PetscBool       on;     /* B is the factorization */
+  PetscBool       on;     /* whether B is the factorization instead of the AMG */
   PetscBool       failed; /* the last factorization failed */
-  PetscReal       share;  /* automatic choice: limit of the factors' memory, as a fraction of the machine's memory */
+  PetscReal       share;  /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
+                             memory */
   Mat             F;
-  AMGFStamp       analysed;               /* the operator analysed by MUMPS, and the estimates of the analysis: */
-  PetscReal       flops, entries, memory; /* operations, entries and memory [bytes] of the factors */
+  AMGFStamp       analysed;               /* stamp of the operator that MUMPS analysed */
+  PetscReal       flops, entries, memory; /* MUMPS's estimates for the factors: operations, entries, memory [bytes] */
   char            why[160];               /* explanation of the last choice */
 } AMGFFactor;
 
-/* Solver of the filtered system on the first few ranks */
+/* Solver of the filtered system A_w on the first few ranks only */
 typedef struct {
-  PetscInt    wanted; /* as PCAMGFSetFilterRanks() */
+  PetscInt    wanted; /* number of ranks requested by PCAMGFSetFilterRanks(); 0: chosen from the size of A_w */
   PetscMPIInt nranks; /* number of ranks that solve; 0: not set up */
   PetscBool   solves; /* whether this rank is one of them */
-  AMGFStamp   stamp;  /* of A_w */
-  MPI_Comm    comm;   /* communicators of the ranks that solve, and of the others */
-  PC          pc;     /* on the solving ranks, like A, b and x */
+  AMGFStamp   stamp;  /* stamp of A_w at the last set-up */
+  MPI_Comm    comm;   /* on the solving ranks: the communicator of these ranks; elsewhere: that of the other ranks */
+  PC          pc;     /* direct solver for A; NULL on ranks that do not solve */
   Mat         moved, rows, A;
-  Vec         at, b, x; /* at: vector scatter to the solving ranks; NULL: all ranks solve, with the matrix itself */
+  Vec         at, b, x; /* at: A_w's vectors distributed to the solving ranks, NULL if all ranks solve A_w itself; b,
+                           x: right-hand side and solution on the solving ranks, NULL elsewhere */
   VecScatter  scatter;
 } AMGFFewRanks;
 
-/* Estimates [s] */
+/* Estimated times [s] of the two candidates for B */
 typedef struct {
-  PetscReal factor, solve; /* by factorization */
-  PetscReal setup, apply;  /* by AMG */
+  PetscReal factor, solve; /* one factorization; one solve with its factors */
+  PetscReal setup, apply;  /* one set-up of the AMG; one application */
 } AMGFCosts;
 
-/* The subspace range(P): either unknowns (rows) or a general interpolation P */
+/* The subspace range(P): either selected unknowns (rows), or the range of a general interpolation P */
 typedef struct {
   AMGFSource source;
-  IS         rows; /* owned rows of A that are needed for R, sorted, unique; the filtered unknowns if P is NULL */
+  IS         rows; /* owned rows of A that are needed for R, sorted, without repetition; if P is NULL, these are the
+                      filtered unknowns */
   Mat        P;
   AMGFStamp  stamp; /* state of the Mat from which P was taken */
 
-  PetscObjectId    composed_id; /* object composed on the operator when the subspace was looked up, and its state; 0:
-                                   none */
+  PetscObjectId    composed_id; /* id of the object that was composed on the operator when the subspace was looked
+                                   up; 0: none */
   PetscObjectState composed_state;
   PetscInt         nlocal, n;
 } AMGFSubspace;
@@ -91,36 +98,37 @@ typedef struct {
   PC           amg;
   KSP          filter;
   PetscBool    configured; /* the inner solvers have read their options */
-  PetscBool    bydefault;  /* the AMG has its default type: PCBLOCKAMG, or BoomerAMG where single precision is not
+  PetscBool    bydefault;  /* the AMG has its default type: PCBLOCKAMG, or BoomerAMG if single precision is not
                               sufficient */
-  PetscBool    active;     /* the subspace is used; otherwise the AMG alone */
-  PetscBool    optional;   /* a missing subspace is intended: no warning */
+  PetscBool    active;     /* whether the subspace is used; if false, the AMG is applied alone */
+  PetscBool    optional;   /* a missing subspace is intended, so that no warning is printed */
   PetscBool    warned;
   PCAMGFCounts counts;
 
-  /* set by the user: */
+  /* The next members are set by the user. At most one of set_is and set_P is not NULL. */
   IS        set_is;
   Mat       set_P;
   char     *file;
   IS        file_is;
-  PetscReal detect; /* 0: off */
+  PetscReal detect; /* ratio to the median above which a diagonal entry is stiff, see PCAMGFSetDetect(); 0: no
+                       detection */
   IS        detected_is;
 
   AMGFSubspace sub;
-  AMGFStamp    galerkin;   /* the operator from which R and Aw were computed */
-  Mat          rowsA;      /* rows of A where P is nonzero; with a general P only */
-  Mat          rowsP;      /* the same rows of P */
-  Mat          R;          /* P^H A, thin: n_c x n */
-  Mat          Aw;         /* P^H A P */
-  Vec          rc, ec, wc; /* n_c */
-  Vec          w[2];       /* n */
+  AMGFStamp    galerkin;   /* stamp of the operator from which R and Aw were computed */
+  Mat          rowsA;      /* rows of A in which P is nonzero; NULL if P selects unknowns */
+  Mat          rowsP;      /* those rows of P; NULL if P selects unknowns */
+  Mat          R;          /* P^H A, n_c x n, where n_c is the dimension of the subspace */
+  Mat          Aw;         /* P^H A P, n_c x n_c */
+  Vec          rc, ec, wc; /* vectors of length n_c: restricted residual, correction, work */
+  Vec          w[2];       /* work vectors of length n */
 
   AMGFLag      lag;
   AMGFFactor   factor;
   AMGFFewRanks few;
 } PC_AMGF;
 
-/* Functions of this folder; files in the order in which they depend on each other */
+/* Functions of this folder. The files are listed such that each depends only on those before it. */
 
 /* log.c */
 PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,

@@ -5,7 +5,7 @@ typedef struct {
   const char *name, *value;
 } BoomerAMGOption;
 
-/* "-name" with the object's prefix */
+/* Sets `full` to "-", the object's options prefix, and the option's name without its "-" */
 static PetscErrorCode BoomerAMGOptionName(PetscObject obj, const char name[], char full[], size_t len)
 {
   const char *prefix;
@@ -16,7 +16,7 @@ static PetscErrorCode BoomerAMGOptionName(PetscObject obj, const char name[], ch
   PetscFunctionReturn(0);
 }
 
-/* Sets an option in the database unless the user has set it; *set: whether it was set here */
+/* Sets a default in the options database unless the user has given that option. *set: whether the default was set. */
 static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption *option, PetscBool *set)
 {
   PetscOptions options;
@@ -32,7 +32,10 @@ static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption
   PetscFunctionReturn(0);
 }
 
-/* PCSetFromOptions() without -pc_type, because the prefix may be that of the PC that holds this one */
+/*
+   Calls the type's own setfromoptions(). PCSetFromOptions() cannot be used here: it also reads -pc_type, which with
+   this prefix may be meant for the PC that contains this one.
+*/
 static PetscErrorCode BoomerAMGReadOptions(PC pc)
 {
   PetscFunctionBegin;
@@ -42,8 +45,10 @@ static PetscErrorCode BoomerAMGReadOptions(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* Sets defaults in the options database and removes them afterwards, since PCHYPRE has no functions for most
-   parameters */
+/*
+   Reads the options of BoomerAMG with other defaults than hypre's. PCHYPRE has no functions for most parameters.
+   Therefore the defaults are put into the options database and removed afterwards.
+*/
 static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMGOption defaults[])
 {
   PetscBool   *set;
@@ -66,13 +71,18 @@ static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMG
 }
 
 /*
-  PCAMGFConfigureBoomerAMG_Private - makes a PC hypre's BoomerAMG for a matrix of block size bs, with the options of
-  its prefix except -pc_type
+   PCAMGFConfigureBoomerAMG_Private - sets a PC to hypre's BoomerAMG and reads the options of its prefix except -pc_type
 
-  One sweep of l1 Gauss-Seidel, forward down and backward up, which makes B symmetric and A < 2 B^-1; coarsening and
-  interpolation for three-dimensional problems. Vector problems are coarsened function by function (the unknown
-  approach), which PCHYPRE does by itself for a block size > 1 as long as nodal coarsening is off; a larger strength
-  threshold suits three displacements.
+   Input Parameters:
+   + amg - the preconditioner
+   - bs  - block size of its matrix; 3 for displacements
+
+   Notes:
+   The smoother is one sweep of l1 Gauss-Seidel, forward on the way down and backward on the way up. With it B is
+   symmetric and A < 2 B^-1. Coarsening and interpolation are those for three-dimensional problems.
+
+   With a block size > 1 and without nodal coarsening, PCHYPRE coarsens each component of a vector problem separately
+   (the unknown approach). For three displacements the threshold of strong couplings is 0.7 instead of 0.25.
 */
 PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
 {
@@ -92,7 +102,8 @@ PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
 
   PetscFunctionBegin;
   if (bs == 3) defaults[4].value = "0.7";
-  /* PCHYPRE reads relax_type_all before _down and _up: a user's choice for all must not be overridden */
+  /* PCHYPRE reads relax_type_all before relax_type_down and relax_type_up. The last two defaults are therefore left
+     out if the user has set relax_type_all. */
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
   PetscCall(BoomerAMGOptionName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
   PetscCall(PetscOptionsHasName(options, NULL, full, &all));

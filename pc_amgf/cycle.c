@@ -1,12 +1,16 @@
 /*
-   Application of the three cycles. B: one application of the AMG; P: subspace; R = P^H A (thin); A_w = R P; Q = P
-   A_w^-1 P^H. A is Hermitian, so the adjoint of each cycle is the same cycle with B^H and Q^H, and its transpose is
-   M^T r = conj(M^H conj(r)). With real scalars, conjugation does nothing.
+   Applies one of the three cycles (bfb, fbf, additive) to a vector.
+
+   Notation: B is one application of the AMG, P the interpolation from the subspace, R = P^H A, A_w = R P, and Q = P
+   A_w^-1 P^H. A is Hermitian. The adjoint of a cycle is therefore the same cycle with B^H and Q^H. The transpose of a
+   cycle M is M^T r = conj(M^H conj(r)). With real scalars, conj() does nothing.
 */
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* VecConjugate() rejects vectors that are locked for reading, even real ones */
+/*
+   Conjugates x. With real scalars VecConjugate() is not called, because it rejects vectors that are locked for reading.
+*/
 static PetscErrorCode CycleConjugate(Vec x)
 {
   PetscFunctionBegin;
@@ -15,9 +19,9 @@ static PetscErrorCode CycleConjugate(Vec x)
 }
 
 /*
-   PCApply() of the AMG. A library error may occur on one rank only. z is then set to zero there and the PC is marked as
-   failed; all ranks notice at the next reduction. The same is done if the AMG's set-up failed, because KSPs apply the
-   PC before they check.
+   Applies the AMG: z = B r. If a library reports an error, or if the AMG's set-up failed before, z is set to zero and
+   the PC is marked as failed. The error may occur on one rank only; all ranks notice it at the KSP's next reduction.
+   The case of a failed set-up is needed because KSPs apply the PC before they check it.
 */
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
 {
@@ -39,7 +43,7 @@ static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* z = B r, or B^H r */
+/* Computes z = B r, or z = B^H r if `adjoint` */
 static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
@@ -49,8 +53,8 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
   amgf->counts.amg_applies++;
   PetscCall(PetscLogEventBegin(PC_AMGF_AMGApply, pc, r, z, 0));
   if (adjoint) {
-    /* hypre's transposed cycle relaxes by Jacobi only and leaves out every other smoother; PCAMGF asks for a
-       symmetric B anyway */
+    /* The transposed cycle of hypre smooths by Jacobi only and skips all other smoothers. B is used instead, since
+       PCAMGF requires a symmetric B. */
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
     if (hypre) adjoint = PETSC_FALSE;
   }
@@ -65,7 +69,7 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* rc = P^H r */
+/* Computes rc = P^H r */
 static PetscErrorCode CycleRestrict(PC_AMGF *amgf, Vec r, Vec rc)
 {
   PetscFunctionBegin;
@@ -74,7 +78,7 @@ static PetscErrorCode CycleRestrict(PC_AMGF *amgf, Vec r, Vec rc)
   PetscFunctionReturn(0);
 }
 
-/* z = z + P ec */
+/* Computes z = z + P ec */
 static PetscErrorCode CycleProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
 {
   PetscFunctionBegin;
@@ -83,7 +87,7 @@ static PetscErrorCode CycleProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* ec = A_w^-1 rc, or A_w^-H rc */
+/* Computes ec = A_w^-1 rc, or ec = A_w^-H rc if `adjoint` */
 static PetscErrorCode CycleSolveFilter(PC pc, PetscBool adjoint)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
@@ -102,7 +106,7 @@ static PetscErrorCode CycleSolveFilter(PC pc, PetscBool adjoint)
   PetscFunctionReturn(0);
 }
 
-/* r = r - A P ec = r - R^H ec: no product with the whole A */
+/* Computes r = r - A P ec as r - R^H ec, which needs no product with the whole A */
 static PetscErrorCode CycleSubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
 {
   PetscFunctionBegin;
@@ -111,7 +115,7 @@ static PetscErrorCode CycleSubtractFiltered(PC_AMGF *amgf, Vec work, Vec r)
   PetscFunctionReturn(0);
 }
 
-/* (I-BA)(I-QA)(I-BA) */
+/* Applies the cycle bfb, whose error propagation is (I-BA)(I-QA)(I-BA) */
 static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf     = (PC_AMGF *)pc->data;
@@ -126,7 +130,8 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscCall(CycleSolveFilter(pc, adjoint));
   PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
   if (A == pc->pmat) PetscCall(CycleSubtractFiltered(amgf, work, residual));
-  else { /* R belongs to the Pmat: mixing the two would lose the symmetry */ PetscCall(MatMult(A, z, work));
+  else { /* R was computed from the Pmat. With another matrix as A, R^H ec would make the cycle unsymmetric. */
+    PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
   PetscCall(CycleApplyAMG(pc, adjoint, residual, work));
@@ -134,8 +139,11 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* (I-QA)(I-BA)(I-QA). After the first Q the residual is r_1, and with y = B r_1 the second one restricts P^H (r_1 - A
-   y) = P^H r_1 - R y. P^H r_1 vanishes if A_w is solved exactly. */
+/*
+   Applies the cycle fbf, whose error propagation is (I-QA)(I-BA)(I-QA). Let r_1 be the residual after the first Q, and
+   y = B r_1. The second Q restricts P^H (r_1 - A y) = P^H r_1 - R y. The term P^H r_1 vanishes only if A_w is solved
+   exactly.
+*/
 static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf     = (PC_AMGF *)pc->data;
@@ -156,7 +164,7 @@ static PetscErrorCode CycleApplyFBF(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* B + Q */
+/* Applies the additive cycle B + Q */
 static PetscErrorCode CycleApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
@@ -189,7 +197,7 @@ PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
   PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
   if (stale) PetscCall(PCSetUp_AMGF(pc));
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
-  PetscCall(VecFlag(z, pc->failedreason)); /* so that the KSP asks for the reason */
+  PetscCall(VecFlag(z, pc->failedreason)); /* makes the KSP look at the reason of the failure */
   PetscFunctionReturn(0);
 }
 

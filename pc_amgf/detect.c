@@ -1,19 +1,20 @@
-/* Stiff rows by their diagonal entries: their detection, and how far they are from soft ones */
+/* Finds stiff rows of the operator by their diagonal entries, and measures the contrast between stiff and soft rows */
 #include "amgfimpl.h"
 
-/* Whether an entry is positive and finite */
+/* Returns whether the diagonal entry d is positive and finite */
 static PetscBool DetectCounts(PetscScalar d)
 {
   return (PetscBool)(PetscRealPart(d) > 0.0 && PetscRealPart(d) <= PETSC_MAX_REAL);
 }
 
 /*
-  Median of the positive finite diagonal entries, to 0.1 %, by bisection on the exponent. Counts decide, so that every
-  partition gives the same value.
+   Computes the median of the positive finite diagonal entries of all ranks with a relative error of 0.1 %, by bisection
+   on their logarithms. Only integer counts are summed over the ranks, so the result does not depend on the partition.
+   If no entry is positive and finite, *median is PETSC_MAX_REAL.
 */
 static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar d[], PetscReal *median)
 {
-  PetscReal range[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}; /* -log of the smallest, log of the largest */
+  PetscReal range[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}; /* -log of the smallest entry; log of the largest */
   PetscInt  count    = 0;
 
   PetscFunctionBegin;
@@ -40,8 +41,8 @@ static PetscErrorCode DetectMedian(MPI_Comm comm, PetscInt n, const PetscScalar 
 }
 
 /*
-  PCAMGFDetectRows_Private - owned rows of A whose diagonal entry exceeds ratio times the median of the positive
-  diagonal entries
+   PCAMGFDetectRows_Private - finds the owned rows of A whose diagonal entry exceeds `ratio` times the median of the
+   positive diagonal entries
 */
 PetscErrorCode PCAMGFDetectRows_Private(Mat A, PetscReal ratio, IS *rows)
 {
@@ -71,8 +72,8 @@ PetscErrorCode PCAMGFDetectRows_Private(Mat A, PetscReal ratio, IS *rows)
 }
 
 /*
-   coupling = A x - D x for a vector x without zeros: exactly zero in rows that are coupled to no other, such as those
-   of prescribed values
+   Computes coupling = A x - D x, where D is the diagonal of A and x a vector of irregular nonzero entries. The result
+   is exactly zero in rows without off-diagonal entries, such as those of prescribed values.
 */
 static PetscErrorCode ContrastFindCoupling(Mat A, Vec diagonal, Vec *coupling)
 {
@@ -97,7 +98,10 @@ static PetscErrorCode ContrastFindCoupling(Mat A, Vec diagonal, Vec *coupling)
   PetscFunctionReturn(0);
 }
 
-/* range: the largest entry and the largest inverse on this rank, without uncoupled rows */
+/*
+   Computes the largest positive diagonal entry (range[0]) and the largest inverse of one (range[1]) on this rank. Rows
+   with coupling = 0 are left out. coupling: see ContrastFindCoupling(), or NULL.
+*/
 static PetscErrorCode ContrastFindRange(Vec diagonal, Vec coupling, PetscReal range[2])
 {
   PetscInt           n;
@@ -121,11 +125,11 @@ static PetscErrorCode ContrastFindRange(Vec diagonal, Vec coupling, PetscReal ra
 }
 
 /*
-  PCAMGFFindContrast_Private - the largest over the smallest positive diagonal entry
+   PCAMGFFindContrast_Private - computes the ratio of the largest to the smallest positive diagonal entry
 
-  Input Parameters:
-+ A       - the operator
-- coupled - whether rows that are coupled to no other are left out, which takes a product with the operator
+   Input Parameters:
+   + A       - the operator
+   - coupled - whether rows without off-diagonal entries are left out, which costs one product with the operator
 */
 PetscErrorCode PCAMGFFindContrast_Private(Mat A, PetscBool coupled, PetscReal *contrast)
 {

@@ -1,13 +1,16 @@
-/* Direct solver of the filtered matrix */
+/* Chooses the direct solver of the filtered matrix */
 #include "amgfimpl.h"
 #include "mumps.h"
 
 /*
-  PCAMGFSetDirectSolver_Private - Cholesky: by MUMPS if PETSc has it, else PETSc's own, the matrix gathered on every
-  rank. PETSc has no Hermitian Cholesky by MUMPS, so complex numbers take LU.
+   PCAMGFSetDirectSolver_Private - sets a PC to a Cholesky factorization
 
-  Output Parameter:
-. mumps - whether it is by MUMPS
+   Output Parameter:
+   . mumps - whether MUMPS factors the matrix
+
+   Notes:
+   If PETSc was configured without MUMPS, PETSc's own Cholesky is used. In parallel, each rank then factors a copy of
+   the whole matrix. With complex scalars LU is used, since MUMPS has no Hermitian Cholesky.
 */
 PetscErrorCode PCAMGFSetDirectSolver_Private(PC inner, PetscBool *mumps)
 {

@@ -1,9 +1,9 @@
 /*
-   Uses a Cholesky factorization of the operator by MUMPS instead of the AMG. MUMPS's analysis gives the cost; the
-   cheaper of the two for the expected number of applications is chosen. The estimates use counts, not clocks, so that
-   a run does the same twice.
+   Uses a Cholesky factorization of the operator by MUMPS instead of the AMG, if this is estimated to be faster for the
+   expected number of applications. The estimate uses the operation counts of MUMPS's analysis and fixed rates, not
+   measured times, so that repeated runs choose the same solver.
 */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime() */
+#define _POSIX_C_SOURCE 200809L /* declares clock_gettime() */
 #include "amgfimpl.h"
 #include "mumps.h"
 #include <petscblaslapack.h>
@@ -20,8 +20,10 @@ PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
   PetscFunctionReturn(0);
 }
 
-/* The operator in a format that MUMPS accepts as symmetric; NULL if there is none. A copy may be marked positive
-   definite. */
+/*
+   Gets the operator in a format that MUMPS can factor by Cholesky; *taken is NULL if there is none. A BAIJ matrix is
+   copied to AIJ, and the copy is marked as positive definite. Otherwise *taken is a reference to A.
+*/
 static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
 {
   PetscBool baij, mumps;
@@ -44,7 +46,10 @@ static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
   PetscFunctionReturn(0);
 }
 
-/* Analyses the pattern and stores its estimates; infinite if the analysis fails */
+/*
+   Lets MUMPS analyse the pattern of A, and stores its estimates in the PC: operations, entries and memory of the
+   factors. If the analysis fails, they are infinite.
+*/
 static PetscErrorCode FactorAnalyse(PC pc, Mat A)
 {
   AMGFFactor    *f = &((PC_AMGF *)pc->data)->factor;
@@ -67,13 +72,14 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
   PetscCall(AMGFMumpsGetInfog(f->F, 20, &entries));
   PetscCall(AMGFMumpsGetInfog(f->F, 17, &memory));
   f->entries =
-    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS returns large counts in millions, as negative numbers */
+    entries < 0 ? -1e6 * entries : (PetscReal)entries; /* MUMPS returns counts beyond the integer range as negative
+                                                          numbers of millions */
   f->memory = 1e6 * memory;
   if (error) f->flops = f->entries = f->memory = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
-/* CPU time of the calling thread [s], not affected by other threads and processes */
+/* Returns the CPU time of the calling thread [s], which does not include waiting or other threads */
 static PetscReal FactorThreadTime(void)
 {
   struct timespec now;
@@ -82,13 +88,16 @@ static PetscReal FactorThreadTime(void)
   return (PetscReal)now.tv_sec + 1e-9 * (PetscReal)now.tv_nsec;
 }
 
-/* rate: flops per second of BLAS, optimized or reference implementation: the latter takes ten times as long for a
-   matrix product */
+/*
+   Determines the rate of a factorization [operations/s]: one of two constants, for an optimized BLAS or for the
+   reference BLAS. A matrix product is timed only to tell the two apart; the reference BLAS takes about ten times as
+   long.
+*/
 static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 {
   const PetscBLASInt n   = 192;
   const PetscScalar  one = 1.0, zero = 0.0;
-  /* flops per second: threshold between the two; their rates */
+  /* [operations/s]: threshold between the two kinds of BLAS; rate assumed for each of them */
   const PetscReal threshold = 4e9, tuned = 2.7e10, reference = 1.2e9;
   PetscScalar    *a, *c;
   PetscReal       best = 0.0;
@@ -108,20 +117,26 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 }
 
 /*
-   Estimated time of either solver on one core [s], fitted to elastic bodies with 2,000 to 200,000 unknowns. Ranks are
-   assumed to share the work equally. An application of the AMG includes the caller's work: a product with the operator
-   and the orthogonalization of a direction. With contact a part of that does not depend on the size.
+   Estimates the times of both solvers on this number of ranks [s]. built: whether the AMG is already set up, so that
+   its set-up costs nothing. The constants are fitted to runs of elastic bodies with 2,000 to 200,000 unknowns on one
+   core; ranks are assumed to share the work equally. An application of the AMG includes the caller's work: a product
+   with the operator and the orthogonalization of a direction. The caller's work for contact does not depend on the
+   size.
 */
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const PC_AMGF    *amgf     = (PC_AMGF *)pc->data;
   const AMGFFactor *f        = &amgf->factor;
-  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix [s] */
-  const PetscReal   single = 1.6e-9, other = 1e-8;       /* time of an application per entry [s]: PCBLOCKAMG;
-                                                            BoomerAMG */
-  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* caller's work: per entry, and per application [s] */
-  const PetscReal   cached       = 2e6;                  /* with more entries per application takes twice as long */
-  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* time per entry of the factors: factorization, solve [s] */
+  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix [s]: MUMPS's analysis; AMG
+                                                            set-up */
+  const PetscReal   single = 1.6e-9, other = 1e-8;       /* time of one AMG application per entry of the matrix [s]:
+                                                            PCBLOCKAMG; BoomerAMG */
+  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* time of the caller's work [s]: per entry of the matrix;
+                                                            per application */
+  const PetscReal   cached       = 2e6;                  /* entries beyond which the matrix does not fit into the
+                                                            cache: with far more entries the time per entry doubles */
+  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* time per entry of the factors [s]: factorization; one
+                                                            solve */
   MatInfo           info;
   PetscReal         rate;
   PetscBool         half, block;
@@ -140,8 +155,10 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
   PetscFunctionReturn(0);
 }
 
-/* -pc_amgf_factor auto: whether the factorization fits into memory, and takes less time than the AMG for the expected
-   number of applications */
+/*
+   Decides for -pc_amgf_factor auto. *cheaper: the factorization fits into memory, and one factorization with `solves`
+   solves takes less time than `applications` applications of the AMG. f->why gets the explanation.
+*/
 static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal solves, PetscBool *cheaper)
 {
   PC_AMGF    *amgf  = (PC_AMGF *)pc->data;
@@ -166,13 +183,16 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   PetscFunctionReturn(0);
 }
 
-/* Chooses B for the present operator from the expected number of AMG applications or of solves with factors */
+/*
+   Chooses B for the present operator. applications: expected number of AMG applications; solves: expected number of
+   solves if B is the factorization. Does nothing unless the choice is automatic and still open.
+*/
 static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solves)
 {
   PC_AMGF        *amgf    = (PC_AMGF *)pc->data;
   AMGFFactor     *f       = &amgf->factor;
-  const PetscReal largest = 5e5; /* with more unknowns the analysis alone would take minutes, and as much memory as
-                                    the AMG */
+  const PetscReal largest = 5e5; /* number of unknowns above which the analysis alone takes minutes, and as much
+                                    memory as the AMG */
   AMGFStamp       now;
   PetscInt        n;
   Mat             A;
@@ -189,12 +209,15 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
     PetscCall(MatDestroy(&A));
   }
   PetscCall(FactorCompare(pc, applications, solves, &f->on));
-  if (!f->on) PetscCall(MatDestroy(&f->F)); /* the estimates are kept */
+  if (!f->on) PetscCall(MatDestroy(&f->F)); /* only the estimates of the analysis are kept */
   else amgf->lag.built = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
-/* Numerical factorization; repeated with more work space if MUMPS's own estimate was too small */
+/*
+   Computes the numerical factorization. While MUMPS reports too little work space, the factorization is repeated with
+   more. *error: the same on all ranks.
+*/
 static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
 {
   PetscInt      relaxation = 0;
@@ -212,9 +235,7 @@ static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
   PetscFunctionReturn(0);
 }
 
-/*
-   PCAMGFFactorSetUp_Private - factors the operator; f->failed: it cannot be factored
-*/
+/* PCAMGFFactorSetUp_Private - factors the operator; f->failed tells whether that failed */
 PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
 {
   PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
@@ -257,7 +278,7 @@ PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves
   const PetscBool on = f->on;
 
   PetscFunctionBegin;
-  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* determines which AMG would be used */
+  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
   PetscCall(FactorExpect(pc, applications, solves));
   if (f->on != on) pc->setupcalled = 0;
   PetscFunctionReturn(0);

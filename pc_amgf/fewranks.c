@@ -1,12 +1,12 @@
 /*
-   Solves the filtered system on the first few ranks. Its factors are small; on all ranks, messages would take longer
-   than arithmetic. A PCSHELL in the filter's KSP moves A_w and the vectors. The direct solver on those ranks reads the
-   options of the filter's prefix.
+   Solves the filtered system on the first few ranks only. The matrix A_w is small, so that on all ranks messages would
+   take longer than arithmetic. The filter's KSP gets a PCSHELL, which moves A_w and the vectors to those ranks. The
+   direct solver there reads the options of the filter's prefix.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
 
-/* Moves A_w to the solving ranks, row by row */
+/* Moves A_w to the solving ranks: few->A. reuse: only the values have changed. */
 static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool reuse)
 {
   const MatReuse call = reuse ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -27,7 +27,7 @@ static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool re
   PetscFunctionReturn(0);
 }
 
-/* Creates the vectors on the solving ranks, and the scatter to them */
+/* Creates the vectors on the solving ranks, and the scatter from vectors of A_w to them */
 static PetscErrorCode FewRanksCreateVecs(AMGFFewRanks *few, Mat Aw)
 {
   const MPI_Comm comm = PetscObjectComm((PetscObject)Aw);
@@ -52,7 +52,7 @@ static PetscErrorCode FewRanksCreateVecs(AMGFFewRanks *few, Mat Aw)
   PetscFunctionReturn(0);
 }
 
-/* PCAMGFFewRanksReset_Private - frees the solver and its communication; keeps the requested number of ranks */
+/* PCAMGFFewRanksReset_Private - frees the solver and its communicator, but not the requested number of ranks */
 PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
 {
   PetscFunctionBegin;
@@ -70,7 +70,10 @@ PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
   PetscFunctionReturn(0);
 }
 
-/* Number of ranks by size: below this number of rows per rank, one rank is faster than several */
+/*
+   Chooses the number of solving ranks: the number that the user requested, or one more per 10,000 rows. With fewer rows
+   per rank, fewer ranks are faster.
+*/
 static PetscErrorCode FewRanksChoose(const AMGFFewRanks *few, Mat Aw, PetscMPIInt *nranks)
 {
   const PetscInt rows_per_rank = 10000;
@@ -110,7 +113,7 @@ static PetscErrorCode FewRanksCreate(PC shell, Mat Aw, PetscMPIInt nranks, AMGFF
   PetscFunctionReturn(0);
 }
 
-/* Makes a failure on the solving ranks a failure on all */
+/* Collective. If the solver failed on one of the solving ranks, marks the PC as failed on all ranks. */
 static PetscErrorCode FewRanksShareFailure(PC shell, const AMGFFewRanks *few)
 {
   PCFailedReason reason = PC_NOERROR;
@@ -151,7 +154,7 @@ static PetscErrorCode FewRanksSetUp(PC shell)
   PetscFunctionReturn(0);
 }
 
-/* x = A_w^-1 r by PCApply() or PCApplyTranspose() */
+/* Computes x = A_w^-1 r (or A_w^-T r). apply: PCApply() or PCApplyTranspose(). */
 static PetscErrorCode FewRanksSolve(PC shell, PetscErrorCode (*apply)(PC, Vec, Vec), Vec r, Vec x)
 {
   AMGFFewRanks *few;
@@ -207,9 +210,7 @@ static PetscErrorCode FewRanksView(PC shell, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/*
-   PCAMGFFewRanksBegin_Private - sets a PC without a type up to solve on the first few ranks
-*/
+/* PCAMGFFewRanksBegin_Private - configures a PC that has no type yet to solve on the first few ranks */
 PetscErrorCode PCAMGFFewRanksBegin_Private(PC pc, AMGFFewRanks *few)
 {
   PetscFunctionBegin;

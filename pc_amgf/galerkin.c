@@ -1,7 +1,7 @@
-/* The matrices R = P^H A (few rows) and A_w = P^H A P; for real scalars P^H is P^T */
+/* Computes the matrices R = P^H A (few rows) and A_w = P^H A P. With real scalars P^H is P^T. */
 #include "amgfimpl.h"
 
-/* P selects unknowns: R is rows of A, A_w columns of R */
+/* Computes R and A_w if P selects unknowns: R consists of rows of A, and A_w of columns of R */
 static PetscErrorCode GalerkinFromRows(PC pc, PetscBool reuse)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
@@ -17,7 +17,7 @@ static PetscErrorCode GalerkinFromRows(PC pc, PetscBool reuse)
   PetscFunctionReturn(0);
 }
 
-/* General P: with S the rows in which P is nonzero, P^H A = P_S^H A_S */
+/* Computes R and A_w for a general P. Let S be the rows in which P is nonzero; then P^H A = P_S^H A_S. */
 static PetscErrorCode GalerkinFromInterpolation(PC pc, PetscBool reuse)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;

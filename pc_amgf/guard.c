@@ -1,9 +1,11 @@
-/* Catches errors of libraries (hypre) inside a call, so that they do not end the program. */
+/* Catches errors of libraries (hypre) during a call, so that they do not end the program */
 #include "amgfimpl.h"
 #include "guard.h"
 
-/* Error handler: stores errors of libraries and their messages; passes all other errors to the previous handler.
-   PETSc calls it at every level of the call stack. */
+/*
+   Handles an error. Errors of libraries are recorded with their message and return. All other errors are passed to the
+   previous handler. PETSc calls the handler at every level of the call stack.
+*/
 static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *function, const char *file,
   PetscErrorCode error, PetscErrorType type, const char *message, void *ctx)
 {
@@ -19,8 +21,10 @@ static PetscErrorCode GuardHandleError(MPI_Comm comm, int line, const char *func
   return error;
 }
 
-/* Clears hypre's error flag; otherwise every later call would return the error. Looked up at run time, since only
-   PETSc is linked with hypre. */
+/*
+   Clears hypre's error flag. Otherwise every later call to hypre would return this error again. The function is looked
+   up at run time, since PETSc is linked with hypre but this library is not.
+*/
 static PetscErrorCode GuardClearHypre(void)
 {
   union {
@@ -34,8 +38,12 @@ static PetscErrorCode GuardClearHypre(void)
   PetscFunctionReturn(0);
 }
 
-/* PCAMGFGuardBegin_Private - call before a guarded call; b: its right-hand side, or NULL. Errors of the call are
-   reported by PCAMGFGuardEnd_Private() only */
+/*
+   PCAMGFGuardBegin_Private - catches library errors from here to PCAMGFGuardEnd_Private()
+
+   Input Parameter:
+   . b - right-hand side of the guarded call, or NULL
+*/
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
   PetscFunctionBegin;
@@ -47,8 +55,16 @@ PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 }
 
 /*
-   PCAMGFGuardEnd_Private - call after it. *failed: a library reported an error on this rank; any other error is
-   returned
+   PCAMGFGuardEnd_Private - ends the guard
+
+   Input Parameter:
+   . error - error code of the guarded call
+
+   Output Parameter:
+   . failed - whether a library reported an error on this rank
+
+   Note:
+   Any other error code is returned as an error.
 */
 PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, PetscBool *failed)
 {

@@ -5,8 +5,9 @@
 #include <petscvec.h>
 
 typedef struct {
-  char     why[128]; /* message of the error */
-  Vec      b;        /* right-hand side of the call, which an interrupted call leaves locked; NULL: none */
+  char     why[128]; /* message of the library's error */
+  Vec      b;        /* right-hand side of the guarded call, which remains locked for reading if an error interrupts
+                        the call; NULL: none */
   PetscInt nlocks;
 } AMGFGuard;
 

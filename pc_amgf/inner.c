@@ -1,8 +1,10 @@
-/* Configures PCGAMG, which restricts with P^T. For a complex operator B is Hermitian only if P is real, i.e.
-   unsmoothed */
+/* Sets types and options of the inner solvers: the AMG, and the solver of the filtered system */
 #include "amgfimpl.h"
 
-/* PCGAMG restricts with P^T. For a complex operator B is Hermitian only if P is real, that is, not smoothed */
+/*
+   Configures PCGAMG as the AMG. PCGAMG restricts with P^T. For a complex operator B is therefore Hermitian only if P is
+   real, that is, without smoothing of P.
+*/
 static PetscErrorCode InnerConfigureGAMG(PC amg)
 {
   PetscFunctionBegin;
@@ -12,7 +14,7 @@ static PetscErrorCode InnerConfigureGAMG(PC amg)
   PetscFunctionReturn(0);
 }
 
-/* Configures BoomerAMG, unless the options name another type */
+/* Configures BoomerAMG as the AMG, unless the options name another type */
 static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
 {
   PetscInt bs;
@@ -24,7 +26,10 @@ static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
   PetscFunctionReturn(0);
 }
 
-/* asks: whether options with the AMG's prefix set its type, or concern hypre's own cycle */
+/*
+   Finds whether an option with the AMG's prefix sets its type, or concerns hypre's own cycle, which PCBLOCKAMG does not
+   use
+*/
 static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
 {
   static const char *const names[] = {"-pc_type", "-pc_hypre_type", "-pc_hypre_boomeramg_cycle_type",
@@ -47,7 +52,7 @@ static PetscErrorCode InnerAsksForType(PC amg, PetscBool *asks)
   PetscFunctionReturn(0);
 }
 
-/* can_use: whether PCBLOCKAMG supports the operator and no option asks for another type */
+/* Finds whether PCBLOCKAMG supports the operator's type and no option asks for another AMG */
 static PetscErrorCode InnerCanUseBlockAMG(PC pc, PC amg, PetscBool *can_use)
 {
   PetscBool asks;
@@ -63,8 +68,10 @@ static PetscErrorCode InnerCanUseBlockAMG(PC pc, PC amg, PetscBool *can_use)
 }
 
 /*
-   PCAMGFSetBlockAMG_Private - if the AMG has its default type, changes it to PCBLOCKAMG, or to BoomerAMG with its own
-   cycle
+   PCAMGFSetBlockAMG_Private - selects one of the two default AMGs; does nothing if the user has chosen the AMG
+
+   Input Parameter:
+   . block - PETSC_TRUE: PCBLOCKAMG; PETSC_FALSE: BoomerAMG with hypre's own cycle
 */
 PetscErrorCode PCAMGFSetBlockAMG_Private(PC pc, PetscBool block)
 {
@@ -94,7 +101,10 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* Sets MUMPS on as many ranks as the size needs; on all ranks if the user chose another solver or PETSc has no MUMPS */
+/*
+   Selects the direct solver of the filtered system: MUMPS on as many ranks as its size needs. If the user has set a
+   type, or PETSc has no MUMPS, all ranks take part.
+*/
 static PetscErrorCode InnerSetFilterSolver(PC pc, PC inner)
 {
   PetscOptions options;
@@ -130,8 +140,8 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
 }
 
 /*
-   PCAMGFPrefixInner_Private - gives the inner solvers prefixes derived from that of the preconditioner, which may
-   change until the set-up
+   PCAMGFPrefixInner_Private - derives the options prefixes of the inner solvers from that of the preconditioner, which
+   may change until the set-up
 */
 PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
 {
@@ -148,7 +158,8 @@ PetscErrorCode PCAMGFPrefixInner_Private(PC pc)
 }
 
 /*
-   PCAMGFConfigureInner_Private - sets types and options of the inner solvers; needs the operator's block size
+   PCAMGFConfigureInner_Private - sets types and options of the inner solvers once; the operator must be known, since
+   its block size matters
 */
 PetscErrorCode PCAMGFConfigureInner_Private(PC pc)
 {

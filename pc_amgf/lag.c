@@ -1,19 +1,24 @@
-/* When to rebuild the AMG */
+/* Decides when the AMG is rebuilt */
 #include "amgfimpl.h"
 
-/* additional iterations that are always allowed, because small iteration counts vary */
+/* Number of iterations beyond the ratio that do not cause a rebuild, because small iteration counts vary anyway */
 #define LAG_FREE_ITERATIONS 2
 
-/* Returns the lag: default 1 for bfb, which needs A < 2 B^-1; an old B does not guarantee that. The other cycles are
-   positive definite with any B */
+/*
+   Returns the lag that the user has set, or the default of the cycle. The cycle bfb needs A < 2 B^-1, which an AMG of
+   an older operator does not guarantee; its default is a rebuild for every operator. The other cycles are positive
+   definite with any positive definite B; their default is the automatic lag.
+*/
 PetscInt PCAMGFLagEvery_Private(const PC_AMGF *amgf)
 {
   if (amgf->lag.every != AMGF_LAG_UNSET) return amgf->lag.every;
   return amgf->cycle == PC_AMGF_BFB ? 1 : AMGF_LAG_AUTO;
 }
 
-/* Largest ratio, on this rank, by which a diagonal entry outside the active subspace has grown or shrunk since the
-   AMG was built */
+/*
+   Computes the largest ratio, on this rank, by which a diagonal entry has grown or shrunk since the AMG was built.
+   Filtered unknowns are left out. An entry that changed and is not positive counts as PETSC_MAX_REAL.
+*/
 static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *drift)
 {
   PetscInt           n, start, nrows = 0, k = 0;
@@ -44,7 +49,10 @@ static PetscErrorCode LagDiagonalDrift(PC_AMGF *amgf, Vec diagonal, PetscReal *d
   PetscFunctionReturn(0);
 }
 
-/* rebuild: the last solve took too many iterations, or the operator has changed outside the filtered subspace */
+/*
+   Decides by the automatic rule: *rebuild is true on all ranks if the last solve took too many iterations, or if the
+   diagonal has changed too much outside the filtered subspace
+*/
 static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
@@ -59,14 +67,14 @@ static PetscErrorCode LagDecideAutomatically(PC pc, PetscBool *rebuild)
     PetscCall(LagDiagonalDrift(amgf, diagonal, &drift));
     PetscCall(VecDestroy(&diagonal));
     if (drift > AMGF_LAG_RATIO) *rebuild = PETSC_TRUE;
-  } else *rebuild = PETSC_TRUE; /* there is nothing to compare with, as automatic lag was set after the AMG was built */
+  } else
+    *rebuild = PETSC_TRUE; /* without a stored diagonal there is nothing to compare with: the automatic lag was
+                                   set after the AMG was built */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rebuild, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   PetscFunctionReturn(0);
 }
 
-/*
-   PCAMGFLagDecide_Private - whether this set-up rebuilds the AMG; call with the subspace up to date
-*/
+/* PCAMGFLagDecide_Private - decides whether this set-up rebuilds the AMG; the subspace must be up to date */
 PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
 {
   PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
@@ -90,16 +98,17 @@ PetscErrorCode PCAMGFLagDecide_Private(PC pc, PetscBool *rebuild)
   PetscFunctionReturn(0);
 }
 
-/* Sets the solve with which later ones are compared; its = 0: none yet, digits = 0: unknown */
+/*
+   Sets the reference solve, with which later solves are compared. its: 0 if there is none yet; digits: 0 if the
+   residual reduction is unknown.
+*/
 static void LagSetReference(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
   lag->its    = its;
   lag->digits = digits;
 }
 
-/*
-   PCAMGFLagRebuilt_Private - call after the AMG was built from the present operator
-*/
+/* PCAMGFLagRebuilt_Private - records that the AMG was just built from the present operator */
 PetscErrorCode PCAMGFLagRebuilt_Private(PC pc)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
@@ -128,7 +137,10 @@ PetscErrorCode PCAMGFLagReset_Private(AMGFLag *lag)
   PetscFunctionReturn(0);
 }
 
-/* Makes KSP record the initial residual: a history of one entry, unless the user keeps a history */
+/*
+   Makes the KSP record its initial residual norm. If the user does not record a residual history, a history of one
+   entry is set.
+*/
 PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
 {
   PC_AMGF         *amgf = (PC_AMGF *)pc->data;
@@ -146,7 +158,10 @@ PetscErrorCode PCPreSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Number of digits by which the last solve reduced its residual; 0: unknown */
+/*
+   Computes the number of decimal digits by which the last solve reduced its residual; 0 if unknown. first: entry of the
+   residual history that holds the initial residual norm.
+*/
 static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 {
   const PetscReal *history;
@@ -163,10 +178,11 @@ static PetscErrorCode LagGetDigits(KSP ksp, PetscInt first, PetscReal *digits)
 }
 
 /*
-   Tolerances vary from solve to solve (inexact Newton). Therefore iterations per digit of residual reduction are
-   compared with those of the first solve after the last rebuild; iterations alone if the residual is unknown. The
-   first digits are cheap: a reference of few digits is replaced by the first solve of many, unless that one is much
-   more expensive.
+   Returns whether the last solve took too many iterations. The iterations per digit of residual reduction are compared
+   with those of the reference solve, since tolerances differ between solves (inexact Newton). If a reduction is
+   unknown, the iterations are compared.
+   The first digits take fewer iterations than later ones. A reference solve of few digits is therefore replaced by the
+   first solve of more than twice as many digits, unless that solve was far more expensive per digit.
 */
 static PetscBool LagTooManyIterations(AMGFLag *lag, PetscInt its, PetscReal digits)
 {
@@ -195,8 +211,9 @@ PetscErrorCode PCPostSolve_AMGF(PC pc, KSP ksp, Vec b, Vec x)
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetIterationNumber(ksp, &its));
   PetscCall(LagGetDigits(ksp, lag->history, &digits));
-  /* the solve failed: the AMG may be the cause even if it was built from this operator, for example because the
-     operator is not definite. Rebuilds for the next operator, unless the subspace failed */
+  /* A solve may fail because of the AMG even if the AMG was built from this operator, for example if the operator is
+     indefinite. The AMG is rebuilt for the next operator. The exception is a failed preconditioner whose AMG is up
+     to date: then the filtered system caused the failure. */
   if (reason < 0) lag->overdue = (PetscBool)(lag->age > 0 || reason != KSP_DIVERGED_PC_FAILED);
   else if (its > 0 && lag->its == 0) LagSetReference(lag, its, digits);
   else if (its > 0 && lag->age > 0) lag->overdue = LagTooManyIterations(lag, its, digits);

@@ -1,11 +1,17 @@
-/* Memory that all ranks together may use: that of their machines, or less if a control group limits it */
+/*
+   Determines the memory that all ranks together may use: the memory of their machines, or less if a control group of
+   Linux limits it
+*/
 #include "amgfimpl.h"
 #include <stdio.h>
 #include <unistd.h>
 
 #define MEMORY_LINE 4096
 
-/* The number in a file of a control group; infinite if there is no file or it says "max" */
+/*
+   Returns the limit [bytes] in a file of a control group. Returns infinity if the file does not exist or contains
+   "max".
+*/
 static PetscReal MemoryReadLimit(const char folder[], const char file[])
 {
   char   path[2 * MEMORY_LINE];
@@ -21,7 +27,8 @@ static PetscReal MemoryReadLimit(const char folder[], const char file[])
 }
 
 /*
-   The smallest limit of a control group and of its parents. Inside a container some folders of the path may not exist.
+   Returns the smallest limit [bytes] of a control group and its parent groups. Folders of the path that do not exist,
+   as inside a container, are skipped.
 */
 static PetscReal MemoryReadGroup(const char mount[], const char group[], const char file[])
 {
@@ -38,7 +45,7 @@ static PetscReal MemoryReadGroup(const char mount[], const char group[], const c
   return limit;
 }
 
-/* Whether a comma-separated list of names contains "memory" */
+/* Returns whether a comma-separated list of names contains "memory" */
 static PetscBool MemoryIsController(const char list[])
 {
   for (const char *at = list; (at = strstr(at, "memory")); at += 6) {
@@ -48,8 +55,8 @@ static PetscBool MemoryIsController(const char list[])
 }
 
 /*
-   Limits of the process's control groups [bytes], version 2 (memory.max) and version 1 (memory.limit_in_bytes). root:
-   prefix of /proc and /sys, not empty only in tests
+   Returns the smallest limit of the process's control groups [bytes]: memory.max for version 2, memory.limit_in_bytes
+   for version 1. root: prefix of the paths /proc and /sys; empty except in tests.
 */
 static PetscReal MemoryReadGroups(const char root[])
 {
@@ -60,14 +67,14 @@ static PetscReal MemoryReadGroups(const char root[])
   (void)snprintf(path, sizeof(path), "%s/proc/self/cgroup", root);
   stream = fopen(path, "r");
   if (!stream) return limit;
-  while (fgets(line, sizeof(line), stream)) { /* number:controllers:path */
+  while (fgets(line, sizeof(line), stream)) { /* a line reads number:controllers:path */
     char *controllers = strchr(line, ':'), *group = controllers ? strchr(controllers + 1, ':') : NULL;
 
     if (!group) continue;
     *group++                    = '\0';
     group[strcspn(group, "\n")] = '\0';
     controllers++;
-    if (!*controllers) { /* version 2 */
+    if (!*controllers) { /* only version 2 has an empty list of controllers */
       (void)snprintf(mount, sizeof(mount), "%s/sys/fs/cgroup", root);
       limit = PetscMin(limit, MemoryReadGroup(mount, group, "memory.max"));
     } else if (MemoryIsController(controllers)) {
@@ -79,7 +86,10 @@ static PetscReal MemoryReadGroups(const char root[])
   return limit;
 }
 
-/* Memory of this rank's machine, or less if the process is limited [bytes]. All processes on the machine share it. */
+/*
+   Returns the memory of this rank's machine [bytes], or the limit of its control group if that is less. All processes
+   on the machine share it.
+*/
 static PetscReal MemoryOfMachine(const char root[])
 {
   const PetscReal physical = (PetscReal)sysconf(_SC_PHYS_PAGES) * (PetscReal)sysconf(_SC_PAGESIZE);
@@ -88,16 +98,17 @@ static PetscReal MemoryOfMachine(const char root[])
 }
 
 /*
-  PCAMGFSumMemory_Private - what all ranks together may use, if each of them uses as much as the one that has least
+   PCAMGFSumMemory_Private - computes the memory that all ranks together may use if all use equal amounts
 
-  Collective
+   Collective
 
-  Input Parameters:
-+ comm    - the ranks
-- machine - memory of this rank's machine, which its ranks share; may differ from rank to rank
+   Input Parameters:
+   + comm    - the ranks
+   - machine - memory of this rank's machine [bytes], which the ranks on this machine share; may differ from rank to
+   rank
 
-  Output Parameter:
-. all - the same value on all ranks
+   Output Parameter:
+   . all - number of ranks times the smallest share of a rank [bytes]; the same on all ranks
 */
 PetscErrorCode PCAMGFSumMemory_Private(MPI_Comm comm, PetscReal machine, PetscReal *all)
 {
@@ -116,7 +127,10 @@ PetscErrorCode PCAMGFSumMemory_Private(MPI_Comm comm, PetscReal machine, PetscRe
 }
 
 /*
-  PCAMGFGetMemory_Private - what all ranks together may use [bytes]; collective, the same on all ranks
+   PCAMGFGetMemory_Private - computes the memory that all ranks of comm together may use [bytes], see
+   PCAMGFSumMemory_Private()
+
+   Collective
 */
 PetscErrorCode PCAMGFGetMemory_Private(MPI_Comm comm, PetscReal *all)
 {

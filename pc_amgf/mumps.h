@@ -11,10 +11,12 @@
   #define AMGF_HAVE_MUMPS 1
 #endif
 
-#define AMGF_MUMPS_RELAXATION 20 /* per cent of work space beyond MUMPS's estimate: its own default */
+#define AMGF_MUMPS_RELAXATION 20 /* work space beyond MUMPS's estimate [per cent]; MUMPS's own default */
 
-/* Increases the work space [per cent beyond MUMPS's estimate]: `first` initially, then twice the last value. Returns
-   false when 16 times `first` was not enough */
+/*
+   Increases the work space beyond MUMPS's estimate [per cent]: from 0 to `first`, and then to twice its last value.
+   Returns false if it already is 16 times `first`; *relaxation is then unchanged.
+*/
 static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
 {
   const PetscInt last = 16 * first;
@@ -24,7 +26,7 @@ static inline PetscBool AMGFMumpsMoreSpace(PetscInt first, PetscInt *relaxation)
   return PETSC_TRUE;
 }
 
-/* factors: whether MUMPS factors matrices of this type; the functions below are for those types */
+/* Finds whether MUMPS can factor matrices of this type. The functions below are for factors of such matrices. */
 static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor, PetscBool *factors)
 {
   PetscFunctionBegin;
@@ -38,7 +40,7 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
   PetscFunctionReturn(0);
 }
 
-/* Without MUMPS this does nothing */
+/* Sets an integer control parameter of MUMPS. Does nothing without MUMPS. */
 static inline PetscErrorCode AMGFMumpsSetIcntl(Mat F, PetscInt icntl, PetscInt value)
 {
   PetscFunctionBegin;
@@ -65,7 +67,7 @@ static inline PetscErrorCode AMGFMumpsSetCntl(Mat F, PetscInt cntl, PetscReal va
   PetscFunctionReturn(0);
 }
 
-/* Without MUMPS the value is 0 */
+/* Gets a global integer result of MUMPS; 0 without MUMPS */
 static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *value)
 {
   PetscFunctionBegin;

@@ -1,7 +1,7 @@
 /* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
 #include "amgfimpl.h"
 
-/* Reads a number or "auto" */
+/* Sets the lag from the value of -pc_amgf_amg_lag: a whole number, or "auto" */
 static PetscErrorCode LagFromString(PC pc, const char string[])
 {
   PetscBool automatic;

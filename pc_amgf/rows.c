@@ -2,7 +2,7 @@
 #include "amgfimpl.h"
 #include <petsc/private/hashmapi.h>
 
-/* Inserts rows of formats that store full rows: AIJ, BAIJ */
+/* Inserts rows of A into R. Only for formats that store full rows: AIJ and BAIJ. */
 static PetscErrorCode RowsInsertFull(Mat A, PetscInt n, const PetscInt rows[], Mat R)
 {
   PetscInt first;
@@ -21,7 +21,7 @@ static PetscErrorCode RowsInsertFull(Mat A, PetscInt n, const PetscInt rows[], M
   PetscFunctionReturn(0);
 }
 
-/* map: position in R of every requested row of A, on all ranks */
+/* Creates a map, on every rank, from a row of A to the row of R that holds it, for all requested rows */
 static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
 {
   IS              all;
@@ -39,9 +39,12 @@ static PetscErrorCode RowsCreateMap(IS rows, PetscHMapI *map)
   PetscFunctionReturn(0);
 }
 
-/* Inserts rows of SBAIJ, which stores the upper triangle only. The part of a requested row left of the diagonal is
-   stored as a column in the rows above, so every row is visited. Entry (i,j), i <= j, becomes (k(i), j) and,
-   mirrored, (k(j), i). */
+/*
+   Inserts rows of an SBAIJ matrix into R. SBAIJ stores the upper triangle only, so that the part of a requested row
+   left of the diagonal is spread over the rows above. Every row is therefore visited. Let k(i) be the row of R that
+   holds row i of A. An entry (i,j) with i <= j becomes the entries (k(i),j) and (k(j),i), as far as k(i) and k(j)
+   exist.
+*/
 static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
 {
   PetscHMapI map;
@@ -59,7 +62,7 @@ static PetscErrorCode RowsInsertUpperTriangle(Mat A, IS rows, Mat R)
     PetscCall(PetscHMapIGet(map, i, &ki));
     PetscCall(MatGetRow(A, i, &ncols, &cols, &vals));
     for (PetscInt c = 0; c < ncols; c++) {
-      if (cols[c] < i) continue; /* lower half of a diagonal block */
+      if (cols[c] < i) continue; /* entries below the diagonal inside a diagonal block are repetitions */
       if (ki >= 0) PetscCall(MatSetValue(R, ki, cols[c], vals[c], INSERT_VALUES));
       if (cols[c] == i) continue;
       PetscCall(PetscHMapIGet(map, cols[c], &kj));
@@ -96,7 +99,7 @@ static PetscErrorCode RowsInsert(Mat A, IS rows, Mat R)
   PetscFunctionReturn(0);
 }
 
-/* Creates an AIJ matrix preallocated for exactly these rows */
+/* Creates an AIJ matrix with exactly the nonzero pattern of the requested rows */
 static PetscErrorCode RowsCreateMatrix(Mat A, IS rows, Mat *R)
 {
   MPI_Comm comm;
@@ -123,18 +126,19 @@ static PetscErrorCode RowsCreateMatrix(Mat A, IS rows, Mat *R)
 }
 
 /*
-  MatGetThinRows_AMGF - the given rows of a symmetric matrix
+   MatGetThinRows_AMGF - extracts rows of a symmetric matrix
 
-  Input Parameters:
-+ A     - symmetric matrix (n x n) of any format with MatGetRow()
-. rows  - rows of A, each on the rank that owns it, sorted, without repetition
-- reuse - *R was made by this function from the same rows and nonzero pattern: replace its values
+   Input Parameters:
+   + A     - symmetric matrix (n x n) of any format with MatGetRow()
+   . rows  - rows of A, each on the rank that owns it, sorted, without repetition
+   - reuse - *R was created by this function from the same rows and the same nonzero pattern: only its values are
+   replaced
 
-  Output Parameter:
-. R - AIJ matrix; rows as in the IS, columns as in A
+   Output Parameter:
+   . R - AIJ matrix; row k is the k-th requested row, columns are those of A
 
-  Note:
-  MatCreateSubMatrix() would do for AIJ only: BAIJ and SBAIJ take nothing but whole blocks.
+   Note:
+   MatCreateSubMatrix() would be sufficient for AIJ. For BAIJ and SBAIJ it accepts whole blocks only.
 */
 PetscErrorCode MatGetThinRows_AMGF(Mat A, IS rows, PetscBool reuse, Mat *R)
 {

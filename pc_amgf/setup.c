@@ -1,5 +1,7 @@
-/* Set-up: inner solvers, subspace, R and A_w, the filter's factorization, and the AMG (or the factorization that
-   replaces it) if due */
+/*
+   Sets up the inner solvers, the subspace, R and A_w, the factorization of A_w, and B (the AMG, or the factorization of
+   the operator) if B is due
+*/
 #include "amgfimpl.h"
 #include "guard.h"
 
@@ -13,7 +15,10 @@ static PetscErrorCode SetUpCheckInner(PC pc, PC inner)
   PetscFunctionReturn(0);
 }
 
-/* Warns if there is no filter: the only effect would be more iterations, so a forgotten filter would not be noticed */
+/*
+   Prints a warning, once, if there is no filter. Without it the preconditioner still works but takes more iterations,
+   so that the user would not notice a forgotten filter.
+*/
 static PetscErrorCode SetUpWarn(PC pc)
 {
   PC_AMGF         *amgf   = (PC_AMGF *)pc->data;
@@ -48,7 +53,7 @@ static PetscErrorCode SetUpFilter(PC pc)
   if (amgf->sub.n) {
     PetscCall(PCAMGFUpdateGalerkin_Private(pc, same));
     PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
-    /* a factored matrix of another size cannot be replaced in place */
+    /* A matrix of another size needs a new factorization object. */
     if (!same) {
       PetscCall(KSPReset(amgf->filter));
       PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
@@ -68,8 +73,10 @@ static PetscErrorCode SetUpFilter(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* PCSetUp() of the AMG. A library error, e.g. because of a zero row, may occur on one rank only, and every later
-   call of the library would report it again. Therefore all ranks mark the PC as failed, and the AMG is created anew. */
+/*
+   Sets up the AMG. A library error, e.g. because of a zero row, may occur on one rank only, and every later call to the
+   library would report it again. If one occurs, *failed is true on all ranks and the AMG is reset.
+*/
 static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
@@ -90,10 +97,12 @@ static PetscErrorCode SetUpGuardAMG(PC pc, PetscBool *failed)
 }
 
 /*
-   Chooses the AMG. Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries, which
-   must be small compared with soft rows: at a contrast of 1e9 CG with PCBLOCKAMG does not converge. bfb needs A < 2
-   B^-1: for stiff ties, where A < B^-1 in exact arithmetic, a contrast of 1e4 gives A < 1.001 B^-1, one of 1e5 A < 1.6
-   B^-1.
+   Selects PCBLOCKAMG (single precision) if the contrast of the diagonal entries is small enough, and BoomerAMG
+   otherwise.
+   Rounding a stiff row to single precision changes the operator by 6e-8 of the row's entries. This must be small
+   compared with soft rows: at a contrast of 1e9, CG with PCBLOCKAMG does not converge.
+   The limit for the cycle bfb is lower, since bfb needs A < 2 B^-1. With stiff ties, for which A < B^-1 in exact
+   arithmetic, a contrast of 1e4 gives A < 1.001 B^-1, and a contrast of 1e5 gives A < 1.6 B^-1.
 */
 static PetscErrorCode SetUpChooseAMG(PC pc)
 {
@@ -121,12 +130,12 @@ static PetscErrorCode SetUpAMG(PC pc, PetscBool *failed)
   PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
   PetscCall(SetUpGuardAMG(pc, failed));
-  /* prevents PCApply() from rebuilding the AMG when the operator changes in place */
+  /* PCApply() must not rebuild the AMG when the values of the operator change. */
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
-/* Sets up B, if due */
+/* Sets up B if the lag requires it, and reports a failure of B in the PC's failed reason */
 static PetscErrorCode SetUpWhole(PC pc)
 {
   PC_AMGF    *amgf   = (PC_AMGF *)pc->data;

@@ -1,4 +1,4 @@
-/* Stamps of matrices, to decide what can be reused */
+/* Stamps of matrices, which tell whether data computed from a matrix can be reused */
 #include "amgfimpl.h"
 
 PetscErrorCode MatGetStamp_AMGF(Mat A, AMGFStamp *stamp)

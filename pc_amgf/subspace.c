@@ -1,4 +1,4 @@
-/* Source of the subspace, and its rows on this rank */
+/* Finds the source of the subspace, and the rows of the subspace on this rank */
 #include "amgfimpl.h"
 
 static PetscErrorCode SubspaceLoadFile(PC pc)
@@ -37,8 +37,8 @@ static PetscErrorCode SubspaceGetComposed(PC pc, PetscObject *composed, PetscObj
 }
 
 /*
-   PCAMGFSubspaceIsStale_Private - whether the object composed on the operator was replaced or changed since the set-up;
-   PETSc does not repeat the set-up for an unchanged operator
+   PCAMGFSubspaceIsStale_Private - finds whether the object composed on the operator was replaced or changed since the
+   last set-up. PETSc does not repeat the set-up while the operator is unchanged.
 */
 PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
 {
@@ -56,7 +56,7 @@ PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
   PetscFunctionReturn(0);
 }
 
-/* Finds the first source that is given. *is and *P are borrowed. */
+/* Finds the first source that is given. *is and *P are borrowed references; at most one of them is not NULL. */
 static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat *P)
 {
   PC_AMGF    *amgf = (PC_AMGF *)pc->data;
@@ -96,7 +96,7 @@ static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat 
 
 static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[])
 {
-  PetscInt N, extreme[2] = {0, 0}; /* minus the smallest, and the largest row number, over all ranks */
+  PetscInt N, extreme[2] = {0, 0}; /* minus the smallest row number; the largest row number */
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &N, NULL));
@@ -112,8 +112,10 @@ static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[]
   PetscFunctionReturn(0);
 }
 
-/* rows: the rows named on any rank, each on the rank that owns it, sorted, without repetition; a Vec collects the
-   marks */
+/*
+   Computes the rows that the index sets of all ranks name, each on the rank that owns it, sorted, without repetition.
+   The rows are marked in a Vec, whose assembly moves the marks to the owners.
+*/
 static PetscErrorCode SubspaceOwnedRows(PC pc, IS is, IS *rows)
 {
   Vec                marks;
@@ -144,7 +146,7 @@ static PetscErrorCode SubspaceOwnedRows(PC pc, IS is, IS *rows)
   PetscFunctionReturn(0);
 }
 
-/* rows: the rows in which P is nonzero */
+/* Creates the index set of the owned rows in which P is nonzero */
 static PetscErrorCode SubspaceNonzeroRows(Mat P, IS *rows)
 {
   PetscInt start, end, k = 0, *owned;
@@ -242,10 +244,10 @@ static PetscErrorCode SubspaceFromInterpolation(PC pc, Mat P, PetscBool *same)
 }
 
 /*
-  PCAMGFUpdateSubspace_Private - finds the subspace of the current operator
+   PCAMGFUpdateSubspace_Private - finds the subspace of the current operator
 
-  Output Parameter:
-. same - the matrices built from the last subspace can be refilled
+   Output Parameter:
+   . same - the subspace is the same as before, so that the matrices built from it need new values only
 */
 PetscErrorCode PCAMGFUpdateSubspace_Private(PC pc, PetscBool *same)
 {

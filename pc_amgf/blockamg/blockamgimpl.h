@@ -1,6 +1,7 @@
 /*
-   Private header of PCBLOCKAMG: one V-cycle in single precision on dense blocks of the matrices that hypre's BoomerAMG
-   sets up
+   Private header of PCBLOCKAMG: one V-cycle in single precision on the hierarchy that hypre's BoomerAMG sets up, with
+   matrices stored as dense blocks. A place is a position in a block vector, see BlockLevel; a ghost is a value of
+   another rank's unknown.
 */
 #ifndef BLOCKAMG_H
 #define BLOCKAMG_H
@@ -10,12 +11,13 @@
 #include <petscsf.h>
 #include <petscamgf.h>
 
-/* largest level (unknowns on all ranks) that is solved by a dense inverse */
+/* Largest number of unknowns, on all ranks, of a level that is solved by a dense inverse */
 #define BLOCKAMG_DENSE 256
 
 /*
-   The rows of a matrix that this rank owns. Columns of this rank have local numbers; columns of other ranks have
-   numbers of ghosts, and ghosts[] has their global numbers.
+   The rows of a matrix that this rank owns, in compressed row format: ia, ja, a for columns of this rank, with local
+   column numbers, and oia, oja, oa for columns of other ranks, with numbers of ghosts. ghosts[] has the global columns
+   of the ghosts.
 */
 typedef struct {
   PetscInt           n, nghosts;
@@ -25,20 +27,26 @@ typedef struct {
   Mat                held, diag, off;
 } BlockRows;
 
-/* Exchange of values of other ranks' unknowns */
+/* Communication of values of unknowns of other ranks */
 typedef struct {
   int     nghosts;
   PetscSF sf; /* NULL on one rank */
 } BlockHalo;
 
-/* Rows with columns of other ranks: their entries outside the blocks, and the additions to their diagonal */
+/*
+   Rows that have entries in columns of other ranks: these entries, and what is added to the diagonal of each row, see
+   LevelShiftDiagonal()
+*/
 typedef struct {
   int    n;
-  int   *place, *ptr, *col; /* place of the row; row pointer; number of the ghost */
+  int   *place, *ptr, *col; /* place of each row; start of each row in col and val; number of the ghost of each entry */
   float *val, *shift;
 } BlockBorder;
 
-/* Interpolation from the next level: rows by place; columns are places of the next level, then ghosts */
+/*
+   Interpolation from the next coarser level in compressed row format. Rows are places of this level. Columns are places
+   of the next level, followed by its ghosts.
+*/
 typedef struct {
   int      *ptr, *col;
   float    *val;
@@ -46,49 +54,50 @@ typedef struct {
 } BlockInterpolation;
 
 /*
-   A level on this rank. A vector has 4 places per block row, then its ghosts; position[] has the place of each unknown.
-   L, the strictly lower triangle without columns of other ranks, is stored by rows in blocks of B x B floats. The
-   inverses of the diagonal blocks are stored as W with D^-1 = W^T W, B columns of 4 floats per block. Unused places
-   hold zeros.
+   A level on this rank. A vector has 4 places per block row, followed by its ghosts. position[] has the place of each
+   unknown.
+   L is the strictly lower triangle without columns of other ranks, stored row by row in blocks of B x B floats. The
+   inverse of a diagonal block D is stored as W with D^-1 = W^T W, in B columns of 4 floats. Unused places hold zeros.
 */
 typedef struct {
-  int                n, nb, B; /* unknowns, block rows, block size 3 or 4 */
+  int                n, nb, B; /* number of unknowns; number of block rows; block size, 3 or 4 */
   int               *position;
-  int               *ptr, *col; /* blocks of L by rows; col: the first place of the block's columns */
+  int               *ptr, *col; /* start of each block row in col; first place of the columns of each block */
   float             *L, *W;
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
-  int                nslots;    /* length of a vector */
-  float             *x, *b, *t; /* iterate, right-hand side, L^T x */
+  int                nslots;    /* length of a vector: places and ghosts */
+  float             *x, *b, *t; /* iterate; right-hand side; L^T x */
 
-  PetscLogDouble unknowns, entries, blocks, bytes; /* all ranks: unknowns; matrix entries; floats of L and D; memory */
+  PetscLogDouble unknowns, entries, blocks, bytes; /* sums over all ranks: unknowns, matrix entries, floats of L and
+                                                      D, memory [bytes] */
 } BlockLevel;
 
-/* The last level, solved by its inverse W^T W */
+/* The coarsest level, solved by its dense inverse W^T W, of which every rank holds a copy */
 typedef struct {
-  int          first, N;        /* first unknown of this rank; number of unknowns on all ranks */
-  float       *W, *b;           /* inverse factor and right-hand side of all ranks */
-  PetscMPIInt *counts, *starts; /* unknowns of each rank, and their first */
+  int          first, N;        /* first unknown of this rank; number of unknowns of all ranks */
+  float       *W, *b;           /* W, N x N; right-hand side of all ranks, N */
+  PetscMPIInt *counts, *starts; /* number of unknowns of each rank; first unknown of each rank */
 } BlockDense;
 
 typedef struct {
   MPI_Comm    comm;
   PetscMPIInt size;
-  int         nlevels; /* number of smoothed levels */
+  int         nlevels; /* number of smoothed levels, without the dense level */
   BlockLevel *levels;
-  BlockLevel  bottom; /* vectors and places of the dense level */
-  BlockDense  dense;  /* N = 0: no dense level; the last level is only smoothed */
-  double      scale;  /* power of 2 by which matrices are divided */
+  BlockLevel  bottom; /* block vectors and places of the dense level */
+  BlockDense  dense;  /* N = 0: there is no dense level, and the coarsest level is only smoothed */
+  double      scale;  /* power of 2 by which all matrices are divided, so that floats can represent them */
 } BlockHierarchy;
 
 typedef struct {
-  PC              hypre; /* used to set up the hierarchy; empty between set-ups */
+  PC              hypre; /* BoomerAMG, which sets up the hierarchy; NULL except during the set-up */
   BlockHierarchy *h;
-  char            why[200]; /* reason if there is no hierarchy */
+  char            why[200]; /* why there is no hierarchy; empty if there is one */
 } PC_BlockAMG;
 
-/* Functions of blockamg; files in the order in which they depend on each other */
+/* Functions of this folder. The files are listed such that each depends only on those before it. */
 
 /* rows.c */
 PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);

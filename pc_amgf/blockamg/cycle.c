@@ -1,9 +1,10 @@
 /*
-   One V-cycle, and its application to a vector in double precision.
+   One V-cycle of PCBLOCKAMG, and its application to a vector in double precision.
 
-   A = L + D + L^T on each rank, S on the diagonal of rows with entries E of other ranks' columns:
-   down, from zero:   x = (L + D + S)^-1 b,  then the residual b - A x = S x - L^T x - E x
-   up:                x = (D + S + L^T)^-1 (b - L x + S x - E x)
+   On each rank A = L + D + L^T + E. E are the entries in columns of other ranks. S is added to the diagonal of rows
+   with such entries, see LevelShiftDiagonal(). The sweeps are
+     down, from zero: x = (L + D + S)^-1 b, which leaves the residual b - A x = S x - L^T x - E x
+     up:              x = (D + S + L^T)^-1 (b - L x + S x - E x)
 */
 #include "pc_amgf/amgfimpl.h"
 #include "blockamgimpl.h"
@@ -12,8 +13,10 @@
   #include <xmmintrin.h>
 #endif
 
-/* Sets the processor to flush denormal numbers to zero until CycleRestoreTiny(), because they are a hundred times
-   slower on many processors */
+/*
+   Makes the processor set denormal numbers to zero until CycleRestoreTiny(), since arithmetic with them is a hundred
+   times slower on many processors. Returns the previous mode.
+*/
 static unsigned CycleFlushTiny(void)
 {
 #if defined(__SSE__)
@@ -35,7 +38,7 @@ static void CycleRestoreTiny(unsigned mode)
 #endif
 }
 
-/* y += sign (E x - S x) in rows with columns of other ranks; the ghosts of x must be up to date */
+/* Adds sign (E x - S x) to y, in rows with entries in columns of other ranks. The ghosts of l->x must be up to date. */
 static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
 {
   const BlockBorder *border = &l->border;
@@ -50,7 +53,10 @@ static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
   }
 }
 
-/* Downward half on one level: computes x of this level, and b of the next one if there is one */
+/*
+   Applies the downward half of the cycle on one level: computes l->x from l->b, and the restricted residual next->b.
+   next: the next coarser level, or NULL.
+*/
 static PetscErrorCode CycleDown(const BlockLevel *l, const BlockLevel *next)
 {
   PetscFunctionBegin;
@@ -83,9 +89,7 @@ static const BlockLevel *CycleNext(const BlockHierarchy *h, int i)
   return h->dense.N ? &h->bottom : NULL;
 }
 
-/*
-  BlockCycle_Private - x of the first level from its b
-*/
+/* BlockCycle_Private - applies one V-cycle: computes x of the finest level from its b */
 PetscErrorCode BlockCycle_Private(BlockHierarchy *h)
 {
   PetscFunctionBegin;
@@ -95,7 +99,10 @@ PetscErrorCode BlockCycle_Private(BlockHierarchy *h)
   PetscFunctionReturn(0);
 }
 
-/* scale: the power of 2 above the largest entry on all ranks; 1 for zeros; not finite if an entry is not */
+/*
+   Computes the power of 2 above the largest absolute entry of r on all ranks. *scale is 1 if all entries are zero, and
+   infinite if an entry is not finite.
+*/
 static PetscErrorCode ApplyFindScale(const BlockHierarchy *h, PetscInt n, const PetscScalar r[], double *scale)
 {
   double largest = 0.0, nan = 0.0;
@@ -129,7 +136,7 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   unsigned           mode;
 
   PetscFunctionBegin;
-  if (!h) { /* the set-up failed */
+  if (!h) { /* the set-up failed: report this to the KSP */
     PetscCall(VecSet(z, 0.0));
     PetscCall(VecFlag(z, 1));
     PetscFunctionReturn(0);

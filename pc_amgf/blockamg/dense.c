@@ -1,7 +1,7 @@
-/* The last level, solved by A^-1 = W^T W; every rank holds all of W */
+/* Solves the coarsest level by its dense inverse A^-1 = W^T W. Every rank holds all of W. */
 #include "blockamgimpl.h"
 
-/* Gathers the matrix of all ranks on each rank */
+/* Gathers the whole matrix, divided by h->scale, in full[] (N x N) on each rank */
 static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows, PetscScalar full[])
 {
   const PetscInt N = h->dense.N, first = rows->columns->rstart;
@@ -18,7 +18,7 @@ static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows
 }
 
 /*
-   BlockDenseCreate_Private - creates the bottom level and its inverse; its places are its unknowns
+   BlockDenseCreate_Private - creates the coarsest level and its inverse. The place of an unknown is its local number.
 */
 PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows)
 {
@@ -57,9 +57,7 @@ PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows
   PetscFunctionReturn(0);
 }
 
-/*
-  BlockDenseSolve_Private - x = W^T W b on the bottom level
-*/
+/* BlockDenseSolve_Private - computes x = W^T W b on the coarsest level */
 PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *h)
 {
   const BlockDense *dense = &h->dense;

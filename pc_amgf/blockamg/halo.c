@@ -1,12 +1,18 @@
-/* Exchange of values of other ranks' unknowns, in floats: fetched from their owners, or added there */
+/*
+   Communication of values of unknowns of other ranks, in single precision: fetched from their owners, or added to the
+   owners' values
+*/
 #include "blockamgimpl.h"
 
 /*
-  BlockHaloCreate_Private - the ghosts of vectors of a level, behind its places
+   BlockHaloCreate_Private - creates the communication between the ghosts of a level's vectors and their owners. The
+   ghosts are stored behind the places of the level.
 
-  Input Parameters:
-+ layout - of the level's unknowns . ghosts - unknowns of other ranks
-- level  - with the places of its unknowns
+   Input Parameters:
+   + layout  - distribution of the level's unknowns
+   . nghosts - number of ghosts
+   . ghosts  - global numbers of the ghosts, which are unknowns of other ranks
+   - level   - the level, with the places of its unknowns
 */
 PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],
   const BlockLevel *level, BlockHalo *halo)
@@ -41,9 +47,7 @@ PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, con
   PetscFunctionReturn(0);
 }
 
-/*
-   BlockHaloFetch_Private - sets the ghosts of x to their owners' values
-*/
+/* BlockHaloFetch_Private - sets the ghosts of x to the values on their owners */
 PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {
   PetscFunctionBegin;
@@ -53,9 +57,7 @@ PetscErrorCode BlockHaloFetch_Private(const BlockHalo *halo, const BlockLevel *l
   PetscFunctionReturn(0);
 }
 
-/*
-   BlockHaloAdd_Private - adds the ghosts of x to their owners' values
-*/
+/* BlockHaloAdd_Private - adds the ghosts of x to the values on their owners */
 PetscErrorCode BlockHaloAdd_Private(const BlockHalo *halo, const BlockLevel *level, float x[])
 {
   PetscFunctionBegin;

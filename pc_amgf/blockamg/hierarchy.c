@@ -1,7 +1,13 @@
-/* The hierarchy: BoomerAMG's matrices and interpolations, converted level by level; each is freed at once */
+/*
+   Builds the hierarchy: converts BoomerAMG's matrices and interpolations level by level, and frees each as soon as it
+   is converted
+*/
 #include "blockamgimpl.h"
 
-/* scale: power of 2 near the largest diagonal entry, so that floats can represent the matrices in any units */
+/*
+   Sets h->scale to the power of 2 above the largest diagonal entry, so that floats can represent the matrices in any
+   units
+*/
 static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
 {
   Vec       diagonal;
@@ -18,7 +24,10 @@ static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* Number of smoothed levels: those before the first that is small enough for a dense inverse */
+/*
+   Sets h->nlevels to the number of smoothed levels: all levels finer than the first one that is small enough for a
+   dense inverse. *dense: there is such a level.
+*/
 static PetscErrorCode HierarchyCountLevels(BlockHierarchy *h, Mat A, PetscInt nlevels, Mat coarse[], PetscBool *dense)
 {
   PetscFunctionBegin;
@@ -55,13 +64,13 @@ static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat
 }
 
 /*
-  BlockHierarchyCreate_Private - from what BoomerAMG has set up, which is destroyed
+   BlockHierarchyCreate_Private - creates the hierarchy from the matrices of BoomerAMG, which are destroyed
 
-  Input Parameters:
-+ A              - the operator
-. nlevels        - levels of BoomerAMG, that of A among them
-. coarse         - the matrices of the other levels, the coarsest first; NULL afterwards
-- interpolations - to each level from the one below, the coarsest first; NULL afterwards
+   Input Parameters:
+   + A              - the operator
+   . nlevels        - number of levels of BoomerAMG, including that of A
+   . coarse         - matrices of the other levels, the coarsest first; NULL afterwards
+   - interpolations - interpolation to each level from the next coarser one, the coarsest first; NULL afterwards
 */
 PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[], Mat interpolations[],
   BlockHierarchy **created)
@@ -79,7 +88,7 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
   PetscCall(HierarchyCountLevels(h, A, nlevels, coarse, &dense));
   PetscCall(PetscCalloc1(h->nlevels, &h->levels));
   last = h->nlevels - (dense ? 0 : 1);
-  for (int i = (int)nlevels - 1; i > last; i--) { /* levels below the dense inverse are not used */
+  for (int i = (int)nlevels - 1; i > last; i--) { /* levels coarser than the one with the dense inverse are not used */
     PetscCall(MatDestroy(&coarse[nlevels - 1 - i]));
     PetscCall(MatDestroy(&interpolations[nlevels - 1 - i]));
   }
@@ -95,11 +104,12 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
 }
 
 /*
-   BlockHierarchyIsFinite_Private - whether all values of the hierarchy are finite in floats, on all ranks
+   BlockHierarchyIsFinite_Private - finds whether all values of the hierarchy are finite in single precision, on all
+   ranks
 */
 PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool *finite)
 {
-  float largest = 0.0f, nan = 0.0f; /* 0 times a value that is not finite is NaN */
+  float largest = 0.0f, nan = 0.0f; /* nan: sum of 0 times each value, which is NaN if a value is not finite */
 
   PetscFunctionBegin;
   for (int i = 0; i < h->nlevels; i++) {

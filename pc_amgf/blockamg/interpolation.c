@@ -1,11 +1,17 @@
 /*
-   The interpolation from the next coarser level, with rows and columns in the order of the block vectors of both levels
+   Stores the interpolation from the next coarser level, with rows and columns in the order of the two levels' block
+   vectors
 */
 #include "blockamgimpl.h"
 
 /*
-  BlockInterpolationCreate_Private - level->P from rows of this rank, whose columns are unknowns of the next level; the
-  vectors of the next level get room for the ghosts
+   BlockInterpolationCreate_Private - sets level->P. The vectors of the next level are lengthened by the ghosts of the
+   interpolation.
+
+   Input Parameters:
+   + level - the finer level
+   . rows  - rows of the interpolation on this rank; columns are unknowns of the next level
+   - next  - the next coarser level
 */
 PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRows *rows, BlockLevel *next)
 {

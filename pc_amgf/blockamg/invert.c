@@ -1,10 +1,10 @@
-/* Inverses of small symmetric matrices as products W^T W, which single precision keeps positive semidefinite */
+/* Inverses of small symmetric matrices as products W^T W, which remain positive semidefinite in single precision */
 #include "blockamgimpl.h"
 #include <petscblaslapack.h>
 
 /*
-   W = C^-1 with A = C C^T, C lower triangular; returns whether all pivots are well above rounding errors. Rows and
-   columns of zeros stay zero.
+   Computes W = C^-1 with A = C C^T, where C is lower triangular. Returns whether all pivots are well above rounding
+   errors; otherwise w is undefined. Rows and columns of zeros remain zero.
 */
 static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScalar w[])
 {
@@ -18,7 +18,7 @@ static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScala
       w[n * i + j] = i == j ? PetscSqrtReal(PetscRealPart(s)) : s == 0.0 ? 0.0 : s / w[n * j + j];
     }
   }
-  for (PetscInt i = 0; i < n; i++) { /* rows below i still hold A, those above i hold W */
+  for (PetscInt i = 0; i < n; i++) { /* entries below row i still belong to C, those above already to W */
     const PetscScalar d = w[n * i + i] == 0.0 ? 0.0 : 1.0 / w[n * i + i];
 
     for (PetscInt j = 0; j < i; j++) {
@@ -33,7 +33,10 @@ static PetscBool RootByElimination(PetscInt n, const PetscScalar a[], PetscScala
   return PETSC_TRUE;
 }
 
-/* The same from the eigenvalues of A, of any sign; eigenvalues within rounding of zero contribute nothing */
+/*
+   Computes W with W^T W = |A|^-1 from the eigenvalues of A, which may have any sign. Eigenvalues that are zero up to
+   rounding contribute nothing.
+*/
 static PetscErrorCode RootByEigenvalues(PetscBLASInt n, const PetscScalar a[], PetscScalar v[])
 {
   PetscBLASInt lwork = 8 * n, info;
@@ -46,7 +49,7 @@ static PetscErrorCode RootByEigenvalues(PetscBLASInt n, const PetscScalar a[], P
   PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &n, v, &n, w, work, &lwork, &info));
   PetscCheck(info == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACKsyev: error %" PetscBLASInt_FMT, info);
   for (PetscBLASInt k = 0; k < n; k++) largest = PetscMax(largest, PetscAbsReal(w[k]));
-  for (PetscBLASInt k = 0; k < n; k++) { /* row k of v is an eigenvector */
+  for (PetscBLASInt k = 0; k < n; k++) { /* row k of v is eigenvector k */
     const PetscReal absolute = PetscAbsReal(w[k]);
     const PetscReal root = absolute > n * 100.0 * PETSC_MACHINE_EPSILON * largest ? 1.0 / PetscSqrtReal(absolute) : 0.0;
 
@@ -57,11 +60,12 @@ static PetscErrorCode RootByEigenvalues(PetscBLASInt n, const PetscScalar a[], P
 }
 
 /*
-  BlockInvertRoot_Private - W with W^T W = |A|^-1 of a symmetric n x n matrix A, which is A^-1 if A is positive definite
+   BlockInvertRoot_Private - computes W with W^T W = |A|^-1 for a symmetric n x n matrix A. If A is positive definite,
+   this is A^-1.
 
-  Note:
-  Rows and columns of zeros stay zero. The matrix A^-1 itself, rounded to single precision, may be indefinite where the
-  condition of A is 1e7 or more.
+   Note:
+   Rows and columns of zeros remain zero. The product is stored instead of A^-1, since A^-1 rounded to single precision
+   may be indefinite if the condition number of A is 1e7 or more.
 */
 PetscErrorCode BlockInvertRoot_Private(PetscInt n, const PetscScalar a[], PetscScalar W[])
 {

@@ -1,10 +1,10 @@
 /*
-   A matrix of the hierarchy as blocks of floats: the strictly lower triangle, inverse diagonal blocks, and entries
-   of columns of other ranks
+   Stores a matrix of the hierarchy in single precision: blocks of the strictly lower triangle, inverses of the diagonal
+   blocks, and entries in columns of other ranks
 */
 #include "blockamgimpl.h"
 
-/* Blocks of the rows processed so far; grows on demand */
+/* Blocks of L in the block rows processed so far; room: number of allocated blocks */
 typedef struct {
   int    n, room;
   int   *col;
@@ -21,7 +21,7 @@ static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
   PetscFunctionReturn(0);
 }
 
-/* unknown: the unknown at each place; -1 if there is none */
+/* Creates the array of the unknown at each place; -1 where a place is unused */
 static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
 {
   PetscFunctionBegin;
@@ -31,7 +31,7 @@ static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
   PetscFunctionReturn(0);
 }
 
-/* Sorts a short, almost sorted list */
+/* Sorts a short list that is almost sorted, by insertion */
 static void LevelSort(int n, int a[])
 {
   for (int i = 1; i < n; i++) {
@@ -43,7 +43,10 @@ static void LevelSort(int n, int a[])
   }
 }
 
-/* Finds the block columns of block row i of L, sorted; slot[] gets their positions in blocks */
+/*
+   Appends the blocks of block row i of L to `blocks`, with sorted columns. slot[j]: position in `blocks` of the block
+   in block column j.
+*/
 static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
   LevelBlocks *blocks, int slot[])
 {
@@ -75,7 +78,7 @@ static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *
   PetscFunctionReturn(0);
 }
 
-/* Fills these blocks, and the diagonal block D */
+/* Fills the blocks of block row i of L, and its diagonal block D. slot: see LevelFindBlocks(). */
 static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
   double inverse_scale, const int slot[], float val[], PetscScalar D[16])
 {
@@ -96,10 +99,12 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
 }
 
 /*
-   Let l be the sum of the absolute entries of a row in columns of other ranks, and g the excess of the diagonal block
-   over its own off-diagonal entries. With (l - 0.9 g)/2 added to the diagonal, where that is positive, the sweeps of
-   all ranks together converge, and the cycle stays positive definite. At least l/4 is added, which smooths stiff
-   couplings between ranks.
+   Adds S to the diagonal block D of block row i, in rows with entries in columns of other ranks. Let l be the sum of
+   the absolute values of a row's entries in those columns, and g the excess of its diagonal entry over the absolute
+   values of the other entries in the diagonal block. S is the larger of (l - 0.9 g)/2 and l/4. The first value makes
+   the sweeps of all ranks together converge and the cycle positive definite; the second smooths stiff couplings between
+   ranks.
+   *next: first row of the border not yet processed.
 */
 static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
 {
@@ -148,8 +153,8 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   PetscCall(PetscRealloc((size_t)blocks.n * sizeof(*blocks.col), &blocks.col));
   PetscCall(PetscRealloc(((size_t)blocks.n * size + 4) * sizeof(*blocks.val), &blocks.val));
   if (blocks.val)
-    PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4)); /* the last row of the last block is read as 4
-                                                                   floats, so one more is allocated */
+    /* Sweeps read the last row of a block of 9 as 4 floats. One float more than the last block must therefore exist. */
+    PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4));
   level->col = blocks.col;
   level->L   = blocks.val;
   PetscCall(PetscFree(slot));
@@ -157,7 +162,10 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Stores the rows with columns of other ranks, in the order of their places */
+/*
+   Stores the entries in columns of other ranks, row by row in the order of the places. border->shift becomes half the
+   sum of a row's absolute values.
+*/
 static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, double scale)
 {
   BlockBorder *border = &level->border;
@@ -194,7 +202,7 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Sums over all ranks for PCView() */
+/* Computes the sums over all ranks that PCView() prints */
 static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 {
   const int    B      = level->B;
@@ -216,10 +224,13 @@ static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 }
 
 /*
-  BlockLevelSetMatrix_Private - the level's places, and its matrix divided by scale
+   BlockLevelSetMatrix_Private - chooses the places of the level's unknowns, and stores the matrix divided by `scale`
 
-  Input Parameter:
-. bs - unknowns of a node, which follow one another; 1 where that is not known
+   Input Parameters:
+   + level - the level
+   . rows  - rows of its matrix on this rank
+   . bs    - number of consecutive unknowns per node; 1 if that is not known
+   - scale - divisor of the matrix
 */
 PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *rows, PetscInt bs, double scale)
 {
@@ -245,8 +256,8 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
 }
 
 /*
-   BlockLevelCreateVectors_Private - creates the vectors; call when the ghosts of the interpolation to this level are
-   known
+   BlockLevelCreateVectors_Private - creates the level's vectors. Their length must include the ghosts of the
+   interpolation from this level to the finer one.
 */
 PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *level)
 {

@@ -1,9 +1,7 @@
-/* Positions of a level's unknowns: which unknowns form a block, and the order of the blocks */
+/* Chooses which unknowns of a level form a block, and the order of the blocks */
 #include "blockamgimpl.h"
 
-/*
-  BlockOrderNodes_Private - blocks of bs unknowns each, 3 or 4, that follow one another
-*/
+/* BlockOrderNodes_Private - forms blocks of bs (3 or 4) consecutive unknowns */
 PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int position[])
 {
   PetscFunctionBegin;
@@ -12,8 +10,8 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
 }
 
 /*
-   best: the three unplaced neighbours of an unknown that share the most columns with it; mark[] has the unknown's
-   columns
+   Finds up to three neighbours of the unknown `seed` that have no place yet and share the most columns with it; best[]
+   is -1 beyond. mark[j] = seed for the columns j of the seed.
 */
 static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[],
   PetscInt best[3])
@@ -40,8 +38,8 @@ static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int 
 }
 
 /*
-  BlockOrderGroups_Private - blocks of 4 unknowns with as many columns as possible in common: the first unknown without
-  a place, and the best of its neighbours
+   BlockOrderGroups_Private - forms blocks of up to 4 unknowns that have many columns in common. Each block consists of
+   the first unknown without a place and the best of its neighbours.
 */
 PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
 {

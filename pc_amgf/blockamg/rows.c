@@ -1,4 +1,6 @@
-/* The rows of a matrix that this rank owns, as compressed rows. Formats other than AIJ are copied. */
+/*
+   Gets the rows of a matrix that this rank owns in compressed row format. Matrices that are not of type AIJ are copied.
+*/
 #include "blockamgimpl.h"
 
 static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia, const PetscInt **ja,
@@ -25,9 +27,7 @@ static PetscErrorCode RowsRestoreSequential(Mat A, PetscInt *n, const PetscInt *
   PetscFunctionReturn(0);
 }
 
-/*
-  BlockConvertToAIJ_Private - a copy of type AIJ, or A itself if it is of that type
-*/
+/* BlockConvertToAIJ_Private - gets a copy of type AIJ, or a reference to A if A is of that type */
 PetscErrorCode BlockConvertToAIJ_Private(Mat A, Mat *aij)
 {
   PetscObjectState state;
@@ -39,8 +39,8 @@ PetscErrorCode BlockConvertToAIJ_Private(Mat A, Mat *aij)
     PetscCall(PetscObjectReference((PetscObject)A));
     *aij = A;
   } else {
-    /* MatConvert() of a parallel format increases the state of A; unless it is reset, every application would set up
-       again */
+    /* MatConvert() of a parallel matrix increases the object state of A, although A is unchanged. Without a reset,
+       every later application would set up the preconditioner again. */
     PetscCall(PetscObjectStateGet((PetscObject)A, &state));
     PetscCall(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, aij));
     PetscCall(PetscObjectStateSet((PetscObject)A, state));
@@ -49,7 +49,9 @@ PetscErrorCode BlockConvertToAIJ_Private(Mat A, Mat *aij)
 }
 
 /*
-  BlockRowsGet_Private - the rows of this rank; collective
+   BlockRowsGet_Private - gets the rows of this rank, until BlockRowsRestore_Private()
+
+   Collective
 */
 PetscErrorCode BlockRowsGet_Private(Mat A, BlockRows *rows)
 {

@@ -1,9 +1,9 @@
-/* Set-up: hypre's BoomerAMG sets up its hierarchy, which is converted and freed */
+/* Sets up PCBLOCKAMG: hypre's BoomerAMG sets up its hierarchy, which is converted and freed */
 #include "pc_amgf/amgfimpl.h"
 #include "blockamgimpl.h"
 #include "pc_amgf/guard.h"
 
-/* Marks the preconditioner as failed on all ranks */
+/* Marks the preconditioner as failed, with an explanation. Collective. */
 static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
@@ -16,7 +16,7 @@ static PetscErrorCode SetUpFail(PC pc, PCFailedReason reason, const char why[])
   PetscFunctionReturn(0);
 }
 
-/* row: the first row on all ranks whose diagonal entry is zero or not finite; -1: none */
+/* Finds the first row, over all ranks, whose diagonal entry is zero or not finite; -1 if there is none */
 static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 {
   Vec                diagonal;
@@ -40,8 +40,8 @@ static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 }
 
 /*
-   The operator in a format for hypre, which copies it. PETSc copies SBAIJ entry by entry, which takes twice as long as
-   hypre's set-up, so it is converted to AIJ first.
+   Gets the operator in a format that PETSc passes to hypre efficiently. PETSc would pass SBAIJ entry by entry, which
+   takes twice as long as hypre's set-up. SBAIJ is therefore converted to AIJ and then to hypre's format.
 */
 static PetscErrorCode SetUpGetOperator(Mat A, Mat *operator)
 {
@@ -64,7 +64,7 @@ static PetscErrorCode SetUpGetOperator(Mat A, Mat *operator)
   PetscFunctionReturn(0);
 }
 
-/* Sets up hypre; an error may occur on one rank only */
+/* Lets hypre set up its hierarchy. *failed: hypre reported an error on some rank. */
 static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
 {
   PC_BlockAMG   *amg = (PC_BlockAMG *)pc->data;
@@ -81,7 +81,8 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
   PetscCall(SetUpGetOperator(pc->pmat, &operator));
-  PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* pmat has the near null space */
+  PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* the Pmat carries the near null space, which its copy
+                                                                does not */
   PetscCall(MatDestroy(&operator));
   PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
@@ -92,7 +93,10 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscFunctionReturn(0);
 }
 
-/* Converts the hierarchy; frees hypre's memory before the finest level is converted */
+/*
+   Converts hypre's hierarchy. hypre's own memory is freed first, so that both hierarchies do not exist at the same
+   time.
+*/
 static PetscErrorCode SetUpConvert(PC pc)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;

@@ -1,14 +1,15 @@
 /*
-   Arithmetic of the cycle on this rank, in floats: sweeps that read each row of L once for both the sweep and the
-   residual, and interpolation
+   Arithmetic of the cycle on this rank, in single precision: interpolation, and sweeps. A sweep also computes L^T x for
+   the residual, so that each row of L is read from memory once.
 */
 #include "blockamgimpl.h"
 #include "vec4.h"
 
 /*
-   One row of a sweep: x_i = W^T W (f - L x), then t += L^T x_i. For B = 3 the fourth place of x is zero and that of t
-   is unused. Blocks are read in the direction of the sweep, since processors prefetch memory that is read in one
-   direction.
+   Processes block row i of a sweep: x_i = W^T W (f - sum_j L_ij x_j), and then t_j += L_ij^T x_i. f: right-hand side of
+   the row. step: 1 for a forward, -1 for a backward sweep. Blocks are read in this direction, since processors prefetch
+   memory that is read in one direction. For B = 3 the fourth place of x_i is zero and the fourth place of t_j is
+   unused.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
 {
@@ -29,7 +30,7 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
   xi = Vec4Sums(a);
   Vec4Store(l->x + 4 * (size_t)i, xi);
   for (int r = 0; r < B; r++) copies[r] = Vec4Same(Vec4Get(xi, r));
-  for (int k = k0; k < k1; k++) { /* the row is now in the cache */
+  for (int k = k0; k < k1; k++) { /* the second pass reads the row from the cache */
     const float *v = l->L + B * B * (size_t)k;
     Vec4         s = Vec4Load(l->t + l->col[k]);
 
@@ -60,9 +61,7 @@ VEC4_CLONES static void SweepUp4(const BlockLevel *l)
     SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 4, -1);
 }
 
-/*
-  BlockSweepDown_Private - x = (L + D)^-1 b and t = L^T x
-*/
+/* BlockSweepDown_Private - computes x = (L + D)^-1 b and t = L^T x */
 void BlockSweepDown_Private(const BlockLevel *l)
 {
   memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
@@ -70,9 +69,7 @@ void BlockSweepDown_Private(const BlockLevel *l)
   else SweepDown4(l);
 }
 
-/*
-  BlockSweepUp_Private - x = (D + L^T)^-1 (b - L x)
-*/
+/* BlockSweepUp_Private - computes x = (D + L^T)^-1 (b - L x) */
 void BlockSweepUp_Private(const BlockLevel *l)
 {
   memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
@@ -80,9 +77,7 @@ void BlockSweepUp_Private(const BlockLevel *l)
   else SweepUp4(l);
 }
 
-/*
-   BlockRestrict_Private - coarse = -P^T t, including its ghosts
-*/
+/* BlockRestrict_Private - subtracts P^T t from coarse, including the ghosts of coarse */
 VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
 {
   const BlockInterpolation *P = &l->P;
@@ -94,9 +89,7 @@ VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
   }
 }
 
-/*
-   BlockInterpolateAdd_Private - x += P coarse; the ghosts of coarse must be up to date
-*/
+/* BlockInterpolateAdd_Private - adds P coarse to x; the ghosts of coarse must be up to date */
 VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float coarse[])
 {
   const BlockInterpolation *P = &l->P;
@@ -109,9 +102,7 @@ VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float co
   }
 }
 
-/*
-   BlockDenseMultiply_Private - x = n entries of W^T W b, starting at `first`
-*/
+/* BlockDenseMultiply_Private - computes entries first, ..., first + n - 1 of the product W^T W b, where W is N x N */
 VEC4_CLONES void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[])
 {
   for (int i = 0; i < n; i++) x[i] = 0.0f;

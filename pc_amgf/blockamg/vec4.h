@@ -1,6 +1,4 @@
-/*
-   Four floats as one value: the vector extension of gcc and clang, or an array with other compilers
-*/
+/* Four floats as one value: by the vector extension of GCC and Clang, or by an array with other compilers */
 #ifndef AMGF_VEC4_H
 #define AMGF_VEC4_H
 
@@ -16,7 +14,7 @@ VEC4_INLINE Vec4 Vec4Same(float s)
   return (Vec4){s, s, s, s};
 }
 
-/* a + b c */
+/* Returns a + b c, component by component */
 VEC4_INLINE Vec4 Vec4MultiplyAdd(Vec4 a, Vec4 b, Vec4 c)
 {
   return a + b * c;
@@ -44,7 +42,7 @@ typedef int Vec4Places __attribute__((vector_size(16)));
     #define VEC4_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle(a, b, (Vec4Places){i, j, k, l})
   #endif
 
-/* result[i]: sum of the entries of a[i] */
+/* Returns a vector whose component i is the sum of the components of a[i] */
 VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
 {
   const Vec4 p = VEC4_SHUFFLE(a[0], a[1], 0, 4, 1, 5) + VEC4_SHUFFLE(a[0], a[1], 2, 6, 3, 7);
@@ -96,7 +94,7 @@ VEC4_INLINE Vec4 Vec4Sums(const Vec4 a[4])
 }
 #endif
 
-/* Loads from, or stores to, an unaligned address */
+/* Loads from, or stores to, an address of any alignment */
 VEC4_INLINE Vec4 Vec4Load(const float *p)
 {
   Vec4 a;
@@ -110,8 +108,10 @@ VEC4_INLINE void Vec4Store(float *p, Vec4 a)
   memcpy(p, &a, sizeof(a));
 }
 
-/* Compiles a function for several processors, among which the loader chooses. Not with sanitizers, which are not yet
-   initialized then */
+/*
+   Compiles a function for several instruction sets, among which the loader chooses. Sanitizers do not work with this,
+   since they are not yet initialized when the loader chooses.
+*/
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && \
   !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
   #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

@@ -1,11 +1,12 @@
 /*
-   Checks that the running PETSc matches the one that the plugin was compiled with. The loader does not check: a plugin
-   with 64-bit integers in a program with 32-bit ones finds every function, and computes garbage. The sizes of the
-   running library's numbers are found from the bytes that it writes.
+   Checks that the running PETSc matches the one that the plugin was compiled with. The loader does not check this: a
+   plugin with 64-bit integers in a program with 32-bit integers finds every function and computes wrong numbers. The
+   size of a number in the running library is determined by letting the library store a zero and counting the bytes that
+   it overwrites.
 */
 #include "pc_amgf/amgfimpl.h"
 
-/* Space for a number of any PETSc; the largest is complex in quadruple precision */
+/* Space for a number of any PETSc. The largest type is complex in quadruple precision. */
 typedef union {
   PetscInt    integer;
   PetscReal   real;
@@ -13,13 +14,16 @@ typedef union {
   _Alignas(32) unsigned char bytes[64];
 } LibraryNumber;
 
-/* Fills the number with a value that no byte of a zero has */
+/* Fills the number with bytes that do not occur in a zero */
 static void LibraryMark(LibraryNumber *number)
 {
   for (size_t i = 0; i < sizeof(number->bytes); i++) number->bytes[i] = 0xff;
 }
 
-/* Error unless the library, which has stored a zero, has overwritten exactly as many bytes as the compiled type has */
+/*
+   Raises an error unless the library, which has stored a zero, has overwritten as many bytes as the compiled type has.
+   type: name of the type.
+*/
 static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const LibraryNumber *number)
 {
   size_t running = 0;
@@ -34,8 +38,8 @@ static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const
 }
 
 /*
-  PCAMGFCheckLibrary_Private - an error unless integers, precision, scalars and release of the running PETSc are those
-  the plugin was compiled with
+   PCAMGFCheckLibrary_Private - raises an error unless the running PETSc has the integers, precision, scalars and
+   release that the plugin was compiled with
 */
 PetscErrorCode PCAMGFCheckLibrary_Private(void)
 {

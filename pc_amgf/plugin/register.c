@@ -64,7 +64,8 @@ PetscErrorCode PetscAMGFFinalizePackage(void)
 }
 
 /*
-  PetscDLLibraryRegister_petscamgf - what PETSc calls on -dll_append libpetscamgf.so; the name follows from the file's
+   PetscDLLibraryRegister_petscamgf - registers the types when PETSc loads the plugin with -dll_append libpetscamgf.so.
+   PETSc derives the name of this function from the name of the file.
 */
 PetscErrorCode PetscDLLibraryRegister_petscamgf(void)
 {
