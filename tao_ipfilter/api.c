@@ -23,7 +23,9 @@ static PetscErrorCode CopyVec(Vec v, Vec *slot)
   PetscFunctionReturn(0);
 }
 
-/* Checks that all weights are positive, on every rank */
+/*
+   Checks on all ranks that all weights are positive. mass: diagonal weights, or NULL; what: their name in the message.
+*/
 static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
 {
   PetscReal least;
@@ -153,7 +155,7 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
   PetscFunctionReturn(0);
 }
 
-/* Composes the implementations with the Tao, or removes them */
+/* Composes the implementations of the public functions with the Tao, or removes them if `attach` is false */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
   PetscObject o = (PetscObject)tao;

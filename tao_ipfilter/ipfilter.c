@@ -18,7 +18,7 @@
 #include "tao_ipfilter/solver/terms.h"
 #include "tao_ipfilter/solver/work.h"
 
-/* Creates the Krylov solver: CG with PCAMGF, convergence by the norm of the true residual */
+/* Creates the Krylov solver: CG with PCAMGF, whose convergence is tested with the norm of the true residual */
 static PetscErrorCode CreateKSP(Tao tao)
 {
   PC pc;
@@ -50,7 +50,7 @@ static PetscErrorCode DestroyType(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The parts of the solver: type, and member of the solver */
+/* The parts of the solver. Each entry names the type of a part and its member in TAO_IPFILTER. */
 /* clang-format off */
 #define SOLVER_PARTS \
   PART(IPOptions, opt) PART(IPGiven, given) PART(IPWork, work) PART(IPSides, sides) PART(IPRowScale, rows) \
@@ -61,7 +61,7 @@ static PetscErrorCode DestroyType(Tao tao)
   PART(IPRestoration, restore) PART(IPMethod, method) PART(IPRecord, rec)
 /* clang-format on */
 
-/* The solver and its parts in one piece of memory; DestroyType() frees it */
+/* The solver and its parts in one block of memory, which DestroyType() frees */
 typedef struct {
   TAO_IPFILTER solver;
 #define PART(type, member) type member;

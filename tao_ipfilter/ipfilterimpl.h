@@ -3,27 +3,23 @@
 
    The problem is min f(x) subject to c_E(x) = 0, c_I(x) >= 0, x_l <= x <= x_u. With slacks s for c_I and lumped weights
    M = diag(m_i) the Lagrangian is
+     L = f(x) + y^T c_E(x) - lambda^T M (c_I(x) - s) - z^T M s - bound terms.
+   Thus c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
 
-     L = f(x) + y^T c_E(x) - lambda^T M (c_I(x) - s) - z^T M s - bound terms,
+   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu, where t is s, x - x_l or x_u - x. A
+   row with two bounds, 0 <= c_I(x) <= range, has one slack with two pairs: t is s in one and range - s in the other.
 
-   so that c_I may be a length, z a pressure and m_i an area. The barrier function is f - mu sum_i m_i log s_i.
-
-   Every inequality, slack or bound, is a complementarity pair (t, z) with t z = mu: t is s, x - x_l or x_u - x. A row
-   with two bounds, 0 <= c_I(x) <= range, has one slack with two pairs: t is s and range - s.
-
-   Of the folders none calls one that stands below it in this list; what is on top of them, the type, is in this one.
-
-     problem  the problem as the iteration sees it: pairs, iterates, bounds, sides, scales of rows, Jacobians, Hessian
-     measure  sizes and residuals: stiffness, scales, norm terms, what residuals are worth, the KKT error
-     system   the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter
-     linear   linear systems: Krylov methods, MUMPS, equality constraints
-     step      a step: filter, barrier, direction, line search, restoration
-     driver    the iteration: set up, solve, convergence, reasons
-     subspace  the filtered subspace method, beside the steps: directions, the reduced problem, its active sets
-     friction  the laws of norm terms on the subspace
-
-   The driver reaches subspace, and subspace reaches friction, through tables of functions that register.c puts into the
-   solver: without either folder, and its lines there, the rest is as it was.
+   Each of the following folders calls only the folders above it in this list. This folder calls all of them.
+     problem   the problem that the iteration solves: pairs, iterates, bounds, row sides, row scales, Jacobians, Hessian
+     measure   sizes and residuals: stiffness, scales, norm terms, error bound of a residual, KKT error
+     system    the condensed matrix A = H + Sigma + J^T D J + delta M_u and the filter of its preconditioner
+     linear    linear systems: Krylov methods, MUMPS, equality constraints
+     step      one step: filter, barrier, direction, line search, restoration
+     driver    the iteration: set-up, solve, convergence, reasons
+     subspace  the filtered subspace method: directions, the reduced problem, its active sets. It calls no file of step.
+     friction  the friction laws of the norm terms in the subspace
+   The driver calls subspace, and subspace calls friction, only through tables of functions, which register.c stores in
+   the solver. The rest compiles without these two folders if their lines in register.c are removed.
 */
 #ifndef IPFILTERIMPL_H
 #define IPFILTERIMPL_H

@@ -10,7 +10,10 @@ const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEq
 const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
-/* Real-valued options and their defaults; names without prefix */
+/*
+   A real-valued option and its default. The name includes -tao_ipfilter_; offset: place of the value in IPOptions
+   [bytes].
+*/
 typedef struct {
   const char *option, *text;
   size_t      offset;
@@ -44,7 +47,7 @@ static const RealOption real_options[] = {
     "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
 };
 
-/* The defaults */
+/* Sets all options to their defaults */
 PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 {
   PetscFunctionBegin;
@@ -61,7 +64,7 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
-  const PetscInt fewest = 4; /* fewer directions cannot be compressed */
+  const PetscInt fewest = 4; /* least number of directions with which the basis can be compressed */
   IPOptions     *opt    = ((TAO_IPFILTER *)tao->data)->opt;
 
   PetscFunctionBegin;

@@ -1,5 +1,7 @@
-/* Registers the methods besides the interior point method, and the laws of norm terms. Their folders are named only
-   here, in two lines each. */
+/*
+   Registers the filtered subspace method and the friction laws of norm terms. Only this file names their folders, by an
+   include and an assignment each.
+*/
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 #include "tao_ipfilter/friction/frictionimpl.h"

@@ -6,7 +6,7 @@
 #include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 
-/* Prints how well the constraints are met, and their tolerances besides gatol */
+/* Prints the constraint violation, and the tolerances catol and crtol if they are set */
 static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;

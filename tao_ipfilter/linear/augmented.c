@@ -1,12 +1,10 @@
 /*
-   Equality constraints in an augmented system. Their multipliers are not eliminated: the symmetric indefinite system
-
-     [ A     J_E^T ] [ dx     ]   [  b              ]
-     [ J_E  -delta ] [ y + dy ] = [ -c_E - delta y  ]
-
+   Solves Newton systems with equality constraints, whose multipliers are not eliminated. The symmetric indefinite
+   system
+     [ A     J_E^T  ] [ dx     ]   [ b              ]
+     [ J_E   -delta ] [ y + dy ] = [ -c_E - delta y ]
    is factored by MUMPS as L D L^T. Its inertia must be (n, m_E, 0); otherwise a larger multiple of M_u is added to the
-   Hessian. If the system is singular because constraints depend on each other, a delta in the last block regularizes
-   it.
+   Hessian. If the system is singular because constraints depend on each other, delta > 0 regularizes it.
 */
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -33,7 +31,7 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscFunctionReturn(0);
 }
 
-/* Creates the KSP of the factorization, prefix -tao_ipfilter_augmented_, and its diagonal block */
+/* Creates the KSP of the factorization, with the options prefix -tao_ipfilter_augmented_, and the matrix -delta I */
 static PetscErrorCode AugmentedCreate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -61,7 +59,7 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* misses: whether A lacks a diagonal entry on any rank */
+/* Finds whether A lacks a diagonal entry on any rank */
 static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
 {
   PetscInt rstart, rend;
@@ -82,8 +80,10 @@ static PetscErrorCode AugmentedMissesDiagonal(Mat A, PetscBool *misses)
   PetscFunctionReturn(0);
 }
 
-/* Copies A to AIJ format with all diagonal entries. Without a diagonal entry, PETSc 3.18 on several ranks passes
-   none of its row's upper triangle to MUMPS */
+/*
+   Copies A to AIJ format and adds missing diagonal entries. PETSc 3.18 on several ranks passes no entry of a row's
+   upper triangle to MUMPS if the row has no diagonal entry.
+*/
 static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
 {
   PetscBool missing;
@@ -101,8 +101,7 @@ static PetscErrorCode AugmentedFirstBlock(Mat A, Mat *block)
   PetscFunctionReturn(0);
 }
 
-/* Copies the values into aug->K if the pattern is the same, so that MUMPS's analysis is reused; otherwise K replaces
-   it */
+/* Replaces aug->K by *K. If the patterns are equal, only the values are copied, so that MUMPS's analysis is reused. */
 static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
 {
   PetscBool same = PETSC_FALSE;
@@ -114,14 +113,14 @@ static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
     PetscCall(MatDestroy(K));
     PetscFunctionReturn(0);
   }
-  PetscCall(KSPReset(aug->ksp)); /* otherwise the new factor would lack its settings */
+  PetscCall(KSPReset(aug->ksp)); /* creates a new factor object, which gets its settings again */
   PetscCall(MatDestroy(&aug->K));
   PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
   aug->K = *K;
   PetscFunctionReturn(0);
 }
 
-/* Assembles K with A in its first block */
+/* Assembles K with A as its first block */
 static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -152,8 +151,10 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the KSP, with an ordering unless the user has chosen one. PETSc reads MUMPS's ordering only from the
-   options database */
+/*
+   Sets up the KSP with the ordering "approximate minimum fill", unless the user has chosen one. PETSc reads MUMPS's
+   ordering only from the options database.
+*/
 static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 {
   PetscOptions options;
@@ -173,9 +174,9 @@ static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
 }
 
 /*
-   One factorization. Ordering: approximate minimum fill. Without METIS, MUMPS would choose PORD, whose analysis of the
-   zero blocks takes longer than some factorizations. Pivot threshold: as small as IPOPT's, because delayed pivots need
-   work space
+   Factors K once. Without METIS, MUMPS would choose the ordering PORD, whose analysis of the zero blocks takes longer
+   than some factorizations; the ordering is therefore set. The pivot threshold is as small as IPOPT's, since delayed
+   pivots need work space.
 */
 static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
 {
@@ -184,19 +185,19 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   const char *prefix;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* factored again, even if only with more work space */
+  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* makes PETSc factor again, even if only the work space
+                                                               has grown */
   PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
   PetscCall(KSPGetPC(aug->ksp, &pc));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(
-    MatSetOptionsPrefixFactor(aug->K, prefix)); /* PCSetUp() sets the prefix too late for a factor that is created
-                                                   before */
+  PetscCall(MatSetOptionsPrefixFactor(aug->K, prefix)); /* PCSetUp() sets the prefix too late for a factor that already
+                                                   exists */
   PetscCall(PCFactorSetUpMatSolverType(pc));
   PetscCall(PCFactorGetMatrix(pc, &F));
   PetscCall(MatFactorClearError(F));
-  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* the analysis must not depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* the ordering must not depend on values, which change */
   PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
-  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detect null pivots, which count for the inertia */
+  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detects null pivots, which count in the inertia */
   PetscCall(AMGFMumpsSetCntl(F, 1, aug->pivot));
   PetscCall(AugmentedSetUpOrdered(aug->ksp));
   PetscCall(PCGetFailedReason(pc, failed));
@@ -204,10 +205,10 @@ static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *fail
   PetscFunctionReturn(0);
 }
 
-/* Factors K; repeats with more work space if MUMPS had too little */
+/* Factors K, and repeats the factorization with more work space as long as MUMPS reports too little */
 static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
 {
-  const PetscInt  first = 100; /* per cent of work space beyond MUMPS's estimate */
+  const PetscInt  first = 100; /* work space beyond MUMPS's estimate [per cent] */
   const PetscReal pivot = 1e-6;
 
   PetscFunctionBegin;
@@ -215,16 +216,18 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   if (aug->pivot == 0.0) aug->pivot = pivot;
   PetscCall(AugmentedFactorOnce(aug, failed));
   while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
-    PetscCall(KSPReset(aug->ksp)); /* otherwise PETSc would treat MUMPS's error as one of the analysis */
+    PetscCall(KSPReset(aug->ksp)); /* otherwise PETSc would report MUMPS's error as an error of the analysis */
     PetscCall(AugmentedFactorOnce(aug, failed));
   }
-  /* a failed factorization must not be reused */
+  /* A failed factorization must not be reused. */
   if (*failed != PC_NOERROR) PetscCall(KSPReset(aug->ksp));
   PetscFunctionReturn(0);
 }
 
-/* Factors K and checks the inertia (that of a minimum) and whether K was singular. If MUMPS fails for lack of memory
-   or another reason, ip->lin->failed is set: this says nothing about the matrix */
+/*
+   Factors K. *inertia: K has the inertia of a minimum; *singular: K is singular. If MUMPS fails for lack of memory or
+   another reason that tells nothing about the matrix, ip->lin->failed is set.
+*/
 static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *singular)
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
@@ -238,7 +241,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   PetscFunctionBegin;
   *singular = *inertia = PETSC_FALSE;
   PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
-  if (PetscIsInfOrNanReal(norm)) { /* MUMPS does not accept such values */
+  if (PetscIsInfOrNanReal(norm)) { /* MUMPS does not accept infinite entries or NaN */
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }
@@ -264,7 +267,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   PetscFunctionReturn(0);
 }
 
-/* Copies the local parts of (top, bottom) into v, or back */
+/* Copies the local parts of (top, bottom) into v, or from v if `back` */
 static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
 {
   Vec          part[2] = {top, bottom};
@@ -284,8 +287,11 @@ static PetscErrorCode AugmentedJoin(Vec v, Vec top, Vec bottom, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* Computes residual = rhs - K sol and its norm. *needless: no refinement is needed, because the residual is far
-   below what convergence requires, or far below the present KKT error and negligible against the right-hand side */
+/*
+   Computes residual = rhs - K sol and its norm. *needless: refinement is not needed. This holds if the residual is far
+   below what convergence requires, or if it is both far below the present KKT error and negligible compared with the
+   right-hand side.
+*/
 static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -312,7 +318,7 @@ static PetscErrorCode AugmentedMeasure(Tao tao, PetscBool *needless)
   PetscFunctionReturn(0);
 }
 
-/* Iterative refinement sol += K^-1 (rhs - K sol), as long as it halves the residual and refinement is needed */
+/* Improves sol by iterative refinement, sol += K^-1 (rhs - K sol), as long as that is needed and halves the residual */
 static PetscErrorCode AugmentedRefine(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -341,7 +347,7 @@ static PetscErrorCode AugmentedRefine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Unit of delta: a typical diagonal entry of J_E A^-1 J_E^T */
+/* Computes the unit of delta: a typical diagonal entry of J_E A^-1 J_E^T */
 static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -355,7 +361,7 @@ static PetscErrorCode AugmentedUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* Assembles and factors K; if it is singular, again with regularization */
+/* Assembles and factors K. If K is singular, delta is set and K is assembled and factored again. */
 static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -374,7 +380,10 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
   PetscFunctionReturn(0);
 }
 
-/* Solves K sol = rhs with refinement. Factors again with a larger pivot threshold if the residual stays too large */
+/*
+   Solves K sol = rhs with iterative refinement. If the residual remains too large, K is factored again with a larger
+   pivot threshold.
+*/
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -398,8 +407,10 @@ static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Solves K (top, bottom) = (b, -ce) with refinement. The regularization is centred at the present multipliers, so
-   that it has no effect at a solution */
+/*
+   Solves K (top, bottom) = (b, -ce) with iterative refinement. If the regularization is centered at the present
+   multipliers, it has no effect at a solution.
+*/
 static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom, PetscBool *usable)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -417,8 +428,10 @@ static PetscErrorCode AugmentedApply(Tao tao, Vec b, Vec ce, Vec top, Vec bottom
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the new multipliers with the matrix cond.A. ce: residual of the equality constraints; matrix: A
-   is new since the last call. *usable: false if the inertia is wrong */
+/*
+   Solves for dx and the new multipliers, ip->dir.y, with the matrix cond->A. ce: residual of the equality constraints;
+   matrix: whether A is new since the last call; *usable: false if the inertia is wrong or the solver failed.
+*/
 PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -439,8 +452,10 @@ PetscErrorCode IPAugmentedSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix
   PetscFunctionReturn(0);
 }
 
-/* Estimates y by least squares of the stationarity residual: [I J_E^T; J_E 0] (w, y) = -(grad f - ..., 0); y = 0 if
-   this is singular */
+/*
+   Estimates the multipliers y by least squares of the stationarity residual r, from the system [I J_E^T; J_E 0] (w, y)
+   = (-r, 0). If this is singular, y = 0.
+*/
 PetscErrorCode IPAugmentedMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

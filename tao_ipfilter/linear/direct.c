@@ -1,7 +1,7 @@
 /*
-   The condensed matrix factored by MUMPS as L D L^T, used where Krylov methods fail. The inertia shows with certainty
-   whether the matrix is positive definite. MUMPS's analysis, done once per pattern, estimates the memory before
-   anything large is allocated.
+   Solves with the condensed matrix by MUMPS's factorization L D L^T, if Krylov methods fail. The inertia shows with
+   certainty whether the matrix is positive definite. MUMPS's analysis, made once per pattern, estimates the memory
+   before the factors are allocated.
 */
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -22,8 +22,10 @@ PetscErrorCode IPDirectDestroy(IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* Sets direct.A: the present matrix in AIJ or SBAIJ format, which MUMPS accepts as symmetric; NULL if PETSc has no
-   MUMPS for it. Drops the factor of another matrix; its analysis is reused as long as the pattern stays */
+/*
+   Sets direct->A to the matrix A in a format that MUMPS accepts as symmetric (AIJ or SBAIJ); NULL if there is no MUMPS
+   for it. If the matrix or its pattern is new, the old factors are destroyed; otherwise their analysis is reused.
+*/
 static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
 {
   PetscBool        baij, mumps;
@@ -54,7 +56,7 @@ static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* MUMPS's analysis, and the memory that it predicts for the factors; no factor if it failed */
+/* Lets MUMPS analyse the matrix and predict the memory of the factors. direct->F is NULL if the analysis failed. */
 static PetscErrorCode DirectAnalyse(Tao tao)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
@@ -70,9 +72,10 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscCall(TaoGetOptionsPrefix(tao, &prefix));
   PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
   PetscCall(MatSetOptionsPrefix(direct->F, own));
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* the analysis must not depend on values, which change */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scale by the diagonal of the matrix that is factored */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* ScaLAPACK would hide the inertia of the root node */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* the ordering must not depend on values, which change */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scale by the diagonal of the matrix to be factored */
+  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* with ScaLAPACK, MUMPS would not count the negative pivots of the
+                                                     root node */
   PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
@@ -84,8 +87,10 @@ static PetscErrorCode DirectAnalyse(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Lower bound of the memory of the factors: the memory of the matrix [1e6 bytes]. Above the limit no symbolic
-   factorization is made */
+/*
+   Computes a lower bound of the memory of the factors [1e6 bytes]: half of the matrix. If it exceeds the limit, no
+   analysis is made.
+*/
 static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
 {
   MatInfo info;
@@ -96,7 +101,7 @@ static PetscErrorCode DirectLeastMemory(Mat A, PetscReal *memory)
   PetscFunctionReturn(0);
 }
 
-/* Whether factors of this size [1e6 bytes] are allowed; otherwise records why not */
+/* Finds whether factors of this size [1e6 bytes] are allowed; if not, ip->lin->why tells the reason */
 static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool *allows)
 {
   PetscFunctionBegin;
@@ -108,8 +113,10 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Factors the matrix; repeats with more work space if MUMPS's estimate was too small, and uses that for later
-   matrices too. A failed factorization is not reused */
+/*
+   Factors the matrix, and repeats this with more work space if MUMPS's estimate was too small. Later matrices get the
+   same work space. If the factorization fails, the factors are destroyed.
+*/
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -138,7 +145,7 @@ static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
   PetscFunctionReturn(0);
 }
 
-/* Factors the present matrix; *factored: false if that is impossible, with the reason in the record */
+/* Factors the present matrix. *factored: false if that is impossible, with the reason in ip->lin->why. */
 static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *singular)
 {
   TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
@@ -176,8 +183,10 @@ static PetscErrorCode DirectApply(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* Solves A d = b by L D L^T with refinement to rounding; the verdict is `failed` if that takes too much memory or
-   MUMPS fails */
+/*
+   Solves A d = b by L D L^T with refinement to rounding accuracy. *verdict is IP_LINEAR_FAILED if the factors would
+   need too much memory or MUMPS fails.
+*/
 PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;

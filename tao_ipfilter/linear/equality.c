@@ -1,7 +1,7 @@
 /*
-   How equality constraints enter the Newton system: condensed with proximal updates if their rows involve few
-   unknowns, else in the augmented system that MUMPS factors. If proximal updates do not meet the constraints, the
-   rest of the solve uses the augmented system.
+   Chooses how equality constraints enter the Newton system. If their rows involve few unknowns they are condensed, with
+   proximal updates of the multipliers. Otherwise the augmented system is factored by MUMPS. If proximal updates do not
+   satisfy the constraints, the rest of the solve uses the augmented system.
 */
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -12,8 +12,10 @@
 #include "tao_ipfilter/solver/record.h"
 #include "pc_amgf/mumps.h"
 
-/* fits: whether the preconditioner can handle stiff rows, the equality constraints have few rows and the problem
-   enough unknowns */
+/*
+   Finds whether the equality constraints can be condensed: the preconditioner is PCAMGF, which handles stiff rows, the
+   constraints involve few unknowns, and the problem is not small
+*/
 static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -36,7 +38,7 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the treatment for this solve, from Jacobian and Hessian at the start */
+/* Chooses the method for this solve, from Jacobian and Hessian at the start */
 PetscErrorCode IPEqualityChoose(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -49,8 +51,10 @@ PetscErrorCode IPEqualityChoose(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Gives up the proximal method: removes the equality constraints' rows from the matrix. *possible is false if MUMPS
-   may not factor the whole matrix */
+/*
+   Ends the use of proximal updates: assembles the condensed matrix without the rows of the equality constraints.
+   *possible is false if MUMPS may not factor the augmented system.
+*/
 static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -68,9 +72,11 @@ static PetscErrorCode EqualityGiveUpProximal(Tao tao, PetscBool *possible)
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the direction of the multipliers with the matrix cond.A, from the guesses in dx and the
-   direction. ce: residual of the equality constraints; target: residual of the forces to reach; matrix: A is new
-   since the last call */
+/*
+   Solves for dx and for the direction dir.y of the multipliers with the matrix cond->A; both hold an initial guess. ce:
+   residual of the equality constraints; target: largest allowed residual norm of the forces; matrix: whether A is new
+   since the last call.
+*/
 PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix, PetscReal target, PetscBool *usable)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -88,7 +94,7 @@ PetscErrorCode IPEqualitySolve(Tao tao, Vec b, Vec ce, Vec dx, PetscBool matrix,
   PetscFunctionReturn(0);
 }
 
-/* Computes dx of a restoration step */
+/* Solves for dx of a feasibility restoration step */
 PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -97,7 +103,7 @@ PetscErrorCode IPEqualityRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usab
   PetscFunctionReturn(0);
 }
 
-/* Estimates y by least squares of the stationarity residual with LSQR, to a few digits */
+/* Estimates the multipliers y by least squares of the stationarity residual with LSQR, to a few digits */
 static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -124,13 +130,15 @@ static PetscErrorCode EqualityMultipliersByLSQR(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Estimates multipliers of the equality constraints at the present point, by a factorization in small problems. They
-   are set to zero if they would be huge because the gradients of the constraints are almost dependent (Waechter and
-   Biegler 2006, section 3.6). */
+/*
+   Estimates the multipliers of the equality constraints at the present point; small problems use a factorization. If
+   the multipliers are huge, because the gradients of the constraints are almost dependent, they are set to zero
+   (Waechter and Biegler 2006, section 3.6).
+*/
 PetscErrorCode IPEqualityMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal huge = 1e3; /* relative to the gradient */
+  const PetscReal huge = 1e3; /* relative to the gradient of the objective */
   const PetscInt  few  = 10000;
   PetscReal       y, g, j;
   PetscInt        n;

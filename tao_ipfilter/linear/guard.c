@@ -1,11 +1,15 @@
-/* Treats an error of a library inside a solver, such as hypre, as a failure of that solver, for which there are
-   remedies, instead of ending the program. */
+/*
+   Treats an error of a library inside a linear solver, such as hypre, as a failure of the solver. The program continues
+   with the next fallback of linsolve.c.
+*/
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/linear.h"
 #include "pc_amgf/guard.h"
 
-/* Replaces a PC whose library was interrupted by a new one of the same type and options. PETSc can neither reuse nor
-   destroy the old one, so a reference to it is never released */
+/*
+   Replaces a PC whose library was interrupted by an error with a new one of the same type and options. PETSc can
+   neither reuse nor destroy the old PC. Therefore a reference to it is taken and never released.
+*/
 static PetscErrorCode GuardReplacePC(Tao tao)
 {
   KSP         ksp[2] = {tao->ksp, ((TAO_IPFILTER *)tao->data)->lin->flexible};
@@ -31,8 +35,10 @@ static PetscErrorCode GuardReplacePC(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve() that survives errors of libraries. *failed: a library reported an error; x is then zero. PCAMGF handles
-   errors of its own solvers on any rank; other errors are assumed to occur on all ranks. */
+/*
+   Finds whether PCAMGF reports an error of its own solvers, which may have occurred on one rank only. *failed is the
+   same on all ranks.
+*/
 static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
 {
   PC             pc;
@@ -47,8 +53,10 @@ static PetscErrorCode GuardAskPC(KSP ksp, PetscBool *failed)
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve(). *failed: a library inside it met an error; x is zero. Errors that PCAMGF has not taken, those of a
-   set-up say, all ranks are taken to have met. */
+/*
+   Calls KSPSolve(). *failed: a library inside it reported an error; x is then zero. PCAMGF reports errors of its own
+   solvers on all ranks. Any other library error is assumed to occur on all ranks.
+*/
 PetscErrorCode IPGuardedSolve(Tao tao, KSP ksp, Vec b, Vec x, PetscBool *failed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;

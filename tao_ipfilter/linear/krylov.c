@@ -1,4 +1,7 @@
-/* Solves the condensed system by the user's Krylov method: tolerance, early end, verdict, and record of iterations. */
+/*
+   Solves the condensed system by the user's Krylov method: sets tolerances, ends stagnating solves, judges the result,
+   and records the iterations
+*/
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -9,17 +12,17 @@
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 
-/* Context of the convergence test: the KSP's own test, and what is needed to detect stagnation */
+/* Context of the convergence test: the KSP's own test, and data to detect stagnation */
 typedef struct {
   PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
   PetscErrorCode (*destroy)(void *);
   void     *ctx;
-  PetscReal close;   /* stagnation is tested only below this residual */
-  PetscReal least;   /* the last residual that counted as progress */
-  PetscInt  reached; /* and when */
+  PetscReal close;   /* residual below which stagnation is tested */
+  PetscReal least;   /* residual when the last tenfold reduction was complete */
+  PetscInt  reached; /* iteration at which that happened */
 } StallTest;
 
-/* Adds a linear solve with its iterations to the record */
+/* Records a linear solve and its number of iterations */
 PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -35,8 +38,11 @@ PetscErrorCode IPKrylovRecord(Tao tao, PetscInt its)
   PetscFunctionReturn(0);
 }
 
-/* Iteration limit of the next solve: ten times the longest successful solve. An indefinite matrix may keep a Krylov
-   method busy without a negative product p^T A p; exceeding the limit is taken as a sign of that */
+/*
+   Returns the iteration limit of the next solve: ten times the iterations of the longest successful solve, but not more
+   than `given`. With an indefinite matrix a Krylov method may iterate long without meeting p^T A p < 0. Reaching the
+   limit is taken as a sign of such a matrix.
+*/
 static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
 {
   const PetscInt factor = 10;
@@ -44,7 +50,10 @@ static PetscInt KrylovLimit(const TAO_IPFILTER *ip, PetscInt given)
   return ip->lin->longest ? PetscMin(given, PetscMax(IP_MANY_ITERATIONS, factor * ip->lin->longest)) : given;
 }
 
-/* Convergence test that also ends a solve which gains less than one digit in a number of iterations near the end */
+/*
+   Tests convergence by the KSP's own test. In addition it ends a solve that, near its end, did not reduce the residual
+   tenfold in 25 iterations.
+*/
 static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
 {
   StallTest      *s        = (StallTest *)ctx;
@@ -62,7 +71,7 @@ static PetscErrorCode KrylovTestStalled(KSP ksp, PetscInt it, PetscReal norm, KS
   PetscFunctionReturn(0);
 }
 
-/* IPGuardedSolve() with the test for stagnation */
+/* Calls IPGuardedSolve() with KrylovTestStalled() as convergence test */
 static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscBool *failed)
 {
   KSPNormType type;
@@ -79,7 +88,10 @@ static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscB
   PetscFunctionReturn(0);
 }
 
-/* One KSP solve of A d = b; with adaptive forcing it starts from d and ends at the present target */
+/*
+   Solves A d = b with the KSP once. With adaptive forcing d is the initial guess, and the solve ends at
+   ip->lin->target.
+*/
 static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -91,7 +103,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond->A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
-  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* PREONLY takes no initial guess */
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* PREONLY accepts no initial guess */
   ip->lin->limit = maxits;
   if (ip->opt->forcing == IP_FORCING_ADAPTIVE) {
     ip->lin->limit = KrylovLimit(ip, maxits);
@@ -110,9 +122,10 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 }
 
 /*
-   Computes a correction like KrylovRun(), but with flexible CG. If J^T D J is stiff, rounding errors in PCAMGF's result
-   are amplified by these terms. Relative to the residual they are equally large in every step, so the preconditioner is
-   not quite linear, and CG's recurrence fails. Flexible CG works, but does not detect negative curvature
+   Solves A e = r for a correction e, like KrylovRun() but with flexible CG in place of CG. If J^T D J is stiff, it
+   amplifies rounding errors in the result of PCAMGF. These errors do not decrease relative to the residual. The
+   preconditioner is then not exactly linear, and the recurrence of CG fails. Flexible CG works, but does not detect
+   negative curvature.
 */
 static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
 {
@@ -145,8 +158,10 @@ static PetscErrorCode KrylovCorrect(Tao tao, Vec r, Vec e)
   PetscFunctionReturn(0);
 }
 
-/* Drops an initial guess whose residual is so large that the KSP would report divergence. The residual may exceed
-   that of zero if the filter or the first iterations correct it */
+/*
+   Sets the initial guess d to zero if its residual is so large that the KSP would report divergence. A guess with a
+   larger residual than zero has is allowed, since the filter or the first iterations may correct it.
+*/
 static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -161,7 +176,7 @@ static PetscErrorCode KrylovCheckGuess(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* zero: whether the PC set-up failed because of a zero pivot, not for another reason */
+/* Finds whether the set-up of the PC failed because of a zero pivot on any rank */
 static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
 {
   PC             pc;
@@ -175,7 +190,7 @@ static PetscErrorCode KrylovZeroPivot(Tao tao, PetscBool *zero)
   PetscFunctionReturn(0);
 }
 
-/* drowned: whether J^T D J is so much larger than the Hessian that rounding may have changed the signs of pivots */
+/* Finds whether J^T D J is so much larger than the Hessian that rounding may have changed the signs of pivots */
 static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -197,8 +212,10 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
   PetscFunctionReturn(0);
 }
 
-/* indefinite: whether factors of A, or of the filter's matrix (a principal submatrix), have negative pivots. A
-   Krylov method with few iterations might not detect this */
+/*
+   Finds whether the factors of A, or of the filtered matrix, which is a principal submatrix of A, have negative pivots.
+   A Krylov method that converges in few iterations might not notice an indefinite matrix.
+*/
 PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -220,7 +237,7 @@ PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
   PetscFunctionReturn(0);
 }
 
-/* Solves A d = b by the KSP, with refinement */
+/* Solves A d = b by the KSP, with iterative refinement, and judges the result */
 PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -239,7 +256,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   ip->lin->reason = reason;
   ip->lin->its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
-  /* tested only if the problem has shown that it is not convex, and its constraints have an interior */
+  /* The pivots are tested only if the problem has proved to be nonconvex and the constraints have not been relaxed. */
   if (ip->lin->filtered && ip->bar->curved && !ip->relax->times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
   if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
   else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
@@ -251,7 +268,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
     PetscCall(PetscInfo(tao,
       "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n",
       KSPConvergedReasons[reason], its, (double)ip->lin->norm, (double)ip->lin->target, (double)ip->lin->rhs));
-  /* a failed factorization must not be reused */
+  /* A failed factorization must not be reused. */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
-/* KSPReset() for any KSP; PETSc's flexible CG fails after KSPReset(). */
+/* Calls KSPReset() for any type of KSP. PETSc's flexible CG fails after KSPReset(). */
 #include "linearimpl.h"
 
-/* Flexible CG would use directions that no longer exist, so it is created again */
+/* Resets a KSP. Flexible CG is created again, since it would use directions that KSPReset() has destroyed. */
 PetscErrorCode IPKSPReset(KSP ksp)
 {
   PetscBool flexible;

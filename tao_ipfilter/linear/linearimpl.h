@@ -1,6 +1,7 @@
 /*
-   tao_ipfilter/linear, linear systems: Krylov methods, MUMPS, equality constraints. Files are in the order in which
-   they depend on each other; they use the folders below.
+   tao_ipfilter/linear: solvers of linear systems, namely Krylov methods, MUMPS, and methods for equality constraints.
+   The files are listed such that each depends only on those before it and on the folders above this one in
+   ipfilterimpl.h.
 */
 #ifndef IPFILTER_LINEARIMPL_H
 #define IPFILTER_LINEARIMPL_H

@@ -1,5 +1,7 @@
-/* Solves the condensed system by the Krylov method and, if that fails, by one remedy after another. No remedy shifts
-   the Hessian, because the failure of a solver is not negative curvature. */
+/*
+   Solves the condensed system by the Krylov method and, if that fails, by one fallback after another. No fallback adds
+   a shift to the Hessian, since the failure of a solver does not show negative curvature.
+*/
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -8,7 +10,7 @@
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
 
-/* The PC, if it is a PCAMGF, else NULL */
+/* Gets the PC of the KSP if it is a PCAMGF; NULL otherwise */
 static PetscErrorCode GetAMGF(Tao tao, PC *pc)
 {
   PetscBool amgf;
@@ -20,7 +22,7 @@ static PetscErrorCode GetAMGF(Tao tao, PC *pc)
   PetscFunctionReturn(0);
 }
 
-/* Remedy: rebuilds an AMG that was kept from an older matrix */
+/* Fallback: makes PCAMGF rebuild an AMG that belongs to an older matrix. *done: there is such an AMG. */
 static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
 {
   PC       pc;
@@ -36,7 +38,7 @@ static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Remedy: switches the filter on if the AMG alone was used */
+/* Fallback: switches the filter on if the AMG was used alone. *done: whether the filter was switched on. */
 static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -53,7 +55,10 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Remedy: adds the neighbours to the filtered unknowns of this matrix, as long as they stay a small part of all */
+/*
+   Fallback: adds the neighbours of the filtered unknowns to the filter of this matrix, unless the filter would exceed a
+   quarter of all unknowns. *done: whether the filter has grown.
+*/
 static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -73,7 +78,7 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   *done = (PetscBool)(after > before && after <= fraction * n);
   if (*done) {
     PetscCall(PetscObjectCompose((PetscObject)ip->cond->A, PCAMGF_FILTER_KEY, (PetscObject)wide));
-    /* switching makes it look for its subspace again */
+    /* makes PCAMGF look up its subspace again */
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
     PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
     ip->rec->fallbacks.filters++;
@@ -82,8 +87,10 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Krylov method's failure suggests an indefinite matrix without proof. An iteration limit set low by the
-   caller is no sign */
+/*
+   Returns whether the way in which the Krylov method failed suggests, without proof, an indefinite matrix. An iteration
+   limit that the caller has set low suggests nothing.
+*/
 static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
 {
   switch (ip->lin->reason) {
@@ -96,15 +103,20 @@ static PetscBool LooksIndefinite(const TAO_IPFILTER *ip)
   }
 }
 
-/* Whether the direction reduces the residual tenfold, which is good enough for an inexact Newton method if all
-   remedies failed */
+/*
+   Returns whether the direction reduces the residual tenfold, which is sufficient for an inexact Newton method if all
+   fallbacks failed
+*/
 static PetscBool Coarse(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!IPUndefined(ip->lin->norm) &&
                      ip->lin->norm <= PetscMax(10.0 * ip->lin->target, IP_FORCING_MAX * ip->lin->rhs));
 }
 
-/* Remedies in the order in which they are tried: `prepare` changes something (if possible), `solve` solves then */
+/*
+   Attempts in the order in which they are made. `prepare` changes the solver and tells whether that was possible; NULL:
+   nothing is changed. `solve` then solves the system.
+*/
 static const struct {
   PetscErrorCode (*prepare)(Tao, PetscBool *);
   PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
@@ -116,7 +128,7 @@ static const struct {
   {NULL, IPDirectSolve},
 };
 
-/* Whether only MUMPS is tried: by the user's choice, or because only MUMPS succeeded in the last solves */
+/* Returns whether only MUMPS is used: the user has chosen this, or in the last solves only MUMPS succeeded */
 static PetscBool DirectOnly(const TAO_IPFILTER *ip)
 {
   const PetscInt in_vain = 2;
@@ -124,7 +136,9 @@ static PetscBool DirectOnly(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->opt->direct_always || ip->lin->ndirect >= in_vain);
 }
 
-/* sound: whether matrix and right-hand side contain only numbers; otherwise no solver is tried */
+/*
+   Finds whether the matrix and the right-hand side are free of NaN and infinite entries; otherwise no solver is tried
+*/
 static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -138,7 +152,10 @@ static PetscErrorCode CheckNumbers(Tao tao, PetscBool *sound)
   PetscFunctionReturn(0);
 }
 
-/* Records the result of MUMPS, and sets the verdict if it failed too */
+/*
+   Records the result of MUMPS. If MUMPS failed as well, decides whether the matrix counts as indefinite, or the
+   direction is accurate enough.
+*/
 static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -156,7 +173,7 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
   PetscFunctionReturn(0);
 }
 
-/* Tries the remedies until one gives a verdict on the matrix */
+/* Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED */
 static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   const size_t n     = PETSC_STATIC_ARRAY_LENGTH(remedies);
@@ -176,9 +193,9 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
 }
 
 /*
-   Solves A d = b from the guess d to ||b - A d|| <= target. With fixed forcing the KSP's own tolerances and guess are
-   used. *usable: false if the matrix is not positive definite, or if no solver gave a usable direction; in the second
-   case ip->lin->failed is true, and shifting the Hessian does not help
+   Solves A d = b with the initial guess d to ||b - A d|| <= target. With fixed forcing the KSP's own tolerances and
+   initial guess are used. *usable: false if the matrix is not positive definite, or if no solver gave a usable
+   direction. In the second case ip->lin->failed is true, and a shift of the Hessian would not help.
 */
 PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool *usable)
 {

@@ -1,20 +1,18 @@
 /*
-   Equality constraints that involve few unknowns, without a factorization of the whole matrix. The weights W are much
-   larger than the stiffness that resists the constraints. PCAMGF can precondition the condensed matrix A + J_E^T W J_E.
-   The method of multipliers
-
+   Solves Newton systems with equality constraints that involve few unknowns, without factoring the whole matrix. The
+   weights W are much larger than the stiffness that resists the constraints; PCAMGF can precondition the condensed
+   matrix A + J_E^T W J_E. The method of multipliers
      (A + J_E^T W J_E) dx = b - J_E^T (y + W c_E),   y <- y + W (J_E dx + c_E)
-
-   converges to the solution of the augmented system: each update reduces J_E dx + c_E by the ratio of the two
+   converges to the solution of the augmented system. Each update reduces J_E dx + c_E by the ratio of the two
    stiffnesses. The residual of the forces is that of the condensed system. An update changes the right-hand side only
-   where PCAMGF solves exactly, so it costs few iterations.
+   in unknowns that PCAMGF solves for exactly, and therefore costs few iterations.
 */
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/factors.h"
 #include "tao_ipfilter/solver/matrices.h"
 
-/* rhs = b - J_E^T (y + W c_E) */
+/* Computes rhs = b - J_E^T (y + W c_E). y may be NULL for zero. */
 static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -31,8 +29,11 @@ static PetscErrorCode ProximalRHS(Tao tao, Vec b, Vec ce, Vec y, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* dx += (A + J_E^T W J_E)^-1 (residual of rhs), unless the residual is within the target. It is reduced to a tenth
-   of the target, so that the next update of the multipliers does not exceed the target */
+/*
+   Improves dx by (A + J_E^T W J_E)^-1 times the residual, unless the residual already is within twice the target; then
+   *done is true. The residual is reduced to a tenth of the target, so that it does not exceed the target after the next
+   update of the multipliers.
+*/
 static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target, PetscBool *usable, PetscBool *done)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -58,7 +59,7 @@ static PetscErrorCode ProximalCorrect(Tao tao, Vec rhs, Vec dx, PetscReal target
   PetscFunctionReturn(0);
 }
 
-/* y += W (J_E dx + c_E); *left: largest entry of J_E dx + c_E */
+/* Updates the multipliers, y += W (J_E dx + c_E). *left: largest absolute entry of J_E dx + c_E. */
 static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *left)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -74,8 +75,10 @@ static PetscErrorCode ProximalUpdate(Tao tao, Vec ce, Vec dx, Vec y, PetscReal *
   PetscFunctionReturn(0);
 }
 
-/* limit: the part of J_E dx + c_E that need not be reduced, because it is negligible relative to its terms or
-   rounding of c_E */
+/*
+   Computes the size of J_E dx + c_E that need not be reduced further: it is negligible compared with its terms, or is
+   rounding of c_E
+*/
 static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -90,13 +93,15 @@ static PetscErrorCode ProximalLimit(Tao tao, Vec dx, PetscReal *limit)
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx and the direction of the multipliers, from the guesses in them. *exact: false if J_E dx + c_E does
-   not vanish */
+/*
+   Solves for dx and for the direction dir.y of the multipliers; both hold an initial guess. *exact: false if J_E dx +
+   c_E remains too large.
+*/
 PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target, PetscBool *usable, PetscBool *exact)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscInt  most  = 20;
-  const PetscReal close = 1e3; /* multiple of the limit within which rounding is taken as the cause */
+  const PetscReal close = 1e3; /* multiple of the limit up to which J_E dx + c_E is attributed to rounding */
   PetscReal       left = PETSC_INFINITY, limit = 0.0;
   Vec             rhs, y;
 
@@ -127,7 +132,10 @@ PetscErrorCode IPProximalSolve(Tao tao, Vec b, Vec ce, Vec dx, PetscReal target,
   PetscFunctionReturn(0);
 }
 
-/* dx of a restoration step: one solve, with the weights of the violation and without updates */
+/*
+   Solves for dx of a restoration step: one linear solve with the weights of the violation, without updates of the
+   multipliers
+*/
 PetscErrorCode IPProximalRestore(Tao tao, Vec b, Vec ce, Vec dx, PetscBool *usable)
 {
   const PetscReal accuracy = 1e-3;

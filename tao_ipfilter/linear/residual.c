@@ -1,5 +1,7 @@
-/* Judges linear solves by the true residual of the condensed system, not by a Krylov method's estimate. If it is too
-   large, the solve is continued from the iterate reached. */
+/*
+   Judges linear solves by the true residual of the condensed system instead of a Krylov method's estimate. If the
+   residual is too large, iterative refinement continues the solve.
+*/
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -11,8 +13,10 @@
 #define IP_EXACT           (10.0 * PETSC_MACHINE_EPSILON) /* refinement stops below this backward error */
 #define IP_ROUNDING        (50.0 * PETSC_MACHINE_EPSILON) /* backward error that rounding may cause in any solver */
 
-/* r = b - A d, its norm, and the backward error: the norm relative to that of its terms, with diag(A) |d| in place
-   of |A| |d| since A is positive definite */
+/*
+   Computes r = b - A d, its norm, and the backward error. The backward error is the norm of r relative to the norm of
+   its terms, where |A| |d| is replaced by diag(A) |d| since A is positive definite.
+*/
 PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -33,8 +37,10 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Whether the residual meets the target or is as small as rounding allows. With fixed forcing the KSP's own
-   criterion decides, unless its result is unusable */
+/*
+   Returns whether the residual meets the target, or is as small as rounding allows. With fixed forcing the KSP's own
+   criterion decides, unless the residual is not even reduced tenfold.
+*/
 PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin->norm)) return PETSC_FALSE;
@@ -44,15 +50,20 @@ PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
   return (PetscBool)(ip->lin->norm <= 2.0 * ip->lin->target);
 }
 
-/* Whether the requested target was missed, even if rounding is the cause */
+/*
+   Returns whether the target was missed. In contrast to IPResidualReached(), rounding is no excuse with adaptive
+   forcing.
+*/
 static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   return ip->opt->forcing == IP_FORCING_FIXED ? !IPResidualReached(ip, reason)
                                               : (PetscBool)(ip->lin->norm > 2.0 * ip->lin->target);
 }
 
-/* Whether continuing from the iterate reached may help: the last solve ended by its own estimate of the residual, or
-   a product p^T A p got the wrong sign by rounding close to the end */
+/*
+   Returns whether refinement may help: the last solve ended because its estimate of the residual was small, or a
+   product p^T A p got the wrong sign by rounding near the end
+*/
 static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {
   if (IPUndefined(ip->lin->norm)) return PETSC_FALSE;
@@ -61,8 +72,10 @@ static PetscBool ResidualRefinable(const TAO_IPFILTER *ip, KSPConvergedReason re
   return (PetscBool)(reason > 0);
 }
 
-/* d += A^-1 (b - A d) by the given solver, repeated while it halves the residual; exact: down to rounding, whatever
-   the target */
+/*
+   Refines d iteratively, d += A^-1 (b - A d) with the given solver, as long as that halves the residual and the target
+   is missed. exact: refine down to rounding whatever the target is; reason: how the solver ended.
+*/
 PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErrorCode (*solve)(Tao, Vec, Vec),
   KSPConvergedReason reason)
 {
@@ -93,7 +106,7 @@ PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErr
   PetscFunctionReturn(0);
 }
 
-/* Records a failure that was caused by values that are not numbers, not by a solver */
+/* Records a failure that was caused by NaN in the matrix or the right-hand side, not by a solver */
 PetscErrorCode IPResidualNotANumber(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

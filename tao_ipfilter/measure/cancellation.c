@@ -1,9 +1,11 @@
-/* Forces of constraints that cancel one another: a sign that a solution has no bounded multipliers. */
+/*
+   Detects forces of constraints that cancel one another, which indicates that the solution has no bounded multipliers
+*/
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-/* r += |J|^T |M multiplier|, M = 1 where it is NULL */
+/* Adds |J|^T |M multiplier| to r. weights: the diagonal of M; NULL: M is the identity. */
 static PetscErrorCode CancellationAddForces(Tao tao, IPSpace space, Mat J, Vec multiplier, Vec weights, Vec r)
 {
   const PetscScalar *z;
@@ -33,7 +35,9 @@ static PetscErrorCode CancellationAddForces(Tao tao, IPSpace space, Mat J, Vec m
   PetscFunctionReturn(0);
 }
 
-/* Largest sum over the constraints of the magnitudes of their forces on one unknown */
+/*
+   Computes, for each unknown, the sum of the magnitudes of all constraints' forces on it, and returns the largest sum
+*/
 static PetscErrorCode CancellationForce(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -58,12 +62,14 @@ static PetscErrorCode CancellationForce(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* times: ratio of the magnitudes of the constraints' forces to the gradient that they balance together. If it is
-   large, the forces cancel each other: bounded multipliers may not exist, and errors measured with multipliers are
-   meaningless. 0 without a gradient. */
+/*
+   Computes the ratio of the magnitudes of the constraints' forces to the gradient that they balance; 0 if there is no
+   gradient. If the ratio is large, the forces cancel one another. Bounded multipliers may then not exist, and errors
+   measured with multipliers are meaningless.
+*/
 PetscErrorCode IPCancellation(Tao tao, PetscReal *times)
 {
-  const PetscReal vanishing = 1e-3; /* of the first gradient */
+  const PetscReal vanishing = 1e-3; /* fraction of the first gradient that replaces a vanishing gradient */
   PetscReal       force, gradient;
 
   PetscFunctionBegin;

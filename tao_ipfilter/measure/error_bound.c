@@ -1,11 +1,10 @@
 /*
-   Error bound of the objective. To first order the error is at most
-
-     sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i:
-
-   stationarity residual r times lengths l_j of the unknowns, violations times multipliers, and the complementarity gap.
-   Each term has the units of the objective, whatever the units of its row, bound or unknown. The last sum grows with
-   the number of bounds, as the error does. All terms are compared with the objective.
+   Bounds the error in the objective. To first order the error is at most
+     sum_j |r_j| l_j + sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| + sum_i m_i t_i z_i.
+   The first sum is that of the stationarity residuals r times lengths l_j of the unknowns. The next two are violations
+   times multipliers; the last is the complementarity gap. Each sum has the unit of the objective, whatever the units of
+   rows, bounds and unknowns. The last sum grows with the number of bounds, as the error does. The sums are compared
+   with the magnitude of the objective.
 */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -17,13 +16,15 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-#define IP_BOUND_MULTIPLE 20.0 /* allowed error bound relative to the objective, as a multiple of the tolerance */
-#define IP_BOUND_TERMS    1e-6 /* replaces the objective by this fraction of its terms if these cancel */
-#define IP_BOUND_FIRST    1e-8 /* replaces the terms by this fraction of their first values if they vanish */
+#define IP_BOUND_MULTIPLE 20.0 /* allowed error relative to the objective, as a multiple of the tolerance */
+#define IP_BOUND_TERMS \
+  1e-6                      /* if the terms of the objective cancel, this fraction of their magnitude replaces the
+                                  objective */
+#define IP_BOUND_FIRST 1e-8 /* if the terms vanish, this fraction of their first magnitude replaces them */
 #define IP_BOUND_ROUNDING \
-  (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding */
+  (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding errors */
 
-/* sum_j |a_j b_j| */
+/* Computes sum_j |a_j b_j| */
 static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
 {
   const PetscScalar *aa, *ba;
@@ -41,8 +42,10 @@ static PetscErrorCode ErrorBoundProduct(Vec a, Vec b, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* sum_j |r_j| l_j, where l_j is the larger of |x_j| and the unknown's own Newton step |r_j| / diagonal_j: an unknown
-   that is zero may be far from its solution. diagonal: of the condensed matrix */
+/*
+   Computes sum_j |r_j| l_j. The length l_j is the larger one of |x_j| and the Newton step of this unknown alone, |r_j|
+   / diagonal_j, since an unknown that is zero may be far from its solution. diagonal: that of the condensed matrix.
+*/
 static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscReal *sum)
 {
   const Vec          v[4] = {r, tao->solution, diagonal, tao->gradient};
@@ -64,8 +67,10 @@ static PetscErrorCode ErrorBoundImbalance(Tao tao, Vec diagonal, Vec r, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Part of the stationarity residual in the error bound. The diagonal is that of the last condensed matrix; before
-   there is one, that of the Hessian. */
+/*
+   Computes the first sum of the bound, that of the stationarity residual. It uses the diagonal of the last condensed
+   matrix or, before the first one is assembled, that of the Hessian.
+*/
 static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -80,7 +85,7 @@ static PetscErrorCode ErrorBoundOfForces(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
-/* Part of the violation in the error bound */
+/* Computes the second and third sum of the bound, those of the violations */
 static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -102,7 +107,7 @@ static PetscErrorCode ErrorBoundOfViolation(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
-/* Part of the complementarity gap in the error bound: sum m t z */
+/* Computes the last sum of the bound, the complementarity gap sum m t z */
 static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -118,7 +123,7 @@ static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
-/* Magnitude of the objective's terms: sum_j |x_j (H x)_j| + |x_j g_j| */
+/* Computes the magnitude of the objective's terms, sum_j |x_j (H x)_j| + |x_j g_j| */
 PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -135,8 +140,10 @@ PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
   PetscFunctionReturn(0);
 }
 
-/* The same at the start, where all unknowns may be zero: adds the gains of Newton steps of single unknowns, and the
-   complementarity gap */
+/*
+   Computes that magnitude for the start. All unknowns may be zero there. Therefore the gains of Newton steps of single
+   unknowns, and the complementarity gap, are added.
+*/
 static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -149,7 +156,7 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscFunctionReturn(0);
 }
 
-/* The objective's magnitude to which residuals are compared; 0 for a constant objective */
+/* Computes the magnitude of the objective with which residuals are compared; PETSC_INFINITY for a constant objective */
 PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -166,7 +173,7 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
   PetscFunctionReturn(0);
 }
 
-/* Sets kkt.work and kkt.work_dual: the error bound relative to its allowed size */
+/* Sets kkt->work and kkt->work_dual, the error bound and its first sum relative to the allowed error per tolerance */
 PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -185,8 +192,10 @@ PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Bound of the change of the objective due to relaxed constraints and bounds: sum of their multipliers times their
-   relaxations, over the same unit */
+/*
+   Bounds the change of the objective due to relaxed constraints and bounds: the sum of multipliers times relaxations,
+   in the unit of kkt->work
+*/
 PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -214,27 +223,32 @@ PetscErrorCode IPErrorBoundOfRelaxation(Tao tao, PetscReal *work)
   PetscFunctionReturn(0);
 }
 
-/* Converts such a relative value to the units of the objective */
+/* Converts a value in the unit of kkt->work to the unit of the objective */
 PetscReal IPErrorBoundOfWork(const TAO_IPFILTER *ip, PetscReal work)
 {
   return work * IP_BOUND_MULTIPLE * ip->scale->energy;
 }
 
-/* Whether a complementarity gap is within the tolerance */
+/* Returns whether a complementarity gap is within the tolerance */
 PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 {
   return (PetscBool)(gap <= IP_BOUND_MULTIPLE * ip->tol * ip->scale->energy);
 }
 
-/* Norm of the stationarity residual up to which both measures of the KKT error are at most 1 */
+/*
+   Returns the norm of the stationarity residual for which the larger one of the two measures kkt->dual and
+   kkt->work_dual is 1
+*/
 PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 {
   return ip->kkt->work_dual > 0.0 ? PetscMin(ip->scale->dual, ip->kkt->dual_norm / ip->kkt->work_dual)
                                   : ip->scale->dual;
 }
 
-/* The same at the end of the step dx, with the objective of the quadratic model: at a start of zero the objective's
-   terms are no guide */
+/*
+   Predicts IPErrorBoundForceUnit() for the end of the step dx, with the objective of the quadratic model. If x is zero
+   at the start, the present objective is no guide.
+*/
 PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -251,8 +265,10 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* Smallest mu that is needed: each product t z is then within a tenth of the tolerance, and their sum within half of
-   it */
+/*
+   Returns the smallest mu that is needed: each product t z is then within a tenth of the tolerance, and their sum
+   within half of it
+*/
 PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
 {
   PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale->product;

@@ -1,4 +1,4 @@
-/* Residuals of the optimality conditions. */
+/* Computes the residuals of the optimality conditions */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
@@ -7,7 +7,10 @@
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-/* r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms; multiplier: lambda or z */
+/*
+   Computes r = grad f + J_E^T y - J^T M multiplier - bound multipliers - forces of the norm terms. multiplier: lambda
+   or z.
+*/
 PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -37,7 +40,10 @@ PetscErrorCode IPStationarity(Tao tao, Vec multiplier, Vec r)
   PetscFunctionReturn(0);
 }
 
-/* sum m (lambda - z)^2, with z of both sides: square of the slacks' stationarity residual in the weighted norm */
+/*
+   Computes sum m (lambda - z)^2, the square of the weighted norm of the slacks' stationarity residual; z is that of
+   both sides
+*/
 static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -54,13 +60,13 @@ static PetscErrorCode SlackStationarity(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* The larger number, or NaN if one is NaN; PetscMax() ignores a NaN in its second argument */
+/* Returns the larger number, or NaN if one of them is NaN. PetscMax() ignores a NaN in its second argument. */
 static PetscReal Larger(PetscReal a, PetscReal b)
 {
   return a > b || PetscIsNanReal(a) ? a : b;
 }
 
-/* sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s), with r_s = M_s (lambda - z) */
+/* Computes sqrt(r_u^T M_u^-1 r_u + r_s^T M_s^-1 r_s) with r_s = M_s (lambda - z) */
 static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -79,7 +85,10 @@ static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* The stationarity residual: mass-weighted, or each part relative to its scale */
+/*
+   Computes the size of the stationarity residual: the mass-weighted norm, or the largest of its parts relative to their
+   scales
+*/
 static PetscErrorCode DualError(Tao tao, PetscReal *dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -96,8 +105,10 @@ static PetscErrorCode DualError(Tao tao, PetscReal *dual)
   PetscFunctionReturn(0);
 }
 
-/* Scale for violations of successive iterates: the constraints' first values, or |J| |x| at the start; 1, as
-   where both are zero, if they are rounding */
+/*
+   Returns the scale of kkt->violation, by which successive iterates are compared: the constraints' first values, or |J|
+   |x| at the start. If both are zero or of the size of rounding errors, the scale is 1.
+*/
 static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal jacobian, PetscReal now)
 {
   PetscReal size = PetscMax(values, jacobian * ip->first->x);
@@ -106,8 +117,10 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
   return ip->opt->scaling == IP_SCALING_PROBLEM && size > 0.0 ? size : 1.0;
 }
 
-/* Sets ip->rc = c_I - s. primal: violation of constraints and of the laws of norm terms, relative to their scales;
-   largest: in the caller's units */
+/*
+   Sets ip->rc = c_I - s. *primal: largest violation of the constraints and of the laws of norm terms, relative to their
+   scales; *largest: largest violation of the constraints in the caller's units.
+*/
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -138,14 +151,16 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   PetscFunctionReturn(0);
 }
 
-/* The larger of the two measures of the KKT error */
+/* Returns the larger one of the two measures of the KKT error, kkt->error and kkt->work */
 PetscReal IPBothErrors(const TAO_IPFILTER *ip)
 {
   return Larger(ip->kkt->error, ip->kkt->work);
 }
 
-/* Measures the violation relative to the constraints' own terms if everything else has converged. With given scales
-   violations are absolute. */
+/*
+   Sets kkt->own, the violation relative to the constraints' own terms, if the violation has almost converged; otherwise
+   it is infinite. It is zero, that is, not used, unless residuals are relative to the problem's scales.
+*/
 static PetscErrorCode OwnNearEnd(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -160,7 +175,7 @@ static PetscErrorCode OwnNearEnd(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Computes residuals and errors at the current iterate: ip->rx, ip->rc, ip->scale and ip->kkt */
+/* Computes residuals, scales and errors at the current iterate: ip->rx, ip->rc, ip->scale and ip->kkt */
 PetscErrorCode IPComputeKKT(Tao tao)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;

@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/measure, sizes and residuals: stiffness, scales, norm terms, error bound, KKT error. Files are in the
-   order in which they depend on each other; they use the folders below.
+   tao_ipfilter/measure: sizes and residuals, namely stiffness, scales, norm terms, error bound, KKT error. The files
+   are listed such that each depends only on those before it and on the folders above this one in ipfilterimpl.h.
 */
 #ifndef IPFILTER_MEASUREIMPL_H
 #define IPFILTER_MEASUREIMPL_H

@@ -1,12 +1,16 @@
-/* Violation of each constraint relative to its own present terms. The size of the constraints at a distant start, or
-   of other rows, would make any violation look small. */
+/*
+   Measures the violation of each constraint relative to its own present terms. Relative to the size of the constraints
+   at a distant start, or to that of other rows, any violation would look small.
+*/
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-/* For every row of J: sums = sum_j |J_ij x_j|, the terms that cancel where the constraint is met; largest = max_j
-   |J_ij|, may be NULL */
+/*
+   Computes for every row i of J: sums_i = sum_j |J_ij x_j|, the magnitude of the terms that cancel if the constraint is
+   satisfied, and largest_i = max_j |J_ij|. `largest` may be NULL.
+*/
 PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
 {
   Mat          terms;
@@ -39,16 +43,19 @@ PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
   PetscFunctionReturn(0);
 }
 
-/* own: largest violation relative to the terms of its row (those of the unknowns, and the constant). If all terms of
-   a row vanish, they are replaced by the fraction `trace` of what the largest unknown would contribute, at least
-   rounding of the first terms. */
+/*
+   Computes the largest violation relative to the terms of its row, namely those of the unknowns and the constant. The
+   size of the terms is at least the fraction `trace` of what the largest unknown would contribute, and at least the
+   rounding error of `first`, the terms at the start.
+*/
 static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal trace, PetscReal first,
   PetscReal *own)
 {
   const PetscScalar *a[5];
-  Vec       v[5]  = {c, violation, NULL, NULL, NULL}; /* c, the violation, J x, and the results of IPOwnTerms() */
-  PetscReal local = 0.0, xsize;
-  PetscInt  n;
+  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* constraint values, violations, J x, and the results of
+                                                         IPOwnTerms() */
+  PetscReal          local = 0.0, xsize;
+  PetscInt           n;
 
   PetscFunctionBegin;
   for (PetscInt k = 2; k < 5; k++) PetscCall(IPGetWork(tao, space, &v[k]));
@@ -70,9 +77,11 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
   PetscFunctionReturn(0);
 }
 
-/* own: largest violation of all (relaxed) constraints relative to the terms of their rows. For relaxed constraints also
-   the violation without the relaxation; its terms are at least the contribution of the largest unknown, because terms
-   of such rows may vanish */
+/*
+   Computes the largest violation of all constraints relative to the terms of their rows. For relaxed constraints this
+   includes the violation without the relaxation; its terms are at least the contribution of the largest unknown, since
+   the terms of such rows may vanish.
+*/
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -88,7 +97,7 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
     PetscCall(IPSlackViolation(tao, ip->at.c, v));
     PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, trace, rows, own));
-    if (ip->relax->by > 0.0) { /* the violation without that */
+    if (ip->relax->by > 0.0) { /* add the violation of the constraints as they are without the relaxation */
       PetscCall(VecWAXPY(v, -1.0, ip->at.s, ip->at.c));
       PetscCall(VecShift(v, -ip->relax->by));
       PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, 1.0, small * rows, &other));
@@ -103,14 +112,17 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
   PetscFunctionReturn(0);
 }
 
-/* size: largest term of the active inequality constraints, i.e. of those with a slack that is negligible relative to
-   their terms; 0 if none is active */
+/*
+   Computes the largest term of the active inequality constraints, namely those whose slack is negligible relative to
+   their terms; 0 if none is active
+*/
 PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    active = 1e-3;
   const PetscScalar *a[4];
-  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* followed by J x, the sums */
+  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* constraint values, slacks, J x, and the sums of
+                                                                  IPOwnTerms() */
   PetscReal          local = 0.0;
   PetscInt           n;
 

@@ -1,6 +1,6 @@
 /*
-   Constraints out of reach: no expected change of the unknowns makes them zero. Rows with values of 1e8 or 1e10 that
-   stand for missing constraints are of this kind. They are left out of all sizes, because relative to them any other
+   Finds constraints out of reach, which no expected change of the unknowns makes zero. Examples are rows with values of
+   1e8 or 1e10 that stand for missing constraints. They are left out of all sizes, since relative to them any other
    violation would look small.
 */
 #include "measureimpl.h"
@@ -11,7 +11,10 @@
 #define IP_FAR  1e3  /* a constraint is out of reach if its value exceeds its expected change by this factor */
 #define IP_SOFT 1e-8 /* curvatures below this fraction of the largest count as zero */
 
-/* distance: expected change of each unknown, |x_j| or its own Newton step */
+/*
+   Computes the expected change of each unknown: |x_j| plus its own Newton step |g_j| / |H_jj|. Unknowns with negligible
+   curvature get |x_j|.
+*/
 static PetscErrorCode ReachUnknowns(Tao tao, Vec distance)
 {
   Vec                hdiag = ((TAO_IPFILTER *)tao->data)->stiff->hdiag;
@@ -36,13 +39,16 @@ static PetscErrorCode ReachUnknowns(Tao tao, Vec distance)
   PetscFunctionReturn(0);
 }
 
-/* Distance (in unknowns, by the largest row entry of J) to the constraints that are violated, and to the nearest of
-   those that are met */
+/*
+   Computes the distance to the most violated constraint, and to the nearest of the satisfied constraints (0 if there is
+   none). A distance is measured in the unit of the unknowns: the value of the constraint divided by the largest row sum
+   of |J|.
+*/
 static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nearest)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   const PetscScalar *c;
-  PetscReal          distance[2] = {0.0, PETSC_NINFINITY}; /* the largest, and minus the smallest */
+  PetscReal          distance[2] = {0.0, PETSC_NINFINITY}; /* the largest distance; minus the smallest */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -61,8 +67,10 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
   PetscFunctionReturn(0);
 }
 
-/* Expected change of each constraint: by its own unknowns, or by all unknowns if its own are not expected to change;
-   at least what it takes to meet it */
+/*
+   Computes the expected change of each constraint from that of its own unknowns. If its own unknowns are not expected
+   to change, those of all unknowns are used. The result is at least the violation.
+*/
 static PetscErrorCode ReachRows(Tao tao, Vec distance)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -85,7 +93,7 @@ static PetscErrorCode ReachRows(Tao tao, Vec distance)
   PetscFunctionReturn(0);
 }
 
-/* Computes from the start how far unknowns and constraints may be expected to change, and the size of c_I there */
+/* Computes from the start how far unknowns and constraints are expected to change, and the size of c_I there */
 PetscErrorCode IPMeasureReach(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -111,13 +119,13 @@ PetscErrorCode IPMeasureReach(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Largest expected change of an unknown */
+/* Returns the largest expected change of an unknown, including the safety factor IP_FAR; infinite if unknown */
 PetscReal IPReachOfUnknowns(const TAO_IPFILTER *ip)
 {
   return ip->first->reach > 0.0 ? IP_FAR * ip->first->reach : PETSC_INFINITY;
 }
 
-/* near: the entries of v (layout of c_I) that are within reach, zeros for the others. The reach grows with x. */
+/* Copies v (layout of c_I) to `near`, with zeros for the rows out of reach. The reach grows with x. */
 PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
@@ -142,7 +150,7 @@ PetscErrorCode IPValuesWithinReach(Tao tao, Vec v, Vec near)
   PetscFunctionReturn(0);
 }
 
-/* size: largest entry of v within reach */
+/* Computes the largest absolute entry of v within reach */
 PetscErrorCode IPSizeWithinReach(Tao tao, Vec v, PetscReal *size)
 {
   Vec near;

@@ -1,8 +1,8 @@
-/* Stiffness that resists the motions of norm terms, and directions in which they cannot move. */
+/* Computes the stiffness that resists the motion of each norm term, and directions in which a term cannot move */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Creates the matrix of the sums of each term's two rows */
+/* Creates the matrix whose rows are the sums of the two rows of each term */
 static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
 {
   PetscInt rstart, rend, first, m, n, *counts;
@@ -37,8 +37,11 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscFunctionReturn(0);
 }
 
-/* From the compliances of both rows and of their sum: the principal compliances of a term, and the unit direction
-   `dead` of almost no compliance (zeros: none) */
+/*
+   Computes the direction `dead` in which a term has almost no compliance; zeros if there is none. first, second:
+   compliances of the term's two rows; both: that of their sum. Together they give the 2 x 2 matrix of compliances,
+   whose smallest eigenvalue is tested.
+*/
 static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {
   const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
@@ -50,12 +53,15 @@ static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, Pets
   dead[1] = none ? 0.0 : PetscCosReal(angle);
 }
 
-/* rho: stiffness that resists each term; 0 if it has no compliance. dead: direction with almost no compliance and
-   almost no motion v, e.g. across a symmetry plane. There v does not depend on x and counts as zero */
+/*
+   Computes terms->rho, the stiffness that resists each term (0 if it has no compliance), and terms->dead, a direction
+   with almost no compliance and almost no motion v, e.g. across a symmetry plane. In that direction v does not depend
+   on x and counts as zero.
+*/
 PetscErrorCode IPTermsResistance(Tao tao)
 {
   IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    unmoved = 1e-6; /* relative to the largest motion */
+  const PetscReal    unmoved = 1e-6; /* largest motion along `dead`, relative to the largest motion of all */
   const PetscScalar *c, *b, *v;
   PetscScalar       *rho, *dead;
   PetscReal          sizes[2];

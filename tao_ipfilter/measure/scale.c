@@ -1,29 +1,33 @@
-/* Scales by which residuals are divided. */
+/* Computes the scales by which residuals are divided */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-#define IP_VANISHING 1e-3 /* fraction of first values that replaces scales which vanish */
+#define IP_VANISHING 1e-3 /* fraction of a first value that replaces a vanishing scale */
 #define IP_AMPLE \
-  30.0                   /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
+  30.0 /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
                             the tolerance */
-#define IP_STEEP   0.1   /* constraints that have become flatter than that started where they were steep */
-#define IP_RUNAWAY 100.0 /* limit of an iterate's size relative to its first size */
+#define IP_STEEP \
+  0.1                    /* if the largest row sum of |J| has fallen below this fraction of its first value, the
+                            first value is not used */
+#define IP_RUNAWAY 100.0 /* largest size of an iterate relative to its first size that scales follow */
 
-/* Limits a size to a multiple of that at the start: a diverging iterate must not make its residuals look small. A size
-   at the start that is rounding does not count */
+/*
+   Returns `size`, but at most `limit`, a multiple of the size at the start: a diverging iterate must not make its
+   residuals look small. A limit that is only rounding error is ignored.
+*/
 static PetscReal Within(PetscReal size, PetscReal limit)
 {
   return limit > PETSC_MACHINE_EPSILON * size ? PetscMin(size, limit) : size;
 }
 
 /*
-   Length and pressure scales of the inequality constraints: their values and multipliers. If every constraint is active
-   from the start, values and slacks are zero, and displacements are used for the length. Pressures of infeasible
-   constraints grow without limit, so they are limited. If no constraint is active, a small fraction of the pressure
-   that would balance the objective's gradient is used
+   Computes the length and pressure scales of the inequality constraints from their values and multipliers. If every
+   constraint is active from the start, values and slacks are zero; the length is then computed from displacements. The
+   multipliers of infeasible constraints grow without limit; therefore the pressure is computed with a limited length.
+   If no constraint is active, the pressure is a small fraction of that which would balance the objective's gradient.
 */
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
@@ -52,7 +56,10 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   PetscFunctionReturn(0);
 }
 
-/* Scale of the equality constraints: their first values, or the terms of their linear parts */
+/*
+   Computes the scale of the equality constraints: their first values, or the terms of their linear parts if these are
+   larger
+*/
 static PetscErrorCode EqualityScale(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -71,9 +78,9 @@ static PetscErrorCode EqualityScale(Tao tao)
 }
 
 /*
-   Force scale: the forces that cancel in the gradient. If none cancel, the gradient at the start, limited by its
-   present terms, so that a distant start does not make every gradient look small. Gradients below ten roundings of
-   their terms are meaningless
+   Computes the force scale, from the forces that cancel in the gradient. If none cancel it is the gradient at the
+   start, limited by its present terms, so that a distant start does not make every gradient look small. A gradient
+   below ten rounding errors of its terms is meaningless.
 */
 static PetscErrorCode DualScale(Tao tao)
 {
@@ -82,7 +89,8 @@ static PetscErrorCode DualScale(Tao tao)
   const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
   PetscReal       norm, terms, stiffness;
   const PetscReal least = PetscSqr(
-    PETSC_MACHINE_EPSILON); /* fraction of the first gradient: a smaller one is no gain, even if the unknowns diverge */
+    PETSC_MACHINE_EPSILON); /* fraction of the first gradient below which a gradient is small even if the unknowns
+                               diverge */
   const PetscReal first = (limited ? IP_VANISHING : 1.0) * ip->first->gradient;
 
   PetscFunctionBegin;
@@ -95,7 +103,10 @@ static PetscErrorCode DualScale(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Absolute limit: the given one, or if negative that of the chosen scaling */
+/*
+   Returns an absolute tolerance: `given`, or, if that is negative, `by_gradients` with scaling by gradients and
+   infinity otherwise
+*/
 PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
 {
   if (given >= 0.0) return given;
@@ -103,9 +114,10 @@ PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal
 }
 
 /*
-   Computes the scales of the residuals. They have the problem's units, so that a change of units changes no decision:
-   forces relative to the forces that cancel, constraints to their largest value, products t z to length times pressure.
-   Scales that vanish are replaced by small fractions of first values, or by the pressure from the stiffness
+   Computes the scales of the residuals. They have the problem's units, so that a change of units changes no decision.
+   Forces are relative to the forces that cancel, constraints to their largest value, and products t z to length times
+   pressure. A scale that vanishes is replaced by a small fraction of a first value, or by the pressure that follows
+   from the stiffness.
 */
 PetscErrorCode IPComputeScale(Tao tao)
 {

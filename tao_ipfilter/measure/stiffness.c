@@ -1,10 +1,12 @@
-/* Stiffness of the objective from the diagonal of its Hessian. Units and sizes are derived from it. */
+/* Stiffness of the objective, from the diagonal of its Hessian. Units and sizes are derived from it. */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* size: magnitude of the terms of the gradient at x. Rounding keeps the stationarity residual above a few eps times
-   this */
+/*
+   Computes the magnitude of the terms of the gradient at x. Rounding errors limit the stationarity residual to a few
+   machine epsilons times this size.
+*/
 PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -18,7 +20,7 @@ PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* Energies |H_jj| x_j^2 of the unknowns: the largest, and the mean; either may be NULL */
+/* Computes the largest energy |H_jj| x_j^2 of an unknown, and the mean energy. Either output may be NULL. */
 PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -38,7 +40,7 @@ PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* 1/sqrt|H_jj|, 0 for negligible entries */
+/* Computes 1/sqrt|H_jj|. Entries below 1e-8 of the largest are replaced by that value. */
 static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
 {
   PetscScalar *h;
@@ -56,7 +58,7 @@ static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
   PetscFunctionReturn(0);
 }
 
-/* compliance_i = sum_j J_ij^2 / |H_jj| for every row i */
+/* Computes compliance_i = sum_j J_ij^2 / |H_jj| for every row i of J */
 PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -89,10 +91,10 @@ PetscErrorCode IPCompliances(Tao tao, Mat J, Vec compliance)
 }
 
 /*
-   rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|): the pressure that changes constraint i by a unit length, from the diagonal
-   of H. The sum contains the compliances of both sides of a contact, so the softer side dominates. rho of a row with
-   very small entries (a vertex at the edge of an overlap) is limited to 100 times the mean, so that no scale depends on
-   it
+   Computes rho_i = 1 / (m_i sum_j J_ij^2 / |H_jj|), the pressure that changes constraint i by one unit of length. The
+   sum contains the compliances of both sides of a contact; the softer side dominates. A row with very small entries,
+   such as a vertex at the edge of an overlap, gets at most 100 times the mean stiffness, so that no scale depends on
+   it.
 */
 static PetscErrorCode ConstraintStiffness(Tao tao)
 {
@@ -115,7 +117,7 @@ static PetscErrorCode ConstraintStiffness(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Updates the diagonal of the present Hessian, from which sizes of gradients are derived */
+/* Updates stiff->hdiag, the absolute values of the present Hessian's diagonal */
 PetscErrorCode IPStiffnessUpdate(Tao tao)
 {
   Vec hdiag = ((TAO_IPFILTER *)tao->data)->stiff->hdiag;
@@ -126,7 +128,7 @@ PetscErrorCode IPStiffnessUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Fills ip->stiff from the Hessian and the Jacobian at the starting point */
+/* Computes ip->stiff from the Hessian and the Jacobian at the starting point */
 PetscErrorCode IPComputeStiffness(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

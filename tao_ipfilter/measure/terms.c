@@ -1,16 +1,17 @@
 /*
-   Norm terms sum_i b_i |v_i|, v_i = T_i x + t_i with two components, in addition to the objective. If b_i is given,
-   this is a minimization. If b_i depends on the force of an inequality constraint, it is friction. Optimality:
-
-     grad f - J^T M lambda - T^T tau = 0,   |tau_i| <= b_i,   tau_i = -b_i v_i / |v_i| where v_i is not zero.
-
-   Equivalently, tau_i is the projection of tau_i - rho_i v_i to the disc of radius b_i, for any rho_i > 0.
+   Norm terms: sum_i b_i |v_i| is added to the objective, where v_i = T_i x + t_i has two components. With a given b_i
+   this is a minimization. If b_i depends on the force of an inequality constraint, it is friction. The optimality
+   conditions are
+     grad f - J^T M lambda - T^T tau = 0,  |tau_i| <= b_i,  tau_i = -b_i v_i / |v_i| where v_i is not zero.
+   Equivalently, tau_i is the projection of tau_i - rho_i v_i onto the disc of radius b_i, for any rho_i > 0.
 */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/terms.h"
 
-#define IP_HARD 1e3 /* stiffness of a term without a bound, as a multiple of the stiffness that resists it */
+#define IP_HARD \
+  1e3 /* stiffness of a term whose bound is infinite, as a multiple of the stiffness that resists the
+                       term */
 
 PetscErrorCode IPTermsDestroy(IPTerms *terms)
 {
@@ -30,7 +31,10 @@ PetscErrorCode IPTermsDestroy(IPTerms *terms)
   PetscFunctionReturn(0);
 }
 
-/* Sets terms.T: a copy of T without the columns of fixed variables; T itself if there are none */
+/*
+   Sets terms->T to a copy of the caller's matrix with zero columns for fixed variables, or to a reference to it if no
+   variable is fixed
+*/
 static PetscErrorCode TermsTakeMatrix(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -88,7 +92,7 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Removes the component of v along `dead`, a unit vector or zero */
+/* Removes the component of v along `dead`, which is a unit vector or zero */
 void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
 {
   const PetscScalar along = dead[0] * v[0] + dead[1] * v[1];
@@ -96,7 +100,7 @@ void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
   for (PetscInt a = 0; a < 2; a++) v[a] -= along * dead[a];
 }
 
-/* v = T x + t, without components along directions that cannot move */
+/* Computes v = T x + t without the components in directions in which terms cannot move */
 PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 {
   IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -115,7 +119,7 @@ PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the terms for a solve, except for the resistances */
+/* Sets up the terms for a solve, except for their resistances */
 PetscErrorCode IPTermsSetUp(Tao tao)
 {
   IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -144,7 +148,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* r -= T^T tau */
+/* Subtracts T^T tau from r */
 PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
 {
   IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -161,12 +165,12 @@ PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
 
 PetscReal IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force)
 {
-  if (coefficient < 0.0) return limit; /* the bound does not depend on a constraint */
+  if (coefficient < 0.0) return limit; /* a negative coefficient means that the bound does not depend on a constraint */
   if (!(force > 0.0) || coefficient == 0.0) return 0.0;
   return coefficient >= PETSC_INFINITY ? limit : PetscMin(limit, coefficient * force);
 }
 
-/* Returns |tau - P(tau - rho v)| / rho for one term */
+/* Returns |tau - P(tau - rho v)| / rho for one term, where P projects onto the disc of radius `bound` */
 PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho, PetscReal bound)
 {
   PetscReal b[2], size, square = 0.0;
@@ -178,7 +182,7 @@ PetscReal IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], Pets
   return PetscSqrtReal(square) / rho;
 }
 
-/* Bounds b of all terms for the forces M lambda of the constraints */
+/* Computes the bounds b of all terms. force: forces M lambda of the constraints. */
 static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -209,8 +213,10 @@ static PetscErrorCode TermsGetBounds(Tao tao, Vec force, Vec bounds)
   PetscFunctionReturn(0);
 }
 
-/* sum_i b_i |v_i(x)| with b for the forces M lambda of the constraints. Terms that cannot move are left out, since
-   they are constant */
+/*
+   Computes sum_i b_i |v_i(x)|, with b for the forces M lambda of the constraints. Terms that cannot move are left out,
+   since they are constant.
+*/
 PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 {
   IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -245,7 +251,10 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* stiffness of the terms' rows: what resists the terms that stick; 0 for the others. force: M lambda */
+/*
+   Computes the stiffness of the terms' rows: rho for terms that stick, 0 for the others. force: forces M lambda of the
+   constraints.
+*/
 PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
 {
   IPTerms           *terms  = ((TAO_IPFILTER *)tao->data)->terms;
@@ -277,8 +286,10 @@ PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
   PetscFunctionReturn(0);
 }
 
-/* largest: largest violation of a term's law as a length: slip that its force does not oppose, or the excess of a
-   force over its bound divided by the stiffness */
+/*
+   Computes the largest violation of a term's law, as a length: slip that the term's force does not oppose, or the
+   excess of the force over its bound divided by rho
+*/
 PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;

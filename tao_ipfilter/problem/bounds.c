@@ -1,24 +1,29 @@
-/* Variable bounds x_l <= x <= x_u as complementarity pairs. */
+/* Treats the variable bounds x_l <= x <= x_u as complementarity pairs */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/relaxation.h"
 
-/* Whether an entry of a bound makes a pair: it is finite and the variable is not fixed; other: the opposite bound,
-   or NULL */
+/*
+   Returns whether an entry of a bound forms a pair: it is finite and the variable is not fixed. other: the opposite
+   bound, or NULL.
+*/
 static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
 {
   return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
 }
 
-/* x - b (sign 1) or b - x (sign -1) plus the bound's relaxation, kept positive if rounding made it zero or negative */
+/*
+   Returns the distance x - b (sign 1) or b - x (sign -1) plus the bound's relaxation. If rounding makes this zero or
+   negative, a tiny positive number is returned.
+*/
 static inline PetscReal Distance(PetscReal x, PetscReal b, PetscReal sign, PetscReal relax)
 {
   return PetscMax(sign * (x - b) + relax,
     PetscMax(PETSC_MACHINE_EPSILON * PetscAbsReal(b), PetscSqrtReal(PETSC_MIN_REAL)));
 }
 
-/* t = x - x_l (sign +1) or x_u - x (sign -1); PETSC_INFINITY if the bound is absent */
+/* Computes the distances t = x - x_l (sign +1) or t = x_u - x (sign -1); PETSC_INFINITY where the bound is absent */
 static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign, PetscReal relax, Vec t)
 {
   const PetscScalar *xa, *ba, *oa = NULL;
@@ -41,7 +46,7 @@ static PetscErrorCode BoundDistance(Vec x, Vec bound, Vec other, PetscReal sign,
   PetscFunctionReturn(0);
 }
 
-/* Distances of x from its bounds, stored in t of the pairs, or in their trial vectors */
+/* Computes the distances of x from its bounds, into t of the pairs, or into their trial vectors if `trial` */
 PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -54,7 +59,7 @@ PetscErrorCode IPBoundsDistance(Tao tao, Vec x, PetscBool trial)
   PetscFunctionReturn(0);
 }
 
-/* Number of entries of a bound vector that make pairs, on all ranks */
+/* Counts the entries of a bound vector that form pairs, on all ranks */
 static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
 {
   const PetscScalar *b, *o    = NULL;
@@ -71,8 +76,10 @@ static PetscErrorCode BoundCount(Vec bound, Vec other, PetscInt *count)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the pairs of the finite bounds. Their weight is the mean of M_s, so that m t z has the unit of mu in all
-   pairs. */
+/*
+   Sets up the pairs of the finite bounds. The weight of a bound is the mean of M_s, so that m t z has the same unit in
+   all pairs, that of mu.
+*/
 PetscErrorCode IPBoundsSetUp(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -94,15 +101,17 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether this solve starts from the caller's multipliers of the bounds; they are not used without multipliers of
-   the rows */
+/*
+   Returns whether this solve starts from the caller's multipliers of the bounds. They are used only if the multipliers
+   of the inequality constraints are given as well.
+*/
 PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->opt->start == IP_START_WARM && (ip->given->warm_lower || ip->given->warm_upper) &&
                      (!ip->mi || ip->given->warm_s));
 }
 
-/* Size of an unknown and its bound; if both are zero, `all`, the size of all unknowns */
+/* Returns the size of an unknown and its bound. If both are zero, returns `all`, the size of all unknowns, or 1. */
 static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 {
   const PetscReal size = PetscMax(PetscAbsReal(bound), PetscAbsReal(x));
@@ -111,10 +120,10 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 }
 
 /*
-   Moves x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and computes the distances. The
-   margin is a fraction of the size of the bound or unknown, or of all unknowns if both are zero. It is also limited by
-   a fraction of the distance between the two bounds, so that a distant bound does not push x from the other one. If
-   multipliers are given, which show how close x belongs to its bounds, the margin is almost zero
+   Moves x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and computes the distances.
+   The margin is a fraction of the size of the bound or the unknown, see BoundSize(). It is also limited to a fraction
+   of the distance between the two bounds, so that a distant bound does not push x away from a near one. If the caller
+   gives multipliers of the bounds, these show which bounds are active; the margin is then almost zero.
 */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
@@ -152,7 +161,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Puts what has passed a bound that was moved back on the bound */
+/* Moves x back onto those original bounds that it has passed because they were relaxed */
 PetscErrorCode IPBoundsReturn(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -163,7 +172,7 @@ PetscErrorCode IPBoundsReturn(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* dt = dx for lower bounds, -dx for upper ones */
+/* Computes the directions of the distances: dt = dx for lower bounds, dt = -dx for upper bounds */
 PetscErrorCode IPBoundsDirection(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -177,7 +186,7 @@ PetscErrorCode IPBoundsDirection(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* v += w target / t for the bounds, directed to the interior */
+/* Adds the forces w target / t of the bounds to v. They point into the interior of the bounds. */
 PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -196,7 +205,7 @@ PetscErrorCode IPBoundsAddForces(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sets the multipliers of the bounds to the central path of the present mu */
+/* Sets the multipliers of the bounds to z = mu / t, the central path for the present mu */
 PetscErrorCode IPBoundsCenter(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -206,8 +215,10 @@ PetscErrorCode IPBoundsCenter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Multipliers of the bounds in TAO's convention: the gradient of f + DE^T c_E - DI^T c_I is DL + DU, so those of
-   upper bounds are negative */
+/*
+   Computes the multipliers of the bounds in TAO's sign convention: the gradient of f + DE^T c_E - DI^T c_I is DL + DU.
+   Multipliers of upper bounds are therefore negative.
+*/
 PetscErrorCode IPBoundsMultipliers(Tao tao, Vec DL, Vec DU)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,8 +1,11 @@
-/* Hessian of the Lagrangian by differences of its gradient, if the caller gives none. */
+/* Computes the Hessian of the Lagrangian by differences of its gradient, if the caller gives none */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/rows.h"
 
-/* Gradient of f + DE^T c_E - DI^T c_I at x. Leaves the Jacobians at x. */
+/*
+   Computes the gradient of f + DE^T c_E - DI^T c_I at x. Afterwards the caller's Jacobian matrices hold the values at
+   x.
+*/
 static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -24,7 +27,10 @@ static PetscErrorCode DifferencedGradient(Tao tao, Vec x, Vec g)
   PetscFunctionReturn(0);
 }
 
-/* Column j of the Hessian by a forward difference of the gradient g at x, as row j of H; xj and gj are scratch */
+/*
+   Adds half of column j of the Hessian to column j of H, and half to row j, which makes H symmetric. The column is the
+   forward difference of the gradient with the step `step`. g: gradient at x; xj, gj: work vectors.
+*/
 static PetscErrorCode DifferenceColumn(Tao tao, Vec x, Vec g, PetscInt j, PetscReal step, Vec xj, Vec gj, Mat H)
 {
   const PetscScalar *column;
@@ -48,7 +54,7 @@ static PetscErrorCode DifferenceColumn(Tao tao, Vec x, Vec g, PetscInt j, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Hessian of the Lagrangian by forward differences of its gradient, made symmetric */
+/* Computes the Hessian of the Lagrangian by forward differences of its gradient, and makes it symmetric */
 static PetscErrorCode DifferenceHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *ctx)
 {
   Vec       g, xj, gj;
@@ -76,7 +82,10 @@ static PetscErrorCode DifferenceHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *c
   PetscFunctionReturn(0);
 }
 
-/* Without TaoSetHessian(): a full matrix filled by differences, for small problems */
+/*
+   Makes the Tao compute the Hessian by differences, if TaoSetHessian() was not called. H is a full matrix, suitable for
+   small problems only.
+*/
 PetscErrorCode IPDifferenceHessian(Tao tao)
 {
   MPI_Comm comm = PetscObjectComm((PetscObject)tao);

@@ -1,9 +1,9 @@
-/* The caller's functions at a point: constraints and derivatives. */
+/* Calls the caller's functions at a point: constraints and derivatives */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/rows.h"
 
-/* Evaluates c_E at x: the caller's equality constraints. The rows of c_I with equal bounds have been stored already */
+/* Evaluates c_E at x. ce must already hold the rows of c_I with equal bounds, which IPSidesConstraints() stores. */
 static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -18,7 +18,7 @@ static PetscErrorCode EvaluateEquality(Tao tao, Vec x, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Evaluates c_I (from its bounds, relaxed) and c_E, both scaled */
+/* Evaluates the scaled constraints c_I, measured from their relaxed bounds, and c_E */
 PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -34,8 +34,10 @@ PetscErrorCode IPEvaluateConstraints(Tao tao, Vec x, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Evaluates gradient and constraint Jacobians at tao->solution; ip->at.f has the objective. Entries of fixed
-   variables are zero. */
+/*
+   Evaluates the gradient and the constraint Jacobians at tao->solution. The objective is computed as well, into
+   ip->at.f, if the caller's gradient routine needs it. Entries of fixed variables are set to zero.
+*/
 PetscErrorCode IPEvaluateDerivatives(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -55,8 +57,10 @@ PetscErrorCode IPEvaluateDerivatives(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets tao->DI = M lambda and tao->DE = y in the caller's units: the multipliers in f + DE^T c_E - DI^T c_I, whose
-   Hessian the caller computes */
+/*
+   Sets tao->DI = M lambda and tao->DE = y in the caller's units. These are the multipliers in f + DE^T c_E - DI^T c_I,
+   whose Hessian the caller computes.
+*/
 PetscErrorCode IPSetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,15 +1,17 @@
-/* Fixed variables, x_l = x_u, keep their value and are removed from the linear system. They have no barrier term and
-   no multiplier. */
+/*
+   Fixed variables, x_l = x_u, keep their value and are removed from the linear system. They have neither a barrier term
+   nor a multiplier.
+*/
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Whether a variable is fixed */
+/* Returns whether a variable with these bounds is fixed */
 PetscBool IPIsFixed(PetscScalar lower, PetscScalar upper)
 {
   return (PetscBool)(lower == upper && PetscAbsScalar(lower) < PETSC_INFINITY);
 }
 
-/* Raises an error on all ranks for the smallest index with a lower bound above its upper bound */
+/* Raises an error on all ranks for the variable of smallest index whose bounds leave no number between them */
 static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscScalar u[])
 {
   MPI_Comm  comm      = PetscObjectComm((PetscObject)tao);
@@ -36,8 +38,10 @@ static PetscErrorCode CheckBounds(Tao tao, const PetscScalar l[], const PetscSca
     (double)bounds[0], (double)bounds[1]);
 }
 
-/* Sets x to its fixed values and creates the IS of this rank's fixed variables; NULL if no rank has one. *changed:
-   it differs from that of the last solve */
+/*
+   Sets x to its fixed values and creates the index set of this rank's fixed variables; NULL if no rank has one.
+   *changed: the set differs from that of the last solve.
+*/
 PetscErrorCode IPFixedSetUp(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -75,7 +79,7 @@ PetscErrorCode IPFixedSetUp(Tao tao, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the entries of fixed variables */
+/* Sets the entries of fixed variables in v to zero */
 PetscErrorCode IPFixedZero(Tao tao, Vec v)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -85,7 +89,10 @@ PetscErrorCode IPFixedZero(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Removes the fixed variables from A: zero rows and columns, and a diagonal entry of the Hessian's size */
+/*
+   Removes the fixed variables from A: their rows and columns become zero, and their diagonal entries a typical diagonal
+   entry of the Hessian
+*/
 PetscErrorCode IPFixedMatrix(Tao tao, Mat A)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

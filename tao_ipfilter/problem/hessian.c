@@ -1,4 +1,4 @@
-/* The Hessian used by the iteration: the caller's matrix, or what it was converted to. */
+/* The Hessian used by the iteration: the caller's matrix, or its conversion to AIJ */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 
@@ -11,7 +11,7 @@ PetscErrorCode IPHessianDestroy(IPHessian *hess)
   PetscFunctionReturn(0);
 }
 
-/* Evaluates the Hessian of the Lagrangian at tao->solution */
+/* Evaluates the Hessian of the Lagrangian at tao->solution and sets hess->H */
 PetscErrorCode IPHessianEvaluate(Tao tao)
 {
   IPHessian *hess = ((TAO_IPFILTER *)tao->data)->hess;
@@ -32,7 +32,7 @@ PetscErrorCode IPHessianEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* v_i = 1 or -1 in a pattern that differs from probe to probe and is not periodic */
+/* Fills v with 1 and -1 in an irregular pattern that differs from probe to probe */
 static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
 {
   const PetscReal golden = 0.6180339887498949;
@@ -48,9 +48,11 @@ static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
   PetscFunctionReturn(0);
 }
 
-/* Estimates the diagonal of a matrix that only has products by the mean of v_i (H v)_i over vectors v of +1 and -1;
-   off-diagonal terms cancel in the mean. The accuracy is some tens of per cent. Entries are at least a thousandth of
-   the mean */
+/*
+   Estimates the diagonal of a Hessian that only has products, by the mean of v_i (H v)_i over several vectors v of +1
+   and -1. Off-diagonal terms cancel in the mean. The relative error is some tens of per cent. Entries below a
+   thousandth of the mean are raised to it.
+*/
 static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -82,7 +84,7 @@ static PetscErrorCode HessianEstimateDiagonal(Tao tao, Vec diagonal)
   PetscFunctionReturn(0);
 }
 
-/* The diagonal of the Hessian, or an estimate if the matrix does not give it */
+/* Computes the diagonal of the Hessian, or estimates it if the matrix does not provide it */
 PetscErrorCode IPHessianDiagonal(Tao tao, Vec diagonal)
 {
   IPHessian *hess = ((TAO_IPFILTER *)tao->data)->hess;

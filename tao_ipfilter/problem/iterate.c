@@ -1,4 +1,4 @@
-/* Iterates and directions are created, copied and destroyed as a whole. */
+/* Creates, copies and destroys iterates and directions */
 #include "problemimpl.h"
 
 static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
@@ -10,8 +10,10 @@ static PetscErrorCode DuplicateUnlessNull(Vec layout, Vec *v)
   PetscFunctionReturn(0);
 }
 
-/* Creates an iterate's point and constraint values; a NULL layout: none. Slacks and multipliers are created by the
-   caller. */
+/*
+   Creates the point and the constraint values of an iterate, with the layouts x, c and ce. A vector whose layout is
+   NULL is not created. The caller creates slacks and multipliers.
+*/
 PetscErrorCode IPIterateCreate(Vec x, Vec c, Vec ce, IPIterate *it)
 {
   PetscFunctionBegin;
@@ -30,9 +32,10 @@ static PetscErrorCode ReferenceInto(Vec from, Vec *to)
   PetscFunctionReturn(0);
 }
 
-/* Makes the current iterate refer to the caller's solution, and its slacks, trial slacks and multipliers to those of
-   the pairs. Called whenever one of these may have been recreated. The best iterate gets vectors for what the
-   current one has. */
+/*
+   Makes the current iterate refer to the caller's solution vector and to the pairs' vectors of slacks and multipliers.
+   Must be called whenever one of these may have been created anew. The best iterate gets the same set of vectors.
+*/
 PetscErrorCode IPIterateBind(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -58,7 +61,7 @@ static PetscErrorCode CopyUnlessNull(Vec from, Vec to)
   PetscFunctionReturn(0);
 }
 
-/* Copies the point and the values of the caller's functions there */
+/* Copies the point and the function values there */
 PetscErrorCode IPIterateCopyPoint(const IPIterate *from, IPIterate *to)
 {
   PetscFunctionBegin;
@@ -69,7 +72,7 @@ PetscErrorCode IPIterateCopyPoint(const IPIterate *from, IPIterate *to)
   PetscFunctionReturn(0);
 }
 
-/* Copies all parts that both iterates have */
+/* Copies all vectors that both iterates have */
 PetscErrorCode IPIterateCopy(const IPIterate *from, IPIterate *to)
 {
   PetscFunctionBegin;
@@ -103,7 +106,7 @@ PetscErrorCode IPDirectionCreate(Vec x, Vec c, Vec ce, IPDirection *d)
   PetscFunctionReturn(0);
 }
 
-/* Copies all parts that both directions have */
+/* Copies all vectors that both directions have */
 PetscErrorCode IPDirectionCopy(const IPDirection *from, IPDirection *to)
 {
   PetscFunctionBegin;

@@ -1,4 +1,6 @@
-/* The constraints' Jacobians used by the iteration: AIJ, rows scaled, columns of fixed variables zeroed. */
+/*
+   The constraint Jacobians used by the iteration: in AIJ format, with scaled rows and zero columns for fixed variables
+*/
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/rows.h"
@@ -14,7 +16,10 @@ PetscErrorCode IPJacobianDestroy(IPJacobian *jac)
   PetscFunctionReturn(0);
 }
 
-/* scaled: a copy with scaled rows and zeroed columns of fixed variables, or J itself if nothing is to be changed */
+/*
+   Creates a copy of J with scaled rows and zero columns for fixed variables. If neither applies, *scaled is a reference
+   to J.
+*/
 static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
 {
   Vec mask;
@@ -34,7 +39,10 @@ static PetscErrorCode JacobianScale(Tao tao, Mat J, Vec scale, Mat *scaled)
   PetscFunctionReturn(0);
 }
 
-/* Gets a Jacobian of the caller as AIJ: itself, or converted; `converted` may be NULL if it is AIJ */
+/*
+   Gets a Jacobian of the caller in AIJ format: the matrix itself, or *converted. `converted` may be NULL if the matrix
+   is AIJ.
+*/
 static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
 {
   PetscBool aij;
@@ -47,8 +55,11 @@ static PetscErrorCode JacobianAsAIJ(Mat user, Mat *converted, Mat *J)
   PetscFunctionReturn(0);
 }
 
-/* Takes over a Jacobian of the caller, converted to AIJ if necessary, unless it is unchanged. Nested and shell
-   matrices do not show whether they changed, and their conversion may drop zeros, so its pattern may change */
+/*
+   Updates *taken, the scaled form of a Jacobian of the caller, unless the Jacobian is unchanged. Nested and shell
+   matrices do not tell whether they changed, and their conversion may drop zeros, so that its nonzero pattern may
+   change as well.
+*/
 static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted, Mat *taken, IPStamp *stamp)
 {
   PetscObjectState state;
@@ -66,7 +77,10 @@ static PetscErrorCode JacobianTake(Tao tao, Mat user, Vec scale, Mat *converted,
   PetscFunctionReturn(0);
 }
 
-/* Copies n local rows (numbered from the rank's first), or all of them, into another matrix from its row `at` on */
+/*
+   Copies n local rows of a matrix, or its first n rows if `rows` is NULL, into consecutive rows of `to` starting at row
+   `at`. rows: numbers from the rank's first row.
+*/
 static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows[], Mat to, PetscInt at)
 {
   PetscInt rstart;
@@ -86,7 +100,7 @@ static PetscErrorCode JacobianCopyRows(Mat from, PetscInt n, const PetscInt rows
   PetscFunctionReturn(0);
 }
 
-/* Length of the longest row on this rank */
+/* Raises *longest to the number of entries of the longest row on this rank */
 static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
 {
   PetscInt rstart, rend;
@@ -103,8 +117,10 @@ static PetscErrorCode JacobianLongestRow(Mat J, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* stack: on each rank the caller's equality Jacobian, if any, followed by the rows of the inequality Jacobian with
-   equal bounds */
+/*
+   Creates the Jacobian of all equality constraints. On each rank it consists of the caller's equality Jacobian `own`,
+   which may be NULL, followed by the rows of the inequality Jacobian `all` that have equal bounds.
+*/
 static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -128,7 +144,10 @@ static PetscErrorCode JacobianStack(Tao tao, Mat own, Mat all, Mat *stack)
   PetscFunctionReturn(0);
 }
 
-/* Updates the stacked Jacobian if rows have equal bounds. The inequality Jacobian has been taken over before. */
+/*
+   Updates the Jacobian of all equality constraints if some inequality rows have equal bounds. IPJacobianInequality()
+   must have been called before.
+*/
 static PetscErrorCode JacobianTakeStack(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -144,7 +163,7 @@ static PetscErrorCode JacobianTakeStack(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Takes over the equality Jacobian at tao->solution; call after that of the inequalities */
+/* Updates the equality Jacobian at tao->solution. Must be called after IPJacobianInequality(). */
 PetscErrorCode IPJacobianEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

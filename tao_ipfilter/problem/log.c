@@ -1,4 +1,4 @@
-/* Events of -log_view. */
+/* Log events of TAOIPFILTER */
 #include "problemimpl.h"
 
 PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IPFilterApply, TAO_IPFilterDirections,
@@ -6,7 +6,7 @@ PetscLogEvent TAO_IPFilterStart, TAO_IPFilterCondense, TAO_IPFilterSolve, TAO_IP
 
 static PetscBool registered = PETSC_FALSE;
 
-/* Resets the events, which end with PetscFinalize() */
+/* Forgets the registered events, which PETSc frees in PetscFinalize() */
 static PetscErrorCode LogFinalize(void)
 {
   PetscFunctionBegin;

@@ -1,7 +1,7 @@
 /*
-   Treatment of the caller's matrices by type. AIJ, and BAIJ, SBAIJ or dense Hessians, are used directly. Types that
-   MatConvert() can convert to AIJ are converted at every evaluation. A Hessian that only has products can be used with
-   solvers that need no entries; small ones are read column by column.
+   Treats the caller's matrices according to their type. AIJ matrices, and Hessians of type BAIJ, SBAIJ or dense, are
+   used directly. Types that MatConvert() can convert to AIJ are converted at every evaluation. A Hessian that only has
+   products can be used with solvers that need no entries. A small matrix of this kind is converted column by column.
 */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -9,13 +9,16 @@
 #include "tao_ipfilter/solver/rows.h"
 
 #define IP_COLUMNS_MAX \
-  1000 /* up to this many unknowns a matrix that only has products is read by multiplying unit vectors */
+  1000 /* Largest number of unknowns for which a matrix that only has products is converted, by products with unit
+          vectors */
 
-/* Types that MatConvert() converts although they do not give rows */
+/* Types that give no rows, but that MatConvert() converts to AIJ */
 static const char *const converted_types[] = {MATNEST, MATIS, MATHYPRE, MATTRANSPOSEVIRTUAL, NULL};
 
-/* Preconditioners that read the entries of their matrix. A type that is not listed may be the caller's own and is
-   assumed not to. */
+/*
+   Preconditioners that read the entries of their matrix. A type that is not listed may be the caller's own and is
+   assumed not to read entries.
+*/
 static const char *const reading_pcs[] = {PCAMGF, PCHYPRE, PCGAMG, PCML, PCMG, PCHMG, PCBJACOBI, PCASM, PCGASM, PCSOR,
   PCEISENSTAT, PCLU, PCILU, PCCHOLESKY, PCICC, PCQR, PCSVD, PCREDUNDANT, PCTELESCOPE, PCPBJACOBI, PCVPBJACOBI,
   PCKACZMARZ, PCSPAI, PCBDDC, PCNN, PCFIELDSPLIT, PCTFS, PCDEFLATION, PCCP, NULL};
@@ -41,7 +44,7 @@ static PetscErrorCode MatrixHasRows(Mat A, PetscBool *has)
 
 static PetscErrorCode MatrixHasEntries(Mat, PetscBool *);
 
-/* Whether every block of a nested matrix has entries */
+/* Finds whether every block of a nested matrix has entries */
 static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
 {
   PetscInt m, n;
@@ -54,7 +57,7 @@ static PetscErrorCode NestHasEntries(Mat A, PetscBool *has)
   PetscFunctionReturn(0);
 }
 
-/* Whether a matrix has entries, directly or after conversion */
+/* Finds whether the entries of a matrix can be read, directly or after conversion */
 static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
 {
   PetscBool nest;
@@ -68,7 +71,7 @@ static PetscErrorCode MatrixHasEntries(Mat A, PetscBool *has)
   PetscFunctionReturn(0);
 }
 
-/* Whether two matrices of the same layout have the same nonzero pattern, on all ranks */
+/* Finds whether two matrices of the same layout have the same nonzero pattern, on all ranks */
 PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
 {
   PetscInt rstart, rend;
@@ -91,8 +94,10 @@ PetscErrorCode IPMatrixSamePattern(Mat A, Mat B, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Copies a new matrix into the kept one if the pattern is the same, so that data derived from it can be reused;
-   otherwise replaces it */
+/*
+   Replaces *kept by the new matrix *fresh. If the patterns are equal, only the values are copied, so that data derived
+   from the pattern can be reused.
+*/
 PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
 {
   PetscBool same = PETSC_FALSE;
@@ -110,7 +115,7 @@ PetscErrorCode IPMatrixKeep(Mat *fresh, Mat *kept)
   PetscFunctionReturn(0);
 }
 
-/* Converts a matrix to AIJ; the result is kept */
+/* Converts A to AIJ, into *kept; see IPMatrixKeep() */
 PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
 {
   PetscBool has;
@@ -124,8 +129,10 @@ PetscErrorCode IPMatrixConvert(Mat A, Mat *kept)
   PetscFunctionReturn(0);
 }
 
-/* needed: whether the entries of the Hessian are needed; reader: what needs them; instead: which option would not need
-   them */
+/*
+   Finds whether the entries of the Hessian are needed (*needed), by which solver or option (*reader), and which option
+   would avoid that (*instead, a part of a message)
+*/
 static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *reader[], const char *instead[])
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -144,7 +151,7 @@ static PetscErrorCode HessianReader(Tao tao, PetscBool *needed, const char *read
   PetscFunctionReturn(0);
 }
 
-/* Checks that a Jacobian can be read by rows, which every solver needs */
+/* Checks that the Jacobian's rows can be read, which every solver needs. kind: "inequality" or "equality". */
 static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)tao);
@@ -176,8 +183,10 @@ static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
   PetscFunctionReturn(0);
 }
 
-/* Rejects matrices that cannot be used, and finds out whether only products with the Hessian are used. *changed:
-   this differs from the last solve */
+/*
+   Rejects matrices that cannot be used, and sets hess->products, whether only products with the Hessian are used.
+   *changed: this differs from the last solve.
+*/
 PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,7 @@
-/* Complementarity pairs (t, z): entrywise operations of the barrier terms. An absent pair has t = PETSC_INFINITY. */
+/*
+   Entrywise operations on complementarity pairs (t, z), of which the barrier terms consist. Where a pair is absent, t
+   is PETSC_INFINITY.
+*/
 #include "problemimpl.h"
 
 PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
@@ -36,7 +39,7 @@ PetscErrorCode IPPairDestroy(IPPair *p)
   PetscFunctionReturn(0);
 }
 
-/* Gets read access to the arrays of n vectors of one layout */
+/* Gets read access to the arrays of n vectors, which have the same layout */
 static PetscErrorCode PairRead(PetscInt n, const Vec v[], const PetscScalar *a[])
 {
   PetscFunctionBegin;
@@ -56,7 +59,10 @@ static inline PetscBool Present(PetscScalar t)
   return (PetscBool)(PetscRealPart(t) < PETSC_INFINITY);
 }
 
-/* target = mu - dt dz, with the second-order term of the last direction limited to +-corrector_max; 0 omits it */
+/*
+   Computes target = mu - dt dz from the last direction. The second-order term dt dz is limited to +-corrector_max;
+   corrector_max = 0 omits it.
+*/
 PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
 {
   const Vec          v[2] = {p->dt, p->dz};
@@ -78,7 +84,7 @@ PetscErrorCode IPPairSetTarget(IPPair *p, PetscReal mu, PetscReal corrector_max)
   PetscFunctionReturn(0);
 }
 
-/* Moves z to the central path of mu for the present t: z = mu / t */
+/* Moves z to the central path for the present t: z = mu / t */
 PetscErrorCode IPPairCenter(IPPair *p, PetscReal mu)
 {
   const PetscScalar *t;
@@ -97,7 +103,7 @@ PetscErrorCode IPPairCenter(IPPair *p, PetscReal mu)
   PetscFunctionReturn(0);
 }
 
-/* sigma = w z / t */
+/* Computes sigma = w z / t; 0 where the pair is absent */
 PetscErrorCode IPPairGetSigma(const IPPair *p, Vec sigma)
 {
   const Vec          v[3] = {p->w, p->z, p->t};
@@ -115,7 +121,7 @@ PetscErrorCode IPPairGetSigma(const IPPair *p, Vec sigma)
   PetscFunctionReturn(0);
 }
 
-/* force = w target / t */
+/* Computes force = w target / t; 0 where the pair is absent */
 PetscErrorCode IPPairGetForce(const IPPair *p, Vec force)
 {
   const Vec          v[3] = {p->w, p->target, p->t};
@@ -133,7 +139,7 @@ PetscErrorCode IPPairGetForce(const IPPair *p, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* dz = target/t - z - (z/t) dt */
+/* Computes dz = target/t - z - (z/t) dt; 0 where the pair is absent */
 PetscErrorCode IPPairDualDirection(IPPair *p)
 {
   const Vec          v[4] = {p->t, p->z, p->dt, p->target};
@@ -152,7 +158,7 @@ PetscErrorCode IPPairDualDirection(IPPair *p)
   PetscFunctionReturn(0);
 }
 
-/* Largest alpha <= *alpha with v + alpha dv >= (1 - tau) v, for v > 0 */
+/* Reduces *alpha to the largest value with v + alpha dv >= (1 - tau) v, for v > 0, on all ranks */
 static PetscErrorCode PairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha)
 {
   const Vec          vv[2] = {v, dv};
@@ -172,7 +178,7 @@ static PetscErrorCode PairMaxStep(Vec v, Vec dv, PetscReal tau, PetscReal *alpha
   PetscFunctionReturn(0);
 }
 
-/* sum w log t over the pairs present */
+/* Computes the sum of w log t over the pairs that are present */
 PetscErrorCode IPPairLogSum(const IPPair *p, Vec t, PetscReal *sum)
 {
   const Vec          v[2] = {p->w, t};
@@ -192,7 +198,7 @@ PetscErrorCode IPPairLogSum(const IPPair *p, Vec t, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
-/* slope = sum w dt / t: derivative of the sum of logarithms along the direction */
+/* Computes slope = sum w dt / t, the derivative of the sum of logarithms along the direction */
 PetscErrorCode IPPairLogSlope(const IPPair *p, PetscReal *slope)
 {
   const Vec          v[3] = {p->w, p->dt, p->t};
@@ -212,7 +218,7 @@ PetscErrorCode IPPairLogSlope(const IPPair *p, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* max |t z - mu| and sum w t z; either may be NULL */
+/* Computes the largest |t z - mu| and the sum of w t z. Either output may be NULL. */
 PetscErrorCode IPPairProducts(const IPPair *p, PetscReal mu, PetscReal *deviation, PetscReal *sum)
 {
   const Vec          v[3] = {p->w, p->t, p->z};
@@ -240,7 +246,10 @@ PetscErrorCode IPPairProducts(const IPPair *p, PetscReal mu, PetscReal *deviatio
   PetscFunctionReturn(0);
 }
 
-/* Largest product (t + alpha_t dt)(z + alpha_z dz), and the sum of w times the products; either may be NULL */
+/*
+   Computes the largest product (t + alpha_t dt)(z + alpha_z dz), and the sum of w times the products. Either output may
+   be NULL.
+*/
 PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal alpha_z, PetscReal *largest,
   PetscReal *sum)
 {
@@ -269,7 +278,7 @@ PetscErrorCode IPPairStepProducts(const IPPair *p, PetscReal alpha_t, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Keeps z within [1/kappa, kappa] mu/t (Waechter and Biegler 2006, equation (16)) */
+/* Limits z to the interval [1/kappa, kappa] mu/t (Waechter and Biegler 2006, equation (16)) */
 PetscErrorCode IPPairSafeguard(IPPair *p, PetscReal mu, PetscReal kappa)
 {
   const PetscScalar *t;
@@ -291,7 +300,7 @@ PetscErrorCode IPPairSafeguard(IPPair *p, PetscReal mu, PetscReal kappa)
   PetscFunctionReturn(0);
 }
 
-/* Raises t to at least `least` min(z / rho, length) */
+/* Raises t to at least `least` times min(z / rho, length) */
 PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
 {
   const Vec          v[2] = {p->z, rho};
@@ -310,7 +319,7 @@ PetscErrorCode IPPairLift(IPPair *p, Vec rho, PetscReal length, PetscReal least)
   PetscFunctionReturn(0);
 }
 
-/* sum w v^2 with the weights of the inequality constraints */
+/* Computes the sum of w v^2 with the weights w of the inequality constraints */
 PetscErrorCode IPPairWeightedSquare(Tao tao, Vec v, PetscReal *square)
 {
   Vec         wv;
@@ -325,8 +334,10 @@ PetscErrorCode IPPairWeightedSquare(Tao tao, Vec v, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* Reduces the steps so that every t and z keeps a fraction 1 - tau of its value, for the blocks from `first` on;
-   dual may be NULL */
+/*
+   Reduces the step lengths such that every t and z retains at least the fraction 1 - tau of its value. first: the first
+   block of pairs to which this applies; primal, dual: step lengths of t and z; dual may be NULL.
+*/
 PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, PetscReal *primal, PetscReal *dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -342,7 +353,10 @@ PetscErrorCode IPFractionToBoundary(Tao tao, PetscInt first, PetscReal tau, Pets
   PetscFunctionReturn(0);
 }
 
-/* Point of the central path with a penalty of stiffness rho: s z = mu and s - q = z/rho */
+/*
+   Computes the point (s, z) of the central path if a row with value q is resisted by a penalty of stiffness rho: s z =
+   mu and s - q = z/rho
+*/
 PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
 {
   const PetscScalar *qa, *ra;
@@ -358,7 +372,7 @@ PetscErrorCode IPCentralPair(Vec q, Vec rho, PetscReal mu, Vec s, Vec z)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal g = PetscRealPart(qa[i]), r = PetscRealPart(ra[i]), root = PetscSqrtReal(g * g + 4.0 * mu / r);
 
-    /* the root without cancellation, and the other from their product mu/rho */
+    /* Compute the root that does not suffer from cancellation, and the other one from their product mu/rho. */
     if (g >= 0.0) {
       sa[i] = 0.5 * (g + root);
       za[i] = mu / PetscRealPart(sa[i]);

@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/problem, the problem as used by the iteration: pairs, iterates, bounds, sides, row scales, Jacobians,
-   Hessian. Files are in the order in which they depend on each other.
+   tao_ipfilter/problem: the problem that the iteration solves, with pairs, iterates, bounds, row sides, row scales,
+   Jacobians and Hessian. The files are listed such that each depends only on those before it.
 */
 #ifndef IPFILTER_PROBLEMIMPL_H
 #define IPFILTER_PROBLEMIMPL_H

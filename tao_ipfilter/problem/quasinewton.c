@@ -1,8 +1,9 @@
 /*
-   A limited-memory approximation of the Hessian of the Lagrangian, if the caller gives none and differences would be
-   too expensive: damped BFGS (Powell 1978) in a MATLMVMBFGS, B = sigma I + a matrix of low rank. The condensed matrix
-   is assembled and preconditioned with sigma I. Products with it add the low-rank part, whose rank is twice the
-   history's length; this costs a Krylov method a few more iterations.
+   A limited-memory approximation B of the Hessian of the Lagrangian. It is used if the caller gives no Hessian and
+   differences would be too expensive. B = sigma I + a matrix of low rank is computed by damped BFGS updates (Powell
+   1978) in a MATLMVMBFGS.
+   The condensed matrix is assembled and preconditioned with sigma I only. Products add the low-rank part, whose rank is
+   twice the length of the history; a Krylov method then takes a few more iterations.
 */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -23,7 +24,7 @@ PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *qn)
   PetscFunctionReturn(0);
 }
 
-/* y += (B - sigma I) x on the variables that are not fixed; nothing if the caller gives a Hessian */
+/* Adds (B - sigma I) x to y, for the variables that are not fixed. Does nothing if the caller gives a Hessian. */
 PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -44,7 +45,7 @@ PetscErrorCode IPQuasiNewtonAdd(Tao tao, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Multiplies by the condensed matrix with all of B */
+/* Multiplies x by the condensed matrix with B in place of sigma I */
 static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
 {
   Tao tao;
@@ -56,13 +57,13 @@ static PetscErrorCode QuasiNewtonMult(Mat A, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* The operator of the Krylov method: the condensed matrix, or a shell that adds the low-rank part */
+/* Returns the operator of the Krylov method: the condensed matrix, or the shell that adds the low-rank part of B */
 Mat IPQuasiNewtonOperator(const TAO_IPFILTER *ip)
 {
   return ip->qn->npairs ? ip->qn->A : ip->cond->A;
 }
 
-/* g += sign J^T force */
+/* Computes g = g + sign J^T force */
 static PetscErrorCode AddTransposed(Mat J, Vec force, PetscReal sign, Vec g)
 {
   Vec product;
@@ -75,7 +76,10 @@ static PetscErrorCode AddTransposed(Mat J, Vec force, PetscReal sign, Vec g)
   PetscFunctionReturn(0);
 }
 
-/* g += sign (J - J_old)^T force for a Jacobian of the caller; a copy is kept while it changes */
+/*
+   Adds sign (J - J_old)^T force to g, where J is a Jacobian of the caller and J_old its value at the last call. g may
+   be NULL. *old and *state store J for the next call.
+*/
 static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *old, PetscObjectState *state, Vec g)
 {
   PetscObjectState now;
@@ -94,8 +98,10 @@ static PetscErrorCode AddJacobianChange(Mat J, PetscReal sign, Vec force, Mat *o
   PetscFunctionReturn(0);
 }
 
-/* s: change of x; y: change of the gradient of f + DE^T c_E - DI^T c_I, for the present multipliers; both since the
-   last call. Stores the present point and Jacobians. Either may be NULL. */
+/*
+   Computes the changes since the last call: s of x, and y of the gradient of f + DE^T c_E - DI^T c_I for the present
+   multipliers. Either may be NULL. Stores the present point and Jacobians for the next call.
+*/
 static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
 {
   TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
@@ -114,7 +120,7 @@ static PetscErrorCode QuasiNewtonChanges(Tao tao, Vec s, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Sets the multiple of the identity in B and in H */
+/* Sets the multiple sigma of the identity in B and in H */
 static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
 {
   IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
@@ -127,7 +133,10 @@ static PetscErrorCode QuasiNewtonSetScale(Tao tao, Mat H, PetscReal sigma)
   PetscFunctionReturn(0);
 }
 
-/* Initial sigma: the curvature of the objective along its gradient, by a difference; 1 if that is not positive */
+/*
+   Starts B with sigma = the curvature of the objective along its gradient, by a difference of gradients; 1 if the
+   curvature is not positive
+*/
 static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
 {
   IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
@@ -161,7 +170,10 @@ static PetscErrorCode QuasiNewtonBegin(Tao tao, Vec x, Mat H)
   PetscFunctionReturn(0);
 }
 
-/* Replaces y by a weighted mean of y and B s that has enough curvature to keep B positive definite */
+/*
+   Replaces y by a weighted mean of y and B s such that s^T y >= 0.2 s^T B s, which keeps B positive definite. *sy: the
+   new s^T y.
+*/
 static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
 {
   const PetscReal least = 0.2;
@@ -184,7 +196,7 @@ static PetscErrorCode QuasiNewtonDamp(Mat B, Vec s, Vec y, PetscReal *sy)
   PetscFunctionReturn(0);
 }
 
-/* Hessian routine: B at x, updated with the steps of this solve */
+/* Computes the Hessian for TaoComputeHessian(): updates B with the step since the last call, and sets H = sigma I */
 static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *ctx)
 {
   IPQuasiNewton *qn = ((TAO_IPFILTER *)tao->data)->qn;
@@ -205,7 +217,8 @@ static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *
   if (step > 0.0) {
     PetscCall(QuasiNewtonDamp(qn->B, s, y, &sy));
     PetscCall(VecAXPY(qn->sum, 1.0, y));
-    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* since PETSc 3.22 this also rescales B by another rule */
+    PetscCall(MatLMVMUpdate(qn->B, x, qn->sum)); /* since PETSc 3.22 the update also rescales B by a rule of its own;
+                                                    QuasiNewtonSetScale() replaces that scale */
     if (sy > 0.0) PetscCall(QuasiNewtonSetScale(tao, H, sy / (step * step)));
     qn->npairs++;
   }
@@ -214,14 +227,17 @@ static PetscErrorCode QuasiNewtonHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *
   PetscFunctionReturn(0);
 }
 
-/* Discards the steps of the last solve */
+/* Discards the steps stored in B, so that the next solve starts anew */
 void IPQuasiNewtonReset(IPQuasiNewton *qn)
 {
   qn->begun  = PETSC_FALSE;
   qn->npairs = 0;
 }
 
-/* Used without TaoSetHessian() for large problems: a diagonal matrix as tao->hessian, and B */
+/*
+   Makes the Tao use B, if TaoSetHessian() was not called and the problem is large. tao->hessian becomes a diagonal
+   matrix that holds sigma I.
+*/
 PetscErrorCode IPQuasiNewtonSetUp(Tao tao)
 {
   IPQuasiNewton *qn   = ((TAO_IPFILTER *)tao->data)->qn;

@@ -1,7 +1,8 @@
 /*
-   Scales constraints by their gradients at the start: row d_i c_i, with d_i such that its largest entry is at most
-   IP_ROW_RATIO times that of the smallest row, or at most IP_GRADIENT_MAX. With the ratio, rows of similar size stay
-   unscaled in any units. The iteration uses scaled rows; multipliers and slacks are scaled back at the end.
+   Scales constraints by their gradients at the start: row i becomes d_i c_i. The scale d_i <= 1 limits the largest
+   entry of the row's gradient to IP_ROW_RATIO times that of the smallest row or, for -tao_ipfilter_scaling gradient, to
+   IP_GRADIENT_MAX. With the first rule, rows of similar size remain unscaled in any units. The iteration uses scaled
+   rows; multipliers and slacks are scaled back at the end.
 */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -11,19 +12,20 @@
 
 #define IP_LEAST_SCALE 1e-20
 
-/* Largest entry that a row may keep: a multiple of the smallest row's, or a given one */
+/*
+   Returns the largest entry that a row's gradient may have after scaling. smallest: largest entry of the smallest row.
+*/
 static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
 {
   return opt->scaling == IP_SCALING_GRADIENT ? IP_GRADIENT_MAX : IP_ROW_RATIO * smallest;
 }
 
-/* Computes the scales d; NULL if no row exceeds the limit */
+/* Computes the scales d of the rows of J; *d is NULL if no row exceeds the limit */
 static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
 {
   PetscScalar *a;
   PetscInt     rstart, rend;
-  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* minus the smallest row, and the largest row, over
-                                                                   all ranks */
+  PetscReal    extreme[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* minus the smallest row; the largest row */
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(layout, d));
@@ -52,7 +54,7 @@ static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the scales of this solve from the Jacobians at the start; scaled: whether there are any */
+/* Chooses the scales of this solve from the Jacobians at the start. *scaled: whether any row is scaled. */
 PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -66,7 +68,7 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
   PetscFunctionReturn(0);
 }
 
-/* Resets the scales of the last solve. *changed: a Jacobian was scaled by them */
+/* Removes the scales of the last solve. *changed: a Jacobian is still scaled by them. */
 PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -78,7 +80,7 @@ PetscErrorCode IPRowScaleReset(Tao tao, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Scales slacks and multipliers of the inequalities from the caller's units, or back */
+/* Scales slacks s and multipliers z of the inequalities from the caller's units, or to the caller's units if `back` */
 PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -95,7 +97,7 @@ PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* norm: largest entry of a constraint residual in the caller's units */
+/* Computes the largest absolute entry of a constraint residual r in the caller's units */
 PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

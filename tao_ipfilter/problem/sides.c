@@ -1,12 +1,13 @@
 /*
-   Rows of c_I with the bounds of TaoSetInequalityBounds(). The iteration sees 0 <= c, or 0 <= c <= range:
+   Treats the bounds of TaoSetInequalityBounds(). The iteration sees 0 <= c, or 0 <= c <= range:
 
+     caller's row              seen by the iteration
      l <= c_I, l <= c_I <= u   c = c_I - l
      c_I <= u                  c = u - c_I
-     l = u                     an equality constraint c_I - l = 0, behind the caller's own ones of this rank
-     none, or 1e19 and more    nothing
+     l = u                     an equality constraint c_I - l = 0, after the caller's own ones of this rank
+     no bound below 1e19       nothing
 
-   Rows of the last two kinds stay in c as a positive constant without a gradient, so that the layout is the caller's.
+   Rows of the last two kinds remain in c as a positive constant with zero gradient, so that c has the caller's layout.
 */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -26,7 +27,7 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscFunctionReturn(0);
 }
 
-/* bounds of this magnitude count as infinite, as IPOPT's nlp_lower_bound_inf and nlp_upper_bound_inf */
+/* Bounds of at least this magnitude count as infinite, like IPOPT's nlp_lower_bound_inf and nlp_upper_bound_inf */
 #define IP_NO_BOUND 1e19
 
 static inline PetscBool Finite(PetscReal bound)
@@ -34,8 +35,10 @@ static inline PetscBool Finite(PetscReal bound)
   return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
 }
 
-/* Whether c is measured from the lower bound. The upper bound is used if the lower one is so much larger that the
-   difference would lose digits */
+/*
+   Returns whether c is measured from the lower bound l. If l is finite but a million times as large as u, the upper
+   bound is used instead, since c_I - l would lose digits.
+*/
 static inline PetscBool FromLower(PetscReal l, PetscReal u)
 {
   const PetscReal far = 1e6;
@@ -43,8 +46,10 @@ static inline PetscBool FromLower(PetscReal l, PetscReal u)
   return (PetscBool)(Finite(l) && !(Finite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
 }
 
-/* Classifies one row: sign (0: no inequality), base (the bound that c is measured from), and range. *equal: it is an
-   equality constraint up to rounding */
+/*
+   Classifies one row by its bounds l and u. *sign: 1, -1, or 0 if the row is no inequality; *base: the bound from which
+   c is measured; *range: u - l, or PETSC_INFINITY; *equal: the bounds are equal up to rounding.
+*/
 static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range,
   PetscBool *equal)
 {
@@ -77,8 +82,10 @@ static PetscErrorCode CheckRows(Tao tao, const PetscScalar l[], const PetscScala
     (double)bounds[1]);
 }
 
-/* Sets sign, base and range, and lists the equality constraints. counts: rows that are no inequality; with a range;
-   with equal bounds */
+/*
+   Sets sign, base and range of all rows, and lists the rows with equal bounds. counts: number of rows that are measured
+   from an upper bound or are no inequality; number with two bounds; number with equal bounds; over all ranks.
+*/
 static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
 {
   const PetscScalar *l, *u;
@@ -112,7 +119,7 @@ static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
   PetscFunctionReturn(0);
 }
 
-/* Classifies every row by its present bounds */
+/* Classifies all rows by the bounds that the caller has set */
 PetscErrorCode IPSidesSetUp(Tao tao)
 {
   IPSides *sides     = ((TAO_IPFILTER *)tao->data)->sides;
@@ -132,13 +139,13 @@ PetscErrorCode IPSidesSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets up pairs for the upper sides of rows with a range, with the weights of their slacks */
+/* Sets up the pairs of the upper sides of rows with two bounds. Their weights are those of the rows' slacks. */
 PetscErrorCode IPSidesSetUpPairs(Tao tao)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
   IPPair            *ceiling = &ip->pair[IP_CEILING];
   const PetscScalar *range, *w;
-  PetscReal          sum[2] = {0.0, 0.0}; /* number of rows, and sum of their weights */
+  PetscReal          sum[2] = {0.0, 0.0}; /* number of these rows; sum of their weights */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -161,7 +168,10 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Updates the widths: ranges scaled like the rows, plus the relaxation. Called when one of these has changed */
+/*
+   Updates the widths of rows with two bounds: the range, scaled like the row, plus the relaxation of both bounds. Must
+   be called when a scale or the relaxation has changed.
+*/
 PetscErrorCode IPSidesUpdateWidth(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -185,7 +195,7 @@ PetscErrorCode IPSidesUpdateWidth(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Stores c_I - l of the equality constraints among the rows in the last entries of this rank's ce */
+/* Stores c_I - l of the rows with equal bounds in the last entries of this rank's ce */
 static PetscErrorCode TakeEqualRows(const IPSides *sides, Vec c, Vec ce)
 {
   const PetscScalar *v, *base;
@@ -204,7 +214,10 @@ static PetscErrorCode TakeEqualRows(const IPSides *sides, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Rows that are no inequality get the largest value of the others at the start, so that no size depends on them */
+/*
+   Sets rows that are no inequality to a constant, so that no computed size depends on them: the largest absolute value
+   of the other rows at the start
+*/
 static PetscErrorCode FillVoidRows(IPSides *sides, Vec c)
 {
   const PetscScalar *sign;
@@ -224,8 +237,10 @@ static PetscErrorCode FillVoidRows(IPSides *sides, Vec c)
   PetscFunctionReturn(0);
 }
 
-/* Turns the caller's c_I into the form used by the iteration. ce: all equality constraints, may be NULL if there are
-   none */
+/*
+   Converts the caller's c_I to the form used by the iteration. ce: all equality constraints, of which those from rows
+   with equal bounds are set; may be NULL if there are none.
+*/
 PetscErrorCode IPSidesConstraints(Tao tao, Vec c, Vec ce)
 {
   IPSides *sides = ((TAO_IPFILTER *)tao->data)->sides;
@@ -243,7 +258,10 @@ PetscErrorCode IPSidesConstraints(Tao tao, Vec c, Vec ce)
   PetscFunctionReturn(0);
 }
 
-/* Copies the caller's own equality constraints to the first entries of each rank's vector, or back */
+/*
+   Copies the caller's own equality constraints to the first entries of each rank's vector `all`, or from there if
+   `back`
+*/
 PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
 {
   PetscScalar *o, *a;
@@ -259,8 +277,10 @@ PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* Computes DI from the multipliers of the rows as used by the iteration, and from y of the equality constraints
-   among them, in the caller's units */
+/*
+   Converts DI, the multipliers of the rows as used by the iteration, to the caller's signs and units. y: multipliers of
+   all equality constraints, from which rows with equal bounds get theirs.
+*/
 PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
 {
   const IPSides     *sides = ((TAO_IPFILTER *)tao->data)->sides;
@@ -281,7 +301,7 @@ PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
   PetscFunctionReturn(0);
 }
 
-/* Sets y of the equality constraints among the rows from the caller's multipliers z */
+/* Sets the entries of y for rows with equal bounds from the caller's multipliers z */
 PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -302,8 +322,10 @@ PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* Distributes the caller's slacks and multipliers (negative for an upper bound) to the pairs. Sides with zero
-   multiplier get the mean product of the others. */
+/*
+   Distributes the caller's slacks and multipliers, which are negative for an active upper bound, to the pairs of both
+   sides. A side with zero multiplier gets the mean product t z of the other sides.
+*/
 PetscErrorCode IPSidesTakePairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -349,8 +371,10 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets the slacks and multipliers returned to the caller, from tao->DI: z of an upper bound is negative; a row that
-   is no inequality has no slack */
+/*
+   Sets the slacks and multipliers that are returned to the caller, from tao->DI. The multiplier of an active upper
+   bound is negative. A row that is no inequality gets a zero slack.
+*/
 PetscErrorCode IPSidesReturnPairs(Tao tao)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;

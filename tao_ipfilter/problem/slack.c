@@ -1,9 +1,9 @@
-/* The slacks of c_I, 0 <= s or 0 <= s <= width: combined operations on their one or two pairs. */
+/* Operations on the slacks of c_I, 0 <= s or 0 <= s <= width, which combine their one or two pairs */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* D = w z/s, plus the same of the upper sides */
+/* Computes D = w z/s, plus w z/t of the upper sides with t = width - s */
 PetscErrorCode IPSlackSigma(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -19,7 +19,7 @@ PetscErrorCode IPSlackSigma(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* force = w target/s, minus the same of the upper sides */
+/* Computes force = w target/s, minus w target/t of the upper sides */
 PetscErrorCode IPSlackForce(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -35,7 +35,7 @@ PetscErrorCode IPSlackForce(Tao tao, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* lambda for which the slacks are stationary: z minus that of the upper sides */
+/* Computes the lambda for which the slacks are stationary: z minus the multiplier of the upper side */
 PetscErrorCode IPSlackPressure(Tao tao, Vec lambda)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -46,7 +46,10 @@ PetscErrorCode IPSlackPressure(Tao tao, Vec lambda)
   PetscFunctionReturn(0);
 }
 
-/* Computes the upper sides' directions from ds, and lambda + dlambda from the pairs' dual directions */
+/*
+   Computes the directions of the upper sides from that of the slacks, the pairs' dual directions dz, and from these the
+   direction of lambda
+*/
 PetscErrorCode IPSlackDirection(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -63,8 +66,10 @@ PetscErrorCode IPSlackDirection(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Distances of slacks from their upper sides, kept positive against rounding, in t of the pair or in its trial
-   vector */
+/*
+   Computes the distances t = width - s of the slacks from their upper sides, into t of the pair, or into its trial
+   vector if `trial`. Distances that rounding made zero or negative are set to a tiny positive number.
+*/
 PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
 {
   TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
@@ -89,7 +94,7 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
   PetscFunctionReturn(0);
 }
 
-/* v = min(c, 0) + max(c - width, 0); v may be c */
+/* Computes the violation v = min(c, 0) + max(c - width, 0). v may be c. */
 PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -114,8 +119,10 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Solves rho (s - q) = mu/s - mu/(width - s) for s between 0 and width by bisection; left minus right side rises
-   from -inf to inf */
+/*
+   Returns the solution s of rho (s - q) = mu/s - mu/(width - s) between 0 and width, by bisection. The left minus the
+   right side rises monotonically from -infinity to infinity.
+*/
 static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscReal width)
 {
   const PetscInt halvings = 100;
@@ -130,8 +137,9 @@ static PetscReal CentralBetween(PetscReal q, PetscReal rho, PetscReal mu, PetscR
   return PetscMin(PetscMax(0.5 * (low + high), PETSC_MACHINE_EPSILON * width), (1.0 - PETSC_MACHINE_EPSILON) * width);
 }
 
-/* Point of the central path with penalties of the rows' stiffness, as IPCentralPair(), also for slacks with two
-   sides */
+/*
+   Computes the point of the central path for the rows' stiffness, see IPCentralPair(), also for slacks with two sides
+*/
 PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -161,7 +169,7 @@ PetscErrorCode IPSlackCentral(Tao tao, Vec q, PetscReal mu, Vec s, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* Moves slacks that are beyond or too close to their upper side to a distance of `fraction` of the width */
+/* Moves slacks that are closer to their upper side than `fraction` times the width, or beyond it, to that distance */
 PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -182,7 +190,7 @@ PetscErrorCode IPSlackKeepInside(Tao tao, Vec s, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Moves the upper sides to the central path of mu for the present slacks, and computes lambda of both sides */
+/* Moves the multipliers of the upper sides to the central path of mu for the present slacks, and computes lambda */
 PetscErrorCode IPSlackCenterUpper(Tao tao, PetscReal mu)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* Work vectors: a function takes one and returns it before it ends. They are created on demand. */
+/* Work vectors, which are created at their first use. A function gets one and restores it before it returns. */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/work.h"
 
@@ -7,7 +7,9 @@ static Vec WorkLayout(const TAO_IPFILTER *ip, IPSpace space)
   return space == IP_UNKNOWNS ? ip->rx : (space == IP_INEQUALITIES ? ip->at.c : ip->at.ce);
 }
 
-/* Gets a work vector of the given layout, with arbitrary entries; NULL if there are no such constraints */
+/*
+   Gets a work vector of the given layout, with arbitrary entries; NULL if the problem has no constraints of that kind
+*/
 PetscErrorCode IPGetWork(Tao tao, IPSpace space, Vec *v)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;

@@ -3,20 +3,21 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* Choice of mu */
+/* Choice of the barrier parameter mu */
 struct _n_IPBarrier {
-  PetscBool free;          /* mehrotra: mu from the affine step; otherwise Fiacco and McCormick's rule */
-  PetscReal corrector_max; /* mehrotra: limit of the second-order term */
-  PetscReal first;         /* mean product t z at the start */
-  PetscReal errors[4];     /* recent KKT errors, which the free mode must improve on */
+  PetscBool free;          /* true: Mehrotra's rule computes mu from the affine step; false: Fiacco and McCormick's
+                              monotone rule */
+  PetscReal corrector_max; /* Mehrotra's rule: largest absolute value of the second-order term dt dz of a pair */
+  PetscReal first;         /* mean of t z over all pairs at the starting point */
+  PetscReal errors[4];     /* the last KKT errors, which Mehrotra's rule must reduce; otherwise mu becomes monotone */
   PetscInt  nerrors;
-  PetscBool curved; /* a step has shown nonlinear constraints or an objective that is not convex */
-  PetscInt  hold;   /* mehrotra: iterations left in the monotone mode after a failed line search */
+  PetscBool curved; /* a step has shown that the constraints are nonlinear or that the objective is not convex */
+  PetscInt  hold;   /* Mehrotra's rule: remaining iterations of the monotone rule after a failed line search */
 };
 
-/* The multiple delta of M_u added to the Hessian */
+/* The multiple delta of M_u that is added to the Hessian */
 struct _n_IPShift {
-  PetscReal delta, last; /* delta: present; last: of the last step that needed one */
+  PetscReal delta, last; /* delta: present value; last: value in the last step that needed one */
 };
 
 #endif

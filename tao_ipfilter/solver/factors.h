@@ -3,35 +3,41 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* direct.c: the condensed matrix factored by MUMPS */
+/* direct.c: the factorization of the condensed matrix by MUMPS */
 struct _n_IPDirect {
-  Mat              A, F;          /* the matrix in MUMPS's format, and its factors */
-  PetscBool        converted;     /* A is a converted copy */
-  PetscObjectId    pattern_id;    /* the matrix that was analysed, */
-  PetscObjectState pattern_state; /* and state of its pattern */
-  PetscReal        memory;        /* predicted memory of the factors, all ranks [1e6 bytes] */
-  PetscInt         system;        /* the factored matrix, by its number rec.nsystems */
-  PetscInt
-    relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: none yet */
-  PetscInt negative; /* number of negative pivots */
+  Mat              A, F;          /* the matrix in MUMPS's format; its factors */
+  PetscBool        converted;     /* whether A is a converted copy of the condensed matrix */
+  PetscObjectId    pattern_id;    /* object id of the matrix that MUMPS analysed */
+  PetscObjectState pattern_state; /* state of its nonzero pattern */
+  PetscReal        memory;        /* memory of the factors on all ranks as predicted by MUMPS [1e6 bytes] */
+  PetscInt         system;        /* number of the factored system, a value of rec.nsystems; 0: none */
+  PetscInt relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: no
+                   factorization yet */
+  PetscInt negative;   /* number of negative pivots */
 };
 
 /* augmented.c: the symmetric system [A J_E^T; J_E -delta] for equality constraints, and its factorization */
 struct _n_IPAugmented {
   KSP       ksp;
   Mat       K;
-  Mat       shift;      /* -delta I */
-  PetscReal delta;      /* of a restoration step, or regularization of dependent constraints: */
-  PetscBool centered;   /* the regularization acts on the change of the multipliers, not on the multipliers */
-  PetscInt  relaxation; /* work space beyond MUMPS's estimate [per cent], and */
-  PetscReal pivot;      /* relative pivot threshold, in the last successful factorization; 0: none yet */
+  Mat       shift;      /* the diagonal matrix -delta I */
+  PetscReal delta;      /* diagonal value delta: that of a restoration step, or the regularization of dependent
+                           constraints; 0: none */
+  PetscBool centered;   /* whether the regularization acts on the change of the multipliers; otherwise it acts on the
+                           multipliers */
+  PetscInt  relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: no
+                           factorization yet */
+  PetscReal pivot;      /* relative pivot threshold in the last successful factorization; 0: no factorization yet */
   Vec       rhs, sol, residual, correction;
 };
 
-/* proximal.c: equality constraints that involve few unknowns: condensed, with proximal updates of their multipliers */
+/*
+   proximal.c: condensation of equality constraints that involve few unknowns, with proximal updates of their
+   multipliers
+*/
 struct _n_IPProximal {
-  PetscBool condensed; /* in this solve, unless it turns out not to work */
-  PetscInt  nupdates;  /* updates of the multipliers beyond the first in each solve */
+  PetscBool condensed; /* whether this solve condenses the equality constraints; reset if that fails */
+  PetscInt  nupdates;  /* number of updates of the multipliers in each linear solve after the first update */
 };
 
 #endif

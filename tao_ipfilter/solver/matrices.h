@@ -3,18 +3,19 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* jacobian.c: the constraints' Jacobians used by the iteration: rows scaled, columns of fixed variables zeroed */
+/* jacobian.c: the Jacobians used by the iteration. Rows are scaled, and columns of fixed variables are zero. */
 struct _n_IPJacobian {
-  Mat     inequality, equality;             /* AIJ */
+  Mat     inequality, equality;             /* of type AIJ */
   IPStamp inequality_stamp, equality_stamp; /* stamps of the caller's matrices */
-  Mat     converted[2];                     /* conversions to AIJ */
+  Mat     converted[2];                     /* caller's Jacobians converted to AIJ: inequality, equality; NULL if the
+                                               caller's are AIJ */
 };
 
 /* The Hessian used by the iteration */
 struct _n_IPHessian {
   Mat       H;
-  Mat       converted; /* conversion to AIJ, for types that cannot be used directly */
-  PetscBool products;  /* only products are available, also of the condensed matrix */
+  Mat       converted; /* H converted to AIJ, for types that cannot be used directly; otherwise NULL */
+  PetscBool products;  /* the Hessian, and therefore the condensed matrix, only has products, no entries */
 };
 
 #endif

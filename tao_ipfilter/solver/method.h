@@ -4,29 +4,34 @@
 #include "tao_ipfilter/solver/solverimpl.h"
 
 /*
-   Interface of an alternative to the interior point method, for problems that it applies to, and its data. The driver
-   knows nothing else about it; register.c names the implementation.
+   Interface of an alternative to the interior point method, with its data. The driver calls the alternative only
+   through this table; register.c stores the implementation.
 */
 struct _n_IPMethodOps {
   const char *name;
   PetscErrorCode (*create)(Tao);
-  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* composes its public functions with the Tao */
-  PetscErrorCode (*applies)(Tao, PetscBool *);          /* whether it applies to the problem at the first point */
-  PetscErrorCode (*begin)(Tao, PetscBool *begun);       /* moves to its first point */
-  PetscErrorCode (*step)(Tao, PetscBool *done);         /* done: false if it makes no more progress */
-  PetscErrorCode (*end)(Tao);                           /* ends a solve; data for later solves are kept */
-  PetscErrorCode (*forget)(Tao);                        /* that, too */
-  PetscErrorCode (*monitor)(Tao, PetscBool *monitored); /* prints an iteration in its own columns */
+  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* composes the method's public functions with the Tao, or
+                                                           removes them */
+  PetscErrorCode (*applies)(Tao, PetscBool *);          /* whether the method can solve the problem; called at the
+                                                           starting point */
+  PetscErrorCode (*begin)(Tao, PetscBool *begun);       /* moves to the first point of the method */
+  PetscErrorCode (*step)(Tao, PetscBool *done);         /* makes one step; *done is false if the method makes no more
+                                                           progress */
+  PetscErrorCode (*end)(Tao);                           /* ends a solve, but keeps data that later solves reuse */
+  PetscErrorCode (*forget)(Tao);                        /* frees the data that later solves would reuse */
+  PetscErrorCode (*monitor)(Tao, PetscBool *monitored); /* prints a line of an iteration in the method's own columns */
   PetscErrorCode (*destroy)(Tao);
 };
 
 struct _n_IPMethod {
-  const IPMethodOps *ops; /* NULL: no alternative method */
+  const IPMethodOps *ops; /* NULL: there is no alternative method */
   void              *data;
   PetscBool          on;
-  PetscBool          linear;      /* the caller's Jacobian routine left its matrix unchanged: constraints are linear, */
-  PetscBool          constant;    /* and so did the Hessian routine: a quadratic program */
-  PetscBool          multipliers; /* the present multipliers were computed by the method */
+  PetscBool          linear;      /* the constraints are linear: the caller's Jacobian routine left its matrix
+                                     unchanged */
+  PetscBool          constant;    /* the problem is a quadratic program: the Hessian routine left its matrix
+                                     unchanged, too */
+  PetscBool          multipliers; /* the present multipliers were computed by this method */
 };
 
 #endif

@@ -12,7 +12,7 @@ typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } 
 
 typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
 
-/* Parameters that the user may set; opts.c has the options of the same names */
+/* Parameters that the user may set. opts.c has the options of the same names. */
 struct _n_IPOptions {
   IPStart          start;
   IPBarrierRule    barrier;
@@ -23,7 +23,8 @@ struct _n_IPOptions {
   PetscReal        mu0, s0, z0;
   PetscInt         max_mu_first, max_soc;
   PetscReal        gamma_phi, eta_phi, delta_max, filter_switch;
-  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* negative: default of the chosen scaling */
+  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* absolute tolerances; negative: the default for
+                                                                    the chosen scaling */
   PetscReal        direct_memory;
   PetscBool        direct_always;
   IPSubspaceUse    subspace;
@@ -32,11 +33,11 @@ struct _n_IPOptions {
   PetscReal        proximal;
 };
 
-/* Set by the caller through TaoIPFilterSet...(); NULL: not set */
+/* Data that the caller sets by TaoIPFilterSet...(); NULL: not set */
 struct _n_IPGiven {
-  Vec      slack_mass, primal_mass; /* M_s and M_u; NULL: 1 */
-  Vec      warm_s, warm_z;          /* initial slacks and multipliers, */
-  Vec      warm_y;                  /* initial multipliers of the equality constraints, */
+  Vec      slack_mass, primal_mass; /* weights M_s of the slacks and M_u of the unknowns; NULL: all weights are 1 */
+  Vec      warm_s, warm_z;          /* initial slacks and their multipliers */
+  Vec      warm_y;                  /* initial multipliers of the equality constraints */
   Vec      warm_lower, warm_upper;  /* initial multipliers of the bounds */
   PetscInt solves_to_come;          /* number of solves with the same Hessian, including the next; 0: unknown */
 };

@@ -3,24 +3,30 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* Record of a TaoSolve() */
+/* What happened in one TaoSolve() */
 struct _n_IPRecord {
-  PetscInt             nksp, max_nksp, *ksp_iterations; /* Krylov iterations of every linear solve */
-  PetscInt             nsystems, nfiltered; /* condensed matrices, and those preconditioned with the filter */
+  PetscInt             nksp, max_nksp, *ksp_iterations; /* number of linear solves; largest number of Krylov
+                                                           iterations in one; Krylov iterations of each */
+  PetscInt             nsystems, nfiltered; /* number of condensed matrices; number of those whose preconditioner
+                                               used the filter */
   TaoIPFilterFallbacks fallbacks;
-  PetscInt             nregularized, nretried; /* steps with a shifted Hessian; systems solved to find the shifts */
-  PetscReal            delta_largest;          /* largest shift in a step taken */
-  PetscInt             nrestored;              /* restorations */
-  PetscInt             nsaddles;               /* stationary points that were not minima */
-  PetscInt             ntiny;                  /* consecutive steps as small as rounding */
-  PetscInt             nacceptable;            /* consecutive acceptable iterates */
-  PetscInt             nstraight;     /* consecutive full steps with a shift along which the objective fell linearly, */
-  PetscReal            last_f;        /* objective before the next of these */
-  PetscInt             napplications; /* filtered subspace method: applications of the preconditioner, */
-  PetscInt             nreduced, npivots; /* reduced problems, and active sets tried in them */
-  PetscInt             ndirections;       /* iterations that added a direction, not Newton steps */
-  PetscReal            best_error;        /* KKT error of the best iterate, */
-  PetscReal            best_violation;    /* and its violation */
+  PetscInt             nregularized, nretried; /* number of steps with a shifted Hessian; number of systems solved to
+                                                  find these shifts */
+  PetscReal            delta_largest;          /* largest shift delta in a step that was taken */
+  PetscInt             nrestored;              /* number of restorations */
+  PetscInt             nsaddles;               /* number of stationary points that were not minima */
+  PetscInt             ntiny;                  /* number of consecutive steps as small as rounding errors */
+  PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
+  PetscInt             nstraight;     /* number of consecutive full steps with a shift along which the objective fell
+                                         linearly */
+  PetscReal            last_f;        /* objective before the next such step */
+  PetscInt             napplications; /* filtered subspace method: number of applications of the preconditioner */
+  PetscInt             nreduced, npivots; /* filtered subspace method: number of reduced problems; number of active
+                                             sets tried in them */
+  PetscInt             ndirections;       /* filtered subspace method: number of iterations that added a direction,
+                                             without Newton steps */
+  PetscReal            best_error;        /* KKT error of the best iterate */
+  PetscReal            best_violation;    /* constraint violation of the best iterate */
   char                 reason[256];
 };
 

@@ -3,37 +3,37 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* The filter: pairs (theta, phi) that later iterates must improve on */
+/* The filter: pairs (theta, phi). A later iterate must improve on each of them in theta or in phi. */
 struct _n_IPFilterSet {
   PetscInt   n, max;
   PetscReal *theta, *phi;
 };
 
-/* Line search: measures of the present iterate, their units, and the last step */
+/* Line search: violation theta and barrier function phi of the present iterate, their units, and the last step */
 struct _n_IPSearch {
   PetscReal theta, phi;
-  PetscReal theta0;             /* theta at the first iterate; negative: none yet */
-  PetscReal theta_ref, phi_ref; /* units */
-  PetscReal equality_weight;    /* converts c_E to the units of theta */
-  PetscReal rounding;           /* rounding error of phi, */
-  PetscReal theta_rounding;     /* and of theta */
+  PetscReal theta0;             /* theta at the first iterate; negative: not yet computed */
+  PetscReal theta_ref, phi_ref; /* units of theta and phi */
+  PetscReal equality_weight;    /* factor that converts c_E to the unit of theta */
+  PetscReal rounding;           /* rounding error of phi */
+  PetscReal theta_rounding;     /* rounding error of theta */
   PetscReal alpha, alpha_dual;
-  PetscReal before; /* norm of the direction before the last one */
+  PetscReal before; /* norm of the search direction before the last one */
   PetscInt  ntrials;
-  PetscBool blocked;              /* the last rejected trial point was rejected by the filter alone */
-  PetscInt  ncut;                 /* consecutive steps that were cut to a small part */
-  PetscInt  nblocked, nunblocked; /* consecutive steps shortened by the filter; number of times it was cleared for
-                                     that */
-  char      tag; /* how the step was accepted: f, h, F, H (second-order correction), R (restoration), w (watchdog) */
+  PetscBool blocked;              /* whether the last rejected trial point was rejected by the filter alone */
+  PetscInt  ncut;                 /* number of consecutive steps that were shortened to a small fraction */
+  PetscInt  nblocked, nunblocked; /* number of consecutive steps that were shortened by the filter; number of times
+                                     that the filter was cleared for this reason */
+  char      tag; /* how the step was accepted: f, h, F or H (second-order correction), R (restoration), w (watchdog) */
 };
 
-/* watchdog.c: steps without test, and the iterate to return to */
+/* watchdog.c: steps taken without a test, and the iterate to return to if they fail */
 struct _n_IPWatchdog {
   IPIterate from;
-  PetscReal mu, theta, phi, slope; /* there */
+  PetscReal mu, theta, phi, slope; /* values at the iterate `from` */
   PetscReal alpha;                 /* length of the first step from there */
-  PetscInt  left;                  /* steps without test that are left; 0: none are taken */
-  PetscInt  nshort, patience;      /* consecutive shortened steps, and how many it takes */
+  PetscInt  left;                  /* number of steps without a test that may still be taken; 0: the watchdog is off */
+  PetscInt  nshort, patience;      /* number of consecutive shortened steps; number that starts the watchdog */
 };
 
 #endif

@@ -3,29 +3,31 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* Sizes at the starting point */
+/* Sizes at the starting point, from which scales are derived */
 struct _n_IPFirst {
-  PetscReal f, gradient;      /* objective, and norm of its gradient */
-  PetscReal unit;             /* scale of the objective with scaling by gradients; else 1 */
-  PetscReal length, equality; /* sizes of c_I (without rows out of reach) and of c_E */
+  PetscReal f, gradient;      /* objective; norm of its gradient */
+  PetscReal unit;             /* scale of the objective for scaling by gradients; otherwise 1 */
+  PetscReal length, equality; /* size of c_I, without rows out of reach; size of c_E */
   PetscReal x;
-  PetscReal reach;             /* expected change of the unknowns (reach.c); 0: unknown */
-  PetscReal jacobian;          /* largest row sum of |J|, */
-  PetscReal equality_jacobian; /* and of |J_E| */
-  PetscReal energy;            /* magnitude of the objective's terms */
-  PetscReal pressure;          /* equal multiplier of all rows that balances the gradient; 0: unknown */
+  PetscReal reach;             /* expected change of the unknowns during the solve (reach.c); 0: unknown */
+  PetscReal jacobian;          /* largest row sum of |J| */
+  PetscReal equality_jacobian; /* largest row sum of |J_E| */
+  PetscReal energy;            /* sum of the magnitudes of the objective's terms */
+  PetscReal pressure;          /* the multiplier that, equal in all rows, balances the objective's gradient; 0:
+                                  unknown */
 };
 
-/* Scales of residuals; all 1 in the published measure */
+/* Scales of residuals. In the published measure (-tao_ipfilter_kkt mass) all are 1. */
 struct _n_IPScale {
-  PetscReal dual;           /* forces that cancel in the stationarity condition */
+  PetscReal dual;           /* size of the forces that cancel in the stationarity condition */
   PetscReal length;         /* size of c_I */
   PetscReal equality;       /* size of c_E */
-  PetscReal equality_terms; /* terms that cancel in c_E at the present point */
-  PetscReal pressure;       /* multipliers, */
-  PetscReal balance;        /* terms of an active constraint that balances the objective's gradient; 0: unknown */
-  PetscReal product;        /* length x pressure: scale of complementarity and mu */
-  PetscReal energy;         /* size of the objective; PETSC_INFINITY if not used by the measure */
+  PetscReal equality_terms; /* size of the terms that cancel in c_E at the present point */
+  PetscReal pressure;       /* size of the multipliers */
+  PetscReal balance;        /* size of the terms of an active constraint that balances the objective's gradient; 0:
+                               unknown */
+  PetscReal product;        /* length x pressure, the scale of complementarity and mu */
+  PetscReal energy;         /* size of the objective; PETSC_INFINITY if the measure does not use it */
 };
 
 #endif

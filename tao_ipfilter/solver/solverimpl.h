@@ -1,6 +1,6 @@
 /*
-   The solver TAOIPFILTER: the problem's sizes, the iterate and the direction. Each of its parts is declared in a header
-   of its own in this folder; a file includes those of the parts that it works on.
+   The solver TAOIPFILTER: sizes of the problem, iterates and direction. Each part of the solver is declared in its own
+   header in this folder. A file includes the headers of the parts that it uses.
 */
 #ifndef IPFILTER_SOLVERIMPL_H
 #define IPFILTER_SOLVERIMPL_H
@@ -15,10 +15,10 @@
 
 typedef struct _n_TAO_IPFILTER TAO_IPFILTER;
 
-/* Layouts of work vectors: unknowns, inequality and equality constraints */
+/* Layouts of work vectors */
 typedef enum { IP_UNKNOWNS, IP_INEQUALITIES, IP_EQUALITIES, IP_NSPACES } IPSpace;
 
-/* Parts of the solver; the headers that the solver names declare them */
+/* Parts of the solver. Only the headers named in struct _n_TAO_IPFILTER declare their members. */
 typedef struct _n_IPOptions     IPOptions;
 typedef struct _n_IPGiven       IPGiven;
 typedef struct _n_IPWork        IPWork;
@@ -52,97 +52,104 @@ typedef struct _n_IPMethodOps   IPMethodOps;
 /* Blocks of complementarity pairs */
 enum {
   IP_SLACK,
-  IP_CEILING, /* upper sides of slacks with two sides */
+  IP_CEILING, /* upper sides of rows with two bounds */
   IP_LOWER,
   IP_UPPER,
   IP_NPAIRS
 };
 
-/* Pairs (t_i, z_i), t_i z_i -> mu. Where a bound is absent t is PETSC_INFINITY and z is zero. */
+/*
+   Complementarity pairs (t_i, z_i) with t_i z_i -> mu. Where a bound is absent, t_i is PETSC_INFINITY and z_i is zero.
+*/
 typedef struct {
   PetscInt  n;      /* number of pairs on all ranks; 0: the vectors are NULL */
-  PetscReal sign;   /* dt/dx or dt/dc_I: -1 for upper bounds and upper sides, +1 for others */
+  PetscReal sign;   /* derivative of t by x or c_I: -1 for upper bounds and upper sides, +1 for the others */
   PetscReal weight; /* sum of the weights of all pairs */
   Vec       w;      /* weights m_i */
-  Vec       t, z;   /* distance to the bound, and its multiplier */
+  Vec       t, z;   /* distances to the bound; multipliers */
   Vec       dt, dz; /* direction */
-  Vec       target; /* right-hand side of the linearized t z = target: mu, or mu minus the second-order term */
-  Vec       trial;  /* t at a trial point */
+  Vec       target; /* right-hand side of the linearized condition t z = target: mu, or mu minus the second-order
+                       term */
+  Vec       trial;  /* distances t at a trial point */
 } IPPair;
 
-/* An iterate; members that are not kept are NULL */
+/* An iterate. Members that are not needed are NULL. */
 typedef struct {
-  Vec       x, c, ce;     /* the point, c_I and c_E there */
-  Vec       s, lambda, y; /* slacks, multipliers of c_I (a density: the force is M lambda) and of c_E */
+  Vec       x, c, ce;     /* the point; c_I and c_E there */
+  Vec       s, lambda, y; /* slacks; multipliers of c_I, as a density: the force is M lambda; multipliers of c_E */
   Vec       z[IP_NPAIRS]; /* multipliers z of the pairs */
   PetscReal f;
 } IPIterate;
 
-/* A direction. Directions of slacks, of distances to bounds and of the pairs' multipliers are stored in the pairs;
-   they follow from x. */
+/*
+   A search direction. The pairs hold its components for slacks, distances to bounds and their multipliers, which follow
+   from x.
+*/
 typedef struct {
   Vec       x, lambda, y;
   PetscReal norm; /* largest entry of x */
 } IPDirection;
 
-/* Identifies a matrix and its state; equal stamps mean an unchanged matrix */
+/* Identifies a matrix and its state. A matrix with an equal stamp is unchanged. */
 typedef struct {
-  PetscObjectId    value_id; /* which matrix, */
+  PetscObjectId    value_id; /* object and state of the values */
   PetscObjectState value_state;
   PetscObjectId    pattern_id; /* object and state of its nonzero pattern */
   PetscObjectState pattern_state;
 } IPStamp;
 
-/* Whether a function value is NaN or infinite, or PETSc's large number */
+/* Returns whether a function value is NaN, infinite, or at least PETSC_INFINITY in magnitude */
 static inline PetscBool IPUndefined(PetscReal value)
 {
   return (PetscBool)(PetscIsInfOrNanReal(value) || PetscAbsReal(value) >= PETSC_INFINITY);
 }
 
-/* Verdict on a linear solve */
+/* Outcome of a linear solve */
 typedef enum {
   IP_LINEAR_SOLVED,
   IP_LINEAR_INDEFINITE, /* the matrix is not positive definite */
-  IP_LINEAR_FAILED      /* the solver failed; says nothing about the matrix */
+  IP_LINEAR_FAILED      /* the solver failed, which tells nothing about the matrix */
 } IPLinearVerdict;
 
 struct _n_TAO_IPFILTER {
-  PetscReal   tol;    /* tolerance of this solve: tao->gatol */
-  PetscInt    mi, me; /* inequality and equality constraints on all ranks; rows with equal bounds count as both */
+  PetscReal   tol;    /* tolerance of this solve, from tao->gatol */
+  PetscInt    mi, me; /* number of inequality and of equality constraints on all ranks; rows with equal bounds count
+                         in both */
   IS          fixed;  /* this rank's variables with equal bounds; NULL if no rank has any */
   PetscReal   mu;
   IPPair      pair[IP_NPAIRS];
-  IPIterate   at, best, trial; /* at.x is tao->solution, at.s and at.z belong to the pairs; best: smallest KKT error */
+  IPIterate   at, best, trial; /* at: the present iterate, where at.x is tao->solution and at.s, at.z are vectors of
+                                  the pairs; best: the iterate with the smallest KKT error; trial: a trial point */
   IPDirection dir;
-  Vec         rx, rc;              /* grad f - J^T M lambda + J_E^T y - bound multipliers, and c_I - s */
-  const struct _n_IPLawsOps *laws; /* laws of norm terms; NULL: not registered */
+  Vec         rx, rc;              /* residuals: grad f - J^T M lambda + J_E^T y - bound multipliers; c_I - s */
+  const struct _n_IPLawsOps *laws; /* friction laws of norm terms; NULL: not registered */
 
-  /* Parts, by the header in this folder that declares them */
-  IPOptions     *opt;   /* options.h: what the user sets, */
-  IPGiven       *given; /*            and what the caller sets */
+  /* The parts of the solver, with the header in this folder that declares each of them */
+  IPOptions     *opt;   /* options.h: parameters that the user sets */
+  IPGiven       *given; /* options.h: data that the caller sets */
   IPWork        *work;  /* work.h: work vectors */
-  IPSides       *sides; /* rows.h: kinds of the rows of c_I, */
-  IPRowScale    *rows;  /*         and scales of all rows */
-  IPJacobian    *jac;   /* matrices.h */
+  IPSides       *sides; /* rows.h: kinds of the rows of c_I */
+  IPRowScale    *rows;  /* rows.h: scales of all rows */
+  IPJacobian    *jac;   /* matrices.h: Jacobians and Hessian */
   IPHessian     *hess;
-  IPQuasiNewton *qn;      /* quasinewton.h */
-  IPFirst       *first;   /* sizes.h: sizes at the starting point, */
-  IPScale       *scale;   /*          and scales of residuals */
-  IPStiffness   *stiff;   /* stiffness.h */
+  IPQuasiNewton *qn;      /* quasinewton.h: approximation of the Hessian */
+  IPFirst       *first;   /* sizes.h: sizes at the starting point */
+  IPScale       *scale;   /* sizes.h: scales of residuals */
+  IPStiffness   *stiff;   /* stiffness.h: stiffness of the objective */
   IPTerms       *terms;   /* terms.h: norm terms */
   IPKKT         *kkt;     /* kkt.h: residuals of the optimality conditions */
   IPCondensed   *cond;    /* condensed.h: the condensed matrix */
   IPLinear      *lin;     /* linear.h: linear solves */
-  IPDirect      *direct;  /* factors.h: the condensed matrix factored, */
-  IPAugmented   *aug;     /*            the system with equality constraints, */
-  IPProximal    *prox;    /*            and condensed equality constraints */
-  IPBarrier     *bar;     /* barrier.h: choice of mu, */
-  IPShift       *shift;   /*            and the multiple of M_u added to the Hessian */
-  IPFilterSet   *filter;  /* search.h: the filter, */
-  IPSearch      *search;  /*           the line search, */
-  IPWatchdog    *watch;   /*           and its watchdog */
-  IPRelaxation  *relax;   /* relaxation.h: constraints without an interior, */
-  IPRestoration *restore; /*               and feasibility restoration */
+  IPDirect      *direct;  /* factors.h: factorization of the condensed matrix */
+  IPAugmented   *aug;     /* factors.h: augmented system for equality constraints */
+  IPProximal    *prox;    /* factors.h: condensed equality constraints */
+  IPBarrier     *bar;     /* barrier.h: choice of mu */
+  IPShift       *shift;   /* barrier.h: multiple of M_u that is added to the Hessian */
+  IPFilterSet   *filter;  /* search.h: the filter */
+  IPSearch      *search;  /* search.h: the line search */
+  IPWatchdog    *watch;   /* search.h: the watchdog */
+  IPRelaxation  *relax;   /* relaxation.h: relaxation of constraints without an interior */
+  IPRestoration *restore; /* relaxation.h: feasibility restoration */
   IPMethod      *method;  /* method.h: alternative to the interior point method */
   IPRecord      *rec;     /* record.h: record of this solve */
 };

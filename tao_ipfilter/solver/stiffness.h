@@ -3,14 +3,14 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* Stiffness of the objective at the start, from the diagonal of H */
+/* Stiffness of the objective at the starting point, from the diagonal of H */
 struct _n_IPStiffness {
-  Vec       rho;    /* rho: pressure that changes each constraint by a unit length */
-  Vec       reach;  /* expected change of each constraint (reach.c); NULL: unknown */
+  Vec       rho;    /* per row of c_I: pressure that changes the row's constraint by one unit of length */
+  Vec       reach;  /* per row of c_I: expected change of the constraint (reach.c); NULL: unknown */
   PetscReal mean;   /* weighted harmonic mean of rho */
-  Vec       hdiag;  /* |diagonal of H|, up to date */
-  PetscReal hscale; /* mean of hdiag at the start */
-  PetscBool flat;   /* no constraint is resisted by any stiffness */
+  Vec       hdiag;  /* absolute values of the present diagonal of H */
+  PetscReal hscale; /* mean of hdiag at the starting point */
+  PetscBool flat;   /* no constraint is resisted by any stiffness of the objective */
 };
 
 #endif

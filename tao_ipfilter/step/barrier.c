@@ -1,4 +1,4 @@
-/* The barrier parameter: Fiacco and McCormick's monotone reduction, or Mehrotra's choice from the affine step. */
+/* Chooses the barrier parameter: Fiacco and McCormick's monotone rule, or Mehrotra's rule from the affine step */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -7,7 +7,7 @@
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-/* Weighted mean of t z over all pairs */
+/* Computes the weighted mean of t z over all pairs */
 PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -25,8 +25,10 @@ PetscErrorCode IPBarrierAverage(Tao tao, PetscReal *average)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to balance
-   only to a few per cent, the aim of the linear solves: mu affects the pairs, not the forces. */
+/*
+   Returns whether the barrier problem is solved well enough to reduce mu. With the relative measure the forces need to
+   balance only to a few per cent, which is also the accuracy of the linear solves.
+*/
 static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
 {
   const IPKKT    *k       = ip->kkt;
@@ -36,7 +38,10 @@ static PetscBool BarrierSolved(const TAO_IPFILTER *ip, PetscReal mu)
   return (PetscBool)(k->centrality <= limit && k->primal <= PetscMax(limit, ip->tol) && k->dual <= balance);
 }
 
-/* Monotone rule: mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), with mu in units of the product scale */
+/*
+   Reduces mu by the monotone rule: mu+ = max(least mu, min(kappa_mu mu, mu^theta_mu)), with mu in units of
+   scale->product. The rule is repeated as long as the new barrier problem is already solved well enough.
+*/
 static PetscErrorCode BarrierMonotone(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -56,8 +61,11 @@ static PetscErrorCode BarrierMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Mehrotra's choice: mu = sigma x mean product, where sigma is the cube of the fraction of the mean product that an
-   affine step (mu = 0) leaves. The second-order term is limited to a hundred times the mean product. */
+/*
+   Chooses mu by Mehrotra's rule: mu = sigma times the mean product t z. sigma is the cube of the fraction of the mean
+   product that remains after an affine step (mu = 0). The second-order term is limited to a hundred times the mean
+   product.
+*/
 PetscErrorCode IPBarrierFromAffine(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -83,8 +91,10 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error is below the largest of those of the last iterates in free mode. If so, it replaces that one
-   (Nocedal, Waechter and Waltz 2009, section 4). */
+/*
+   Returns whether the KKT error is below the largest error of the last iterates with Mehrotra's rule, and if so stores
+   it in place of the oldest one (Nocedal, Waechter and Waltz 2009, section 4)
+*/
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {
   const PetscInt length = (PetscInt)PETSC_STATIC_ARRAY_LENGTH(ip->bar->errors);
@@ -96,8 +106,10 @@ static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
   return PETSC_TRUE;
 }
 
-/* Changes from Mehrotra's rule to the monotone one, with mu near the present products, limited to a few times the
-   mean at the start */
+/*
+   Changes from Mehrotra's rule to the monotone rule. The new mu is near the present mean product, but at most a few
+   times the mean at the start.
+*/
 static PetscErrorCode BarrierTurnMonotone(Tao tao)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -112,7 +124,7 @@ static PetscErrorCode BarrierTurnMonotone(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* The same for at least this many iterations */
+/* Changes to the monotone rule for at least this many iterations */
 PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
 {
   PetscFunctionBegin;
@@ -121,12 +133,14 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-#define IP_BARRIER_SHORT 10 /* shortened steps in a row that end Mehrotra's rule, and iterations until it may return */
+#define IP_BARRIER_SHORT \
+  10 /* number of consecutive shortened steps that end Mehrotra's rule; also the number of
+                               iterations before the rule may be used again */
 
 /*
-   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives and linear
-   constraints, because the affine step then predicts mu. The monotone rule is used for other problems, while the KKT
-   error does not fall, and after many shortened steps in a row.
+   Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives with
+   linear constraints, for which the affine step predicts mu. The monotone rule is used for other problems, while the
+   KKT error does not fall, and after many consecutive shortened steps.
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {

@@ -1,5 +1,7 @@
-/* The search direction: forcing of the linear solver, Mehrotra's two solves, and whether the direction has enough
-   curvature. */
+/*
+   Computes the search direction: accuracy of the linear solves, the two solves of Mehrotra's rule, and the test of the
+   direction's curvature
+*/
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -12,8 +14,10 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* The square that the curvature of d is compared with: d^T d in the unit of H. With scale-free constants it is at most
-   d^T |diag(H)| d, so that unknowns of different units count equally. */
+/*
+   Computes the square with which the curvature of d is compared: d^T d times a typical diagonal entry of H, but at most
+   d^T |diag(H)| d, so that unknowns of different units count equally. Without scaling it is d^T d.
+*/
 static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -32,7 +36,7 @@ static PetscErrorCode CurvatureSquare(Tao tao, PetscReal *square)
   PetscFunctionReturn(0);
 }
 
-/* curvature = d^T (H + Sigma + delta M_u) d */
+/* Computes curvature = d^T (H + Sigma + delta M_u) d */
 static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -53,8 +57,7 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
   PetscFunctionReturn(0);
 }
 
-/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) to the curvature and, with constants in the problem's units, ds^T ds
-   to the square */
+/* Adds ds^T D ds + max(lambda+^T M (c - s), 0) to the curvature. Without scaling ds^T ds is added to the square. */
 static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscReal *square)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -79,7 +82,9 @@ static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Adds max(-y+^T c_E, 0): the part of d^T W d that a step towards the constraints uses up */
+/*
+   Adds max(-y+^T c_E, 0) to the curvature: a step towards the equality constraints may have less d^T W d by this amount
+*/
 static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -95,9 +100,11 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
   PetscFunctionReturn(0);
 }
 
-/* Tests d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, with W = H + Sigma + delta M_u on
-   the unknowns and D on the slacks. Computed with A, which contains J^T D J instead, d^T H d would be lost to
-   rounding for large D. A step of rounding size passes. */
+/*
+   Tests whether d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, where W is H + Sigma + delta
+   M_u for the unknowns and D for the slacks. The test does not use A, which contains J^T D J: for large D, d^T H d
+   would be lost in rounding errors. A step as small as rounding passes.
+*/
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -120,8 +127,10 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
   PetscFunctionReturn(0);
 }
 
-/* finish: whether the full step would end the solve except for the force residual: step lengths of 1, not close to
-   the boundary, and all products (t + dt)(z + dz) within the tolerance */
+/*
+   Finds whether the full step would end the solve except for the force residual: the step lengths are 1 with some
+   margin to the boundary, and all products (t + dt)(z + dz) are within the tolerance
+*/
 static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
@@ -142,9 +151,11 @@ static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
   PetscFunctionReturn(0);
 }
 
-/* Target for ||b - A d||: a few per cent of the forces in balance, but less than the present imbalance and at least
-   `last`. With bounds only also at most a few per cent of b, since the forces may be small compared with those at
-   the start */
+/*
+   Returns the target for ||b - A d||: a few per cent of the forces in balance, but less than the present imbalance, and
+   not less than `last`. Without constraints it is also at most a few per cent of ||b||, since the forces may be small
+   compared with those at the start.
+*/
 static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal rhs)
 {
   PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale->dual, IP_FORCING_REDUCE * ip->kkt->dual_norm);
@@ -153,7 +164,7 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal
   return PetscMax(loose, last);
 }
 
-/* Solves for dx, and for the direction of the equality multipliers, with the chosen solver */
+/* Solves for dx and for the direction of the equality multipliers with the method of this solve */
 static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool matrix, PetscReal target,
   PetscBool *usable)
 {
@@ -165,15 +176,17 @@ static PetscErrorCode DirectionSolveUnknowns(Tao tao, Vec rhs, Vec ce, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Whether the system of the last direction was the condensed one */
+/* Returns whether the direction is computed from the condensed system, not from the augmented one */
 static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!ip->me || ip->prox->condensed);
 }
 
-/* Computes the direction for the residuals rc and ce and the pairs' targets; dx is the initial guess. While mu falls,
-   forces and multipliers need to be accurate to a few per cent only. A step that would finish is solved to the
-   accuracy that convergence requires. matrix: A is new */
+/*
+   Computes the direction for the residuals rc and ce and the pairs' targets; dir.x is the initial guess. While mu
+   falls, the forces need to be accurate to a few per cent only. If the step would end the solve, it is solved again to
+   the accuracy that convergence requires. matrix: whether A is new.
+*/
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -202,7 +215,7 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscFunctionReturn(0);
 }
 
-/* Sets the right-hand sides of the pairs */
+/* Sets the targets of all pairs */
 static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corrector_max)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -212,7 +225,7 @@ static PetscErrorCode DirectionSetTargets(Tao tao, PetscReal mu, PetscReal corre
   PetscFunctionReturn(0);
 }
 
-/* Prints (-info) how far apart the weights of the inequality rows are */
+/* Prints, with -info, the ratio of the largest to the smallest weight of the inequality rows */
 static PetscErrorCode DirectionPrintWeights(Tao tao, Vec D)
 {
   PetscBool told;
@@ -244,14 +257,16 @@ static PetscErrorCode DirectionAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the problem has any pairs, so that mu matters */
+/* Returns whether the problem has complementarity pairs, so that mu matters */
 static PetscBool DirectionHasPairs(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->pair[IP_SLACK].n || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
 }
 
-/* Solves the system. Mehrotra's rule first solves for mu = 0; that step determines mu and the second-order term, and
-   is the guess for the direction */
+/*
+   Solves the Newton system. Mehrotra's rule first solves it for mu = 0. That solution determines mu and the
+   second-order term, and is the initial guess of the second solve.
+*/
 static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -272,7 +287,7 @@ static PetscErrorCode DirectionSolveSystem(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* A second direction with the same matrix, for the residuals of a second-order correction */
+/* Computes another direction with the same matrix, for the residuals of a second-order correction */
 PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -280,8 +295,10 @@ PetscErrorCode IPCorrectDirection(Tao tao, Vec rc, Vec ce, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Whether the barrier function falls along the direction. Without constraints it must fall, but a linear solve with an
-   almost singular matrix that was ended early may give a direction of ascent. */
+/*
+   Finds whether the barrier function decreases along the direction. Tested only without constraints, where it must
+   decrease: if the matrix is almost singular and its linear solve was ended early, the direction may be one of ascent.
+*/
 static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -295,8 +312,10 @@ static PetscErrorCode DirectionDescends(Tao tao, PetscBool *descends)
   PetscFunctionReturn(0);
 }
 
-/* The Newton direction, regularized until its curvature (or, with equality constraints, the matrix's inertia) is
-   right */
+/*
+   Computes the Newton direction. *usable: its curvature is sufficient or, with the augmented system, the inertia of the
+   matrix is correct.
+*/
 static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
 {
   PetscFunctionBegin;
@@ -306,7 +325,10 @@ static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Computes the direction of the next step; *ok: false if none has enough curvature, or no solver found it */
+/*
+   Computes the direction of the next step. *ok: false if no regularization gives enough curvature, or no solver found
+   the direction.
+*/
 PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -319,8 +341,10 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Scales d_j = |A_jj|, at least a small fraction of the largest, and a right-hand side b_j = sqrt(d_j) sin(...) whose
-   sines do not repeat. So b has a component in every direction, in any units. */
+/*
+   Computes sizes_j = |A_jj|, at least a small fraction of the largest entry, and b_j = sqrt(sizes_j) times the sine of
+   an irregular angle. In any units b has a component in every direction.
+*/
 static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
 {
   const PetscReal trace = 1e-12;
@@ -344,14 +368,16 @@ static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* Looks for a direction p of negative curvature, p^T A p < 0, by conjugate gradients with diagonal scaling, and stores
-   it in dir.x */
+/*
+   Looks for a direction p of negative curvature, p^T A p < 0, by conjugate gradients with diagonal scaling M, and
+   stores it in dir.x
+*/
 PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscInt  most     = 200;
   const PetscReal rounding = 1e-10;
-  Vec             p        = ip->dir.x, v[4]; /* r, M^-1 r, A p, M */
+  Vec             p        = ip->dir.x, v[4]; /* residual r, M^-1 r, A p, diagonal of M */
   PetscScalar     rz, before, pAp, pMp;
   PetscReal       first, norm;
 

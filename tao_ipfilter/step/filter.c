@@ -1,5 +1,7 @@
-/* The filter: pairs (theta, phi) of violation and barrier function. Later iterates must improve on each pair in one
-   of the two. */
+/*
+   The filter: pairs (theta, phi) of constraint violation and barrier function. A later iterate must improve on each
+   pair in theta or in phi.
+*/
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/search.h"
 
@@ -19,7 +21,7 @@ PetscErrorCode IPFilterSetDestroy(IPFilterSet *f)
   PetscFunctionReturn(0);
 }
 
-/* Adds a pair and removes those that it dominates */
+/* Adds a pair to the filter, and removes the pairs that are not better in theta or in phi */
 PetscErrorCode IPFilterSetAdd(IPFilterSet *f, PetscReal theta, PetscReal phi)
 {
   PetscInt kept = 0;

@@ -1,4 +1,4 @@
-/* A step of the problem without its bounds, used to predict a start between them. */
+/* Computes a Newton step of the problem without its bounds, to predict a start between the bounds */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -6,12 +6,15 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Solves for the step to a residual of a tenth. usable: false if the Hessian is not convex along it, or some of its
-   diagonal entries are not positive, so that no AMG can be set up */
+/*
+   Solves for the step to a relative residual of 0.1. *usable: false if the Hessian is not convex along the step, or
+   some of its diagonal entries are not positive, so that no AMG can be set up.
+*/
 static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal coarse = 0.1, singular = 1e-8; /* shift for a Hessian that may be singular without the bounds */
+  const PetscReal coarse = 0.1, singular = 1e-8; /* shift, relative to a diagonal entry, for a Hessian that may be
+                                                    singular without the bounds */
   PetscScalar     descent;
   PetscReal       norm, least;
   Vec             rhs;
@@ -37,7 +40,10 @@ static PetscErrorCode FreeSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* The trial point after the step, at a distance from the bounds that is limited by the distance between two bounds */
+/*
+   Computes the trial point after the step, moved to a distance `margin` inside the bounds, or to a quarter of the
+   distance between two bounds if that is less
+*/
 static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -67,8 +73,10 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
   PetscFunctionReturn(0);
 }
 
-/* Measures objective, gradient and unknowns after the step. They replace the reference values from the start,
-   which may be too large by orders of magnitude. */
+/*
+   Stores objective, gradient and unknowns after the step as the sizes of the start. Those of the given start may be too
+   large by orders of magnitude.
+*/
 static PetscErrorCode FreeMeasure(Tao tao)
 {
   IPFirst *first = ((TAO_IPFILTER *)tao->data)->first;
@@ -80,8 +88,10 @@ static PetscErrorCode FreeMeasure(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Moves x along the step if that reduces the objective. *energy: mean step x mean gradient at the new point, per
-   unknown */
+/*
+   Moves x along the step if that reduces the objective. *energy: mean step times mean gradient at the new point, per
+   unknown.
+*/
 PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;

@@ -1,6 +1,6 @@
 /*
-   Filter line search (Waechter and Biegler 2006, sections 2.3 and 2.4): fraction to the boundary, switching
-   condition, Armijo, and second-order correction.
+   Filter line search (Waechter and Biegler 2006, sections 2.3 and 2.4): fraction to the boundary, switching condition,
+   Armijo's condition, and second-order correction
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -12,8 +12,10 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Computes theta and phi at x + alpha dx, s + alpha ds. *finite: false if the callbacks returned no number; nothing
-   else is evaluated then */
+/*
+   Computes theta and phi at the trial point x + alpha dx, s + alpha ds. *finite: false if the caller's functions
+   returned no finite number.
+*/
 static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -33,8 +35,10 @@ static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, Pe
   PetscFunctionReturn(0);
 }
 
-/* Switching condition (-slope)^s_phi alpha > delta theta^s_theta: the expected decrease of the objective outweighs
-   the violation */
+/*
+   Returns whether the switching condition (-slope)^s_phi alpha > delta theta^s_theta holds: the expected decrease of
+   the barrier function outweighs the violation
+*/
 static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscReal slope)
 {
   if (slope >= 0.0) return PETSC_FALSE;
@@ -42,14 +46,16 @@ static PetscBool SearchSwitches(const TAO_IPFILTER *ip, PetscReal alpha, PetscRe
                      IP_DELTA_SWITCH * PetscPowReal(ip->search->theta / ip->search->theta_ref, IP_S_THETA));
 }
 
-/* The violation to which theta's limits are relative */
+/* Returns the violation to which the limits of theta are relative */
 static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 {
   return PetscMax(ip->opt->scaling == IP_SCALING_NONE ? 1.0 : ip->search->theta_ref, ip->search->theta0);
 }
 
-/* Largest allowed increase of the objective for a smaller violation. If there is hardly any violation left, it is
-   small. */
+/*
+   Returns the largest allowed increase of the barrier function for less violation. If hardly any violation remains,
+   only a small increase is allowed.
+*/
 static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
 {
   const IPSearch *search = ip->search;
@@ -60,9 +66,11 @@ static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
                                              : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
 }
 
-/* accepted: whether (theta, phi) at step alpha is acceptable. *objective: whether the reason is the objective: it
-   falls as the switching condition predicts, or there is no violation to reduce. Then the old iterate is not added to
-   the filter (Waechter and Biegler 2006, equations (18) to (20)). */
+/*
+   Finds whether the trial point with (theta, phi) at the step length alpha is acceptable. *objective: whether phi
+   decides, either because it falls as the switching condition predicts, or because there is no violation to reduce. In
+   this case the old iterate is not added to the filter (Waechter and Biegler 2006, equations (18) to (20)).
+*/
 static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal phi,
   PetscBool *accepted, PetscBool *objective)
 {
@@ -89,7 +97,7 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Smallest step worth trying (equation (23) there) */
+/* Returns the smallest step length worth trying (Waechter and Biegler 2006, equation (23)) */
 static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
 {
   const PetscReal theta = ip->search->theta / ip->search->theta_ref, descent = -slope / ip->search->phi_ref;
@@ -101,8 +109,11 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
   return PetscMax(IP_GAMMA_ALPHA * least, 1e-12);
 }
 
-/* Takes the accepted step: the trial point; multipliers of the constraints with alpha, those of the pairs with their
-   own step length. Very small slacks are increased slightly: J^T D J would otherwise dominate the Hessian. */
+/*
+   Moves the iterate to the trial point. The multipliers of the constraints take the step length alpha, those of the
+   pairs the step length `dual`. Very small slacks are increased slightly, since otherwise J^T D J would dominate the
+   Hessian.
+*/
 static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -137,8 +148,10 @@ static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
   PetscFunctionReturn(0);
 }
 
-/* Tests whether the constraints are nonlinear: for linear ones the residuals at the trial point are 1 - alpha times
-   the present ones */
+/*
+   Tests whether the constraints are nonlinear. For linear constraints the residuals at the trial point are 1 - alpha
+   times the present ones. Sets ip->bar->curved.
+*/
 static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -168,7 +181,10 @@ static PetscErrorCode SearchTestLinearity(Tao tao, PetscReal alpha)
   PetscFunctionReturn(0);
 }
 
-/* Takes the step, and adds the old iterate to the filter unless Armijo's condition decided */
+/*
+   Accepts the step. The old iterate is added to the filter unless `objective`, that is, unless phi decided. corrected:
+   the step is a second-order correction.
+*/
 static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, PetscBool objective, PetscBool corrected)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -180,8 +196,10 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
   PetscFunctionReturn(0);
 }
 
-/* Second-order corrections: a new direction from the residuals rc and ce of the first trial point, then of each
-   correction, added to those of the iterate */
+/*
+   Tries second-order corrections. Each solves for a new direction, with the residuals rc and ce plus those of the last
+   trial point. *ok: whether a correction was accepted.
+*/
 static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
   Vec rc, Vec ce, PetscBool *ok)
 {
@@ -213,8 +231,10 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
   PetscFunctionReturn(0);
 }
 
-/* Second-order correction (section 2.4 there), if the first trial point increases the violation. If no correction is
-   accepted the direction is unchanged. */
+/*
+   Tries second-order corrections (Waechter and Biegler 2006, section 2.4) if the first trial point increases the
+   violation. If none is accepted, the direction is restored.
+*/
 static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, PetscReal theta, PetscReal tau,
   PetscBool *ok)
 {
@@ -244,9 +264,11 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Clears the filter if the filter alone has shortened several descent steps in a row, because it then contains
-   iterates from another region. This is done a few times per solve (IPOPT's filter_reset_trigger and
-   max_filter_resets). */
+/*
+   Clears the filter if the filter alone has shortened several consecutive descent steps, since it then contains
+   iterates from another region. This is done at most five times per solve (IPOPT's filter_reset_trigger and
+   max_filter_resets).
+*/
 static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
 {
   const PetscInt patience = 5, limit = 5;
@@ -260,8 +282,11 @@ static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
   PetscFunctionReturn(0);
 }
 
-/* A step of the watchdog, if it is active: as long as the bounds allow, compared with the iterate at which such steps
-   began. *taken: whether there was a step, or the return to that iterate */
+/*
+   Takes a step of the watchdog, if it is active: the longest step that the bounds allow, without a test. The new point
+   is compared with the iterate at which the watchdog began. *taken: whether such a step was taken, or the iteration
+   returned to that iterate.
+*/
 static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, PetscReal dual, PetscBool *taken)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -289,7 +314,9 @@ static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, P
   PetscFunctionReturn(0);
 }
 
-/* Backtracks along the direction until the filter accepts; *ok: false if no step is acceptable */
+/*
+   Shortens the step along the direction until the filter accepts the trial point. *ok: false if no step is acceptable.
+*/
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -326,8 +353,10 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Continues from the trial point x + dir.x, which is not on the central path: multipliers are centred, with mu at
-   least a small fraction of the first mu */
+/*
+   Continues the iteration from the trial point x + alpha dir.x, which is not near the central path. The multipliers are
+   therefore moved to it, with mu at least a small fraction of the first mu.
+*/
 static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -344,8 +373,10 @@ static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
   PetscFunctionReturn(0);
 }
 
-/* Directions of slacks and distances to bounds that follow from dir.x. The multipliers of the constraints do not
-   change. */
+/*
+   Computes the directions of slacks and of distances to bounds that follow from dir.x. The multipliers of the
+   constraints do not change.
+*/
 static PetscErrorCode SearchFollow(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -361,7 +392,7 @@ static PetscErrorCode SearchFollow(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Raises the trial point's slacks to the values of their constraints, which curve away from their tangents */
+/* Raises the trial point's slacks to the values of their constraints, which curve away from their linearization */
 static PetscErrorCode SearchRaiseSlacks(Tao tao, PetscReal *theta, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -375,10 +406,12 @@ static PetscErrorCode SearchRaiseSlacks(Tao tao, PetscReal *theta, PetscReal *ph
   PetscFunctionReturn(0);
 }
 
-#define IP_LEAVE_MET 1e-2 /* violation, in its unit, that a point beside the path may have */
+#define IP_LEAVE_MET 1e-2 /* largest violation, in units of theta_ref, of a point that leaves the path */
 
-/* Leaves a stationary point along dir.x, a direction of negative curvature. The step is as long as the barrier
-   function falls and the constraints stay satisfied. *left: false if there is no such step */
+/*
+   Leaves a stationary point along dir.x, a direction of negative curvature. The longest step is taken for which the
+   barrier function falls and the constraints remain satisfied. *left: false if there is none.
+*/
 PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -412,8 +445,10 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
   PetscFunctionReturn(0);
 }
 
-/* Whether steps shrink by a constant factor only (linear convergence), which happens if gradient and Hessian vanish
-   together */
+/*
+   Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
+   curvature vanish at the same point.
+*/
 static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
 {
   const PetscReal quadratic = 0.2;
@@ -422,9 +457,11 @@ static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
     PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
 }
 
-/* If Newton's steps shrink slowly, gradient and curvature vanish together, and the point may be one of inflection.
-   Then this tests longer and longer steps along the last direction. If the barrier function falls there, the solve
-   continues from there. */
+/*
+   Tries to leave a point at which Newton's method converges only linearly. Such a point may be an inflection point.
+   Longer and longer steps along the last direction are tested. If the barrier function falls along them, the solve
+   continues from there. *left: whether it does.
+*/
 PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

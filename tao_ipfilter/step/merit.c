@@ -1,4 +1,6 @@
-/* The two merit functions of the line search: theta, the constraint violation, and phi, the barrier function. */
+/*
+   Computes the two merit functions of the line search: theta, the constraint violation, and phi, the barrier function
+*/
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/options.h"
@@ -6,7 +8,7 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* theta: weighted norm of c - s, and c_E, each relative to its reference */
+/* Computes theta, the norm of c - s in the weights m and of c_E times equality_weight */
 static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *theta)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -25,7 +27,7 @@ static PetscErrorCode MeritViolation(Tao tao, const IPIterate *it, PetscReal *th
   PetscFunctionReturn(0);
 }
 
-/* phi = f - mu sum w log t, with t of the pairs or their trial values */
+/* Computes phi = f - mu sum w log t, with t of the pairs, or with their trial values if `trial` */
 static PetscErrorCode MeritBarrier(Tao tao, PetscReal f, PetscBool trial, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -43,7 +45,10 @@ static PetscErrorCode MeritBarrier(Tao tao, PetscReal f, PetscBool trial, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Rounding error of phi: a few eps of phi itself and of the terms of a quadratic form with H's diagonal */
+/*
+   Estimates the rounding error of phi: a few machine epsilons times the larger one of |phi| and the terms of a
+   quadratic form with H's diagonal
+*/
 static PetscErrorCode MeritRounding(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -59,8 +64,10 @@ static PetscErrorCode MeritRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Rounding error of theta if all constraints are satisfied: a few eps of their values, and of the terms that cancel in
-   equality constraints */
+/*
+   Estimates the rounding error of theta if all constraints are satisfied: a few machine epsilons times the constraint
+   values and the terms that cancel in equality constraints
+*/
 static PetscErrorCode MeritViolationRounding(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -80,7 +87,7 @@ static PetscErrorCode MeritViolationRounding(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets the units of theta and phi, and theta at the first iterate, from which limits are derived */
+/* Sets the units of theta and phi, and theta0, the violation of the first iterate, from which limits are derived */
 static PetscErrorCode MeritUnits(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -115,7 +122,7 @@ PetscErrorCode IPMeritMeasure(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Derivative of the barrier function along the direction */
+/* Computes the derivative of the barrier function along the direction */
 PetscErrorCode IPMeritSlope(Tao tao, PetscReal *slope)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -133,7 +140,7 @@ PetscErrorCode IPMeritSlope(Tao tao, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* Computes theta and phi at the trial point, from values evaluated there */
+/* Computes theta and phi at the trial point, whose function values must have been evaluated */
 PetscErrorCode IPMeritMeasureTrial(Tao tao, PetscReal *theta, PetscReal *phi)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -144,7 +151,7 @@ PetscErrorCode IPMeritMeasureTrial(Tao tao, PetscReal *theta, PetscReal *phi)
   PetscFunctionReturn(0);
 }
 
-/* Adds the present iterate, with margins, to the filter */
+/* Adds the present iterate to the filter, with the margins of sufficient reduction */
 PetscErrorCode IPMeritFilterAdd(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,12 +1,14 @@
-/* A step of the penalized problem f + 1/2 sum m rho v^2, with violations v. Slacks and multipliers are predicted
-   from it. */
+/*
+   Computes a step of the penalized problem f + 1/2 sum m rho v^2 with violations v. Slacks and multipliers are
+   predicted from it.
+*/
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Pressures z = -rho v of a penalty with the constraints' stiffness, for constraint values c */
+/* Computes the pressures z = -rho v of a penalty with the constraints' stiffness rho. c: constraint values. */
 PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -18,7 +20,7 @@ PetscErrorCode IPPenaltyPressure(Tao tao, Vec c, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* Forces m z of these pressures */
+/* Computes the forces m z of these pressures */
 static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
 {
   PetscFunctionBegin;
@@ -27,7 +29,7 @@ static PetscErrorCode PenaltyPairForce(Tao tao, Vec c, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* norm: of the forces from constraints to unknowns after the step dx, by the linear model */
+/* Computes the norm of the forces that the constraints exert on the unknowns after the step dx, by the linear model */
 static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -47,7 +49,10 @@ static PetscErrorCode PenaltyTransmitted(Tao tao, PetscReal *norm)
   PetscFunctionReturn(0);
 }
 
-/* convex: whether the penalized problem is convex along dx, and if factors are available also by their inertia */
+/*
+   Finds whether the penalized problem is convex: its curvature along dx is positive, and available factors have no
+   negative pivots
+*/
 static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -67,7 +72,7 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
   PetscFunctionReturn(0);
 }
 
-/* Assembles the matrix and the right-hand side of the penalized problem */
+/* Assembles the matrix and the right-hand side of the penalized problem's Newton step */
 static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -84,8 +89,10 @@ static PetscErrorCode PenaltyAssemble(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* Solves for dx until the force residual is a fraction of the forces that the constraints transmit. usable: false if
-   the problem is not convex along dx */
+/*
+   Solves for dx until the residual of the forces is a fraction of the forces that the constraints exert. *usable: false
+   if the problem is not convex along dx.
+*/
 static PetscErrorCode PenaltyMinimize(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -112,7 +119,7 @@ static PetscErrorCode PenaltyMinimize(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* value: the penalized objective at an iterate, from its objective and constraints */
+/* Computes the penalized objective at x. it: gets the objective and the constraint values. */
 static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal *value)
 {
   PetscScalar penalty;
@@ -134,8 +141,10 @@ static PetscErrorCode PenaltyObjective(Tao tao, Vec x, IPIterate *it, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* hold: whether the models at x (quadratic for the objective, linear for the constraints) agree with the true values
-   at x + alpha dx. Always true for a quadratic program */
+/*
+   Finds whether the models at x (quadratic for the objective, linear for the constraints) agree with the true values at
+   x + alpha dx. They always do for a quadratic program.
+*/
 static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hold)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -166,9 +175,11 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscFunctionReturn(0);
 }
 
-/* Moves x towards the solution of the penalized problem. The step is limited by the bounds, and shortened until the
-   penalized objective falls. *moved: false if it does not fall, if the models do not hold at that distance, or if
-   equality constraints become more violated */
+/*
+   Moves x towards the solution of the penalized problem. The step is limited by the bounds, and halved until the
+   penalized objective falls. *moved: false if it does not fall, if the models do not hold at that distance, or if there
+   are equality constraints.
+*/
 PetscErrorCode IPPenaltyStep(Tao tao, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

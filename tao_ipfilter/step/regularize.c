@@ -1,6 +1,6 @@
 /*
-   Inertia-free regularization (Chiang and Zavala 2016). The direction must have enough curvature and the Krylov method
-   must not meet negative curvature; otherwise a growing delta M_u is added to the Hessian.
+   Regularizes the Hessian without using the inertia (Chiang and Zavala 2016). If the direction has too little
+   curvature, or the Krylov method meets negative curvature, delta M_u with a growing delta is added to the Hessian.
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -12,7 +12,10 @@
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Next delta. The first in a step: the last one, reduced. Later ones grow, faster until one has worked */
+/*
+   Returns the next delta. The first delta of a step is that of the last regularized step, reduced. Later ones grow,
+   with a larger factor as long as no delta has been successful in this solve.
+*/
 static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
 {
   if (ip->shift->delta == 0.0)
@@ -21,7 +24,7 @@ static PetscReal NextDelta(const TAO_IPFILTER *ip, PetscReal unit)
   return (ip->shift->last > 0.0 ? IP_DELTA_GROW : IP_DELTA_GROW_FIRST) * ip->shift->delta;
 }
 
-/* Unit of delta: typical diagonal entry of H / typical mass */
+/* Computes the unit of delta: a typical diagonal entry of H divided by a typical mass */
 static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -39,7 +42,7 @@ static PetscErrorCode DeltaUnit(Tao tao, PetscReal *unit)
   PetscFunctionReturn(0);
 }
 
-/* Starts or increases delta */
+/* Sets delta to its next value */
 PetscErrorCode IPRegularizeMore(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -62,8 +65,10 @@ void IPRegularized(TAO_IPFILTER *ip)
   ip->bar->curved = PETSC_TRUE;
 }
 
-/* least: smallest shift for which all diagonal entries of A are positive; below it A is not positive definite and no
-   AMG can be built. Negative if no shift is needed. NaN in the matrix is a failure */
+/*
+   Computes the smallest shift for which all diagonal entries of A are positive; negative if no shift is needed. With a
+   smaller shift A is not positive definite, and no AMG can be set up. NaN in the matrix is recorded as a failure.
+*/
 static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -82,8 +87,10 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
   PetscFunctionReturn(0);
 }
 
-/* Repeats assemble and solve with increasing delta, from `first` times its unit, until the solution is usable, and
-   reports whether it is. A failure of the solver is not cured by a larger delta. */
+/*
+   Calls assemble() and solve() with increasing delta until the solution is usable, and returns in *ok whether it is.
+   first: initial delta in its unit. If a solver fails the loop ends, since a larger delta would not help.
+*/
 PetscErrorCode IPRegularize(Tao tao, PetscReal          first, PetscErrorCode (*assemble)(Tao),
   PetscErrorCode (*solve)(Tao, PetscBool *), PetscBool *ok)
 {

@@ -1,8 +1,8 @@
 /*
-   Constraints without an interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to their solutions, and
-   slacks vanish before mu does. Then all inequality constraints, and beside equality constraints all bounds, are
-   relaxed, c_I + r >= 0, with r a hundredth of the tolerance times their size (Waechter and Biegler 2006, section
-   3.5, relax all problems from the start, and by more).
+   Relaxes constraints whose feasible set has no interior, such as x >= 0, y >= 0, -x y >= 0. No central path leads to
+   the solutions of such problems, and slacks vanish before mu does. All inequality constraints are then relaxed to c_I
+   + r >= 0 and, if there are equality constraints, all bounds as well. r is a hundredth of the tolerance times the size
+   of the constraints. (Waechter and Biegler 2006, section 3.5, relax all problems from the start, and by more.)
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -17,7 +17,10 @@
 #define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier is large if it exceeds the one that balances the gradient by this factor */
 
-/* Adds r to the slacks and moves pairs to the central path, because multipliers of vanishing slacks are useless */
+/*
+   Adds r to constraints and slacks, and moves the multipliers to the central path, since multipliers of vanishing
+   slacks are useless
+*/
 static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -38,14 +41,16 @@ static PetscErrorCode RelaxCenter(Tao tao, PetscReal r)
   PetscFunctionReturn(0);
 }
 
-/* Multiplier of one constraint that balances the objective's gradient, now or at the start */
+/* Returns the multiplier of one constraint that balances the objective's gradient, now or at the start */
 static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
 {
   return PetscMax(ip->scale->balance, ip->first->pressure);
 }
 
-/* Whether the smallest slack is as small as rounding, and its multiplier is larger than one that balances the
-   gradient */
+/*
+   Returns whether the smallest slack is as small as rounding, and its multiplier is larger than the one that balances
+   the gradient
+*/
 static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
 {
   const PetscReal larger = 10.0;
@@ -55,11 +60,14 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
     PetscBool)(ip->opt->scaling == IP_SCALING_NONE || ip->mu > larger * ip->relax->least_slack * RelaxBalance(ip));
 }
 
-/* vanished: constraints have no interior. Either a slack is of rounding size (RelaxRounding()). Or mu does not fall,
-   and the multiplier of a slack on the central path is too large for a constraint with an interior, compared with the
-   multiplier that balances the gradient of the objective. Or the multiplier of a bound is that large, and cancels the
-   multiplier of an equality constraint. At infeasible points this also happens in passing, so they are excluded.
-   Without scales there is no such comparison. */
+/*
+   Finds whether the constraints have no interior. There are three signs. First, a slack is as small as rounding, see
+   RelaxRounding(). Second, mu does not fall, and the multiplier of a slack on the central path is too large compared
+   with the one that balances the gradient of the objective. Third, the multiplier of a bound is that large, and cancels
+   the multiplier of an equality constraint.
+   At infeasible points these signs occur temporarily; such points are excluded. Without scales only the first sign can
+   be used.
+*/
 static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -78,7 +86,10 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
   PetscFunctionReturn(0);
 }
 
-/* The amount of relaxation, from the size of the constraints at the first relaxation */
+/*
+   Computes the amounts of relaxation: `fraction` of the tolerance times the size of the constraints at the first
+   relaxation, and times the size of the unknowns for bounds
+*/
 static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -107,8 +118,10 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes constraints and bounds by a fraction of the tolerance times their size. Reduces mu so that the relaxed
-   constraints permit it with large multipliers. */
+/*
+   Relaxes constraints and bounds by `fraction` of the tolerance times their size. Reduces mu such that large
+   multipliers of the relaxed constraints are still possible.
+*/
 static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -132,13 +145,13 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Whether there are constraints that may have no interior */
+/* Returns whether the problem has constraints that may lack an interior */
 static PetscBool RelaxApplies(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)));
 }
 
-/* Relaxes the constraints where a slack has vanished for some steps in a row though the KKT error has not */
+/* Relaxes the constraints if RelaxVanished() has been true for several consecutive iterates */
 PetscErrorCode IPRelax(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -153,7 +166,10 @@ PetscErrorCode IPRelax(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Relaxes if no next step was found and a slack has vanished. The second relaxation is by the full tolerance. */
+/*
+   Relaxes the constraints if no next step was found and a slack has vanished. The second relaxation is by the full
+   tolerance. *relaxed: whether this was done.
+*/
 PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,11 +1,11 @@
 /*
-   Feasibility restoration, if the line search finds no step: Levenberg-Marquardt steps for the violation
-
-     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,   v_i = min(c_I,i, 0), or c_I,i - range beyond an upper side.
-
-   Each step minimizes psi's Gauss-Newton model / zeta + 1/2 d^T (H + delta M_u) d - mu sum log(distances to bounds).
-   With the Hessian as metric an elastic body follows its surface. The matrix is the condensed one with D = m/zeta in
-   the violated rows, and the augmented one with delta = zeta/w^2, so that the same solvers can be used.
+   Feasibility restoration, used if the line search finds no step: Levenberg-Marquardt steps that reduce the violation
+     psi(x) = 1/2 sum_i m_i v_i^2 + 1/2 w^2 |c_E|^2,  v_i = min(c_I,i, 0), or c_I,i - range beyond an upper side.
+   Each step minimizes
+     (Gauss-Newton model of psi) / zeta + 1/2 d^T (H + delta M_u) d - mu sum log(distances to bounds).
+   With the Hessian as metric, the interior of an elastic body follows its surface. The matrix is the condensed one with
+   D = m/zeta in the violated rows, or the augmented one with delta = zeta/w^2, so that the solvers of Newton's method
+   can be used.
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -18,14 +18,14 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-#define IP_RESTORE_MAX    200  /* steps */
-#define IP_RESTORE_METRIC 0.1  /* smallest delta in the metric, in its unit, for Hessians without curvature */
-#define IP_RESTORE_SMALL  1e-3 /* psi may have a minimum where its relative gradient is below this */
+#define IP_RESTORE_MAX    200  /* largest number of restoration steps */
+#define IP_RESTORE_METRIC 0.1  /* smallest delta of the metric, in its unit; needed for Hessians without curvature */
+#define IP_RESTORE_SMALL  1e-3 /* psi may have a minimum if its relative gradient is below this value */
 #define IP_RESTORE_DROWNED \
-  1e8 /* if multipliers made the Hessian larger by more than this factor, the objective has no influence on steps */
-#define IP_RESTORE_LEAST 1e-6 /* psi has a minimum where its relative gradient is below this and it does not fall */
+  1e8 /* if multipliers have enlarged the Hessian by more than this factor, the objective no longer affects the steps */
+#define IP_RESTORE_LEAST 1e-6 /* psi has a minimum if its relative gradient is below this value and psi does not fall */
 
-/* psi at an iterate */
+/* Computes psi of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -44,7 +44,7 @@ static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *
   PetscFunctionReturn(0);
 }
 
-/* Gradient of psi at the present point */
+/* Computes the gradient of psi at the present point */
 static PetscErrorCode RestoreGradient(Tao tao, Vec g)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -68,7 +68,7 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
   PetscFunctionReturn(0);
 }
 
-/* Assembles the matrix: D = m/zeta in violated rows, 0 in the others */
+/* Assembles the matrix of a restoration step, with D = m/zeta in violated rows and 0 in the others */
 static PetscErrorCode RestoreAssemble(Tao tao)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -97,7 +97,7 @@ static PetscErrorCode RestoreAssemble(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Right-hand side: the forces -J^T D v of the violation, and those of the bounds */
+/* Computes the right-hand side: the forces -J^T D v of the violation, and those of the bounds */
 static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -117,7 +117,7 @@ static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
   PetscFunctionReturn(0);
 }
 
-/* Solves for the step. usable: whether it reduces the violation or the barrier function of the bounds */
+/* Solves for the step. *usable: whether the step reduces the violation or the barrier function of the bounds. */
 static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -140,9 +140,11 @@ static PetscErrorCode RestoreSolve(Tao tao, PetscBool *usable)
   PetscFunctionReturn(0);
 }
 
-/* Backtracks inside the bounds until psi falls. *psi: its new value; *alpha: 0 if it does not fall. zeta is increased
-   the more, the less the model agreed with psi. It is reduced after a full step whose decrease is near the predicted
-   one (half of the slope). */
+/*
+   Shortens the step inside the bounds until psi falls. *psi: its new value; *alpha: step length, 0 if psi does not
+   fall. zeta is increased if the step had to be halved, by a larger factor for more than one halving. It is reduced
+   after a step of almost full length whose decrease is near the predicted one, half of the slope.
+*/
 static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, PetscReal *alpha)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -172,7 +174,7 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
   PetscFunctionReturn(0);
 }
 
-/* Takes x, constraint values and derivatives of the trial point */
+/* Moves to the trial point and evaluates the derivatives there */
 static PetscErrorCode RestoreTakeTrial(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -184,8 +186,10 @@ static PetscErrorCode RestoreTakeTrial(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses slacks for the present x: the constraint's value if that is well inside, else the slack of the central
-   path, limited so that the violation stays well below theta0 */
+/*
+   Chooses slacks for the present x: the constraint's value if that is well inside, and the slack of the central path
+   otherwise. The latter is limited such that the violation remains well below theta0.
+*/
 static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
@@ -215,7 +219,7 @@ static PetscErrorCode RestoreChooseSlacks(Tao tao, PetscReal theta0)
   PetscFunctionReturn(0);
 }
 
-/* accepted: whether the filter accepts the present x with matching slacks, at clearly less violation than theta0 */
+/* Finds whether the filter accepts the present x with suitable slacks, and the violation is clearly below theta0 */
 static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accepted)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -236,7 +240,7 @@ static PetscErrorCode RestoreAccepts(Tao tao, PetscReal theta0, PetscBool *accep
   PetscFunctionReturn(0);
 }
 
-/* Sets the slacks and multipliers with which the iteration continues */
+/* Sets the slacks and multipliers with which the interior point iteration continues */
 static PetscErrorCode RestoreLeave(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -253,7 +257,7 @@ static PetscErrorCode RestoreLeave(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* growth: size of the Hessian relative to that at the start; multipliers that grow without limit enlarge it */
+/* Computes the size of the Hessian relative to that at the start. Multipliers that grow without limit enlarge it. */
 static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -271,7 +275,7 @@ static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
   PetscFunctionReturn(0);
 }
 
-/* Uses the Hessian of the objective alone as metric */
+/* Evaluates the Hessian without multipliers, so that the metric is that of the objective alone */
 static PetscErrorCode RestoreForgetMultipliers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -284,7 +288,10 @@ static PetscErrorCode RestoreForgetMultipliers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Initial zeta: makes the metric and the model of the violation equally large, by the stiffness of the constraints */
+/*
+   Chooses the initial zeta such that the metric and the model of the violation are of equal size, using the stiffness
+   of the constraints
+*/
 static PetscErrorCode RestoreFirstZeta(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -304,8 +311,10 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets those entries of psi's gradient to zero where a bound stops the descent before psi changes by more than
-   max_change */
+/*
+   Sets those entries of psi's gradient to zero for which a bound stops the descent before psi changes by more than
+   max_change
+*/
 static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal max_change)
 {
   const PetscScalar *t;
@@ -324,8 +333,10 @@ static PetscErrorCode RestoreProject(Vec gradient, const IPPair *p, PetscReal ma
   PetscFunctionReturn(0);
 }
 
-/* relative: |J^T r| / (|J| |r|) without the parts stopped by bounds, with |J| from the start of the restoration; 0
-   where psi is stationary */
+/*
+   Computes |J^T r| / (|J| |r|) without the components that bounds stop; 0 if psi is stationary. size: |J| at the start
+   of the restoration.
+*/
 static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal psi, PetscReal *relative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -344,7 +355,7 @@ static PetscErrorCode RestoreRelativeGradient(Tao tao, PetscReal size, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* size: |J| in the weights of psi, the larger of here and the start of the solve */
+/* Computes |J| in the weights of psi, at the present point or at the start of the solve, whichever is larger */
 static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -365,7 +376,7 @@ static PetscErrorCode RestoreJacobianSize(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* slope: derivative of psi along dx */
+/* Computes the derivative of psi along dx */
 static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -381,8 +392,10 @@ static PetscErrorCode RestoreSlope(Tao tao, PetscReal *slope)
   PetscFunctionReturn(0);
 }
 
-/* One restoration step; updates psi. *alpha: its length; *gradient: the relative gradient before it. *descent: false
-   if the barrier function of the bounds made the step increase the violation */
+/*
+   Makes one restoration step and updates psi. *alpha: its length; *gradient: relative gradient before the step;
+   *descent: false if the barrier function of the bounds makes the step increase the violation.
+*/
 static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, PetscReal *alpha, PetscReal *gradient,
   PetscBool *descent)
 {
@@ -404,8 +417,10 @@ static PetscErrorCode RestoreStep(Tao tao, PetscReal size, PetscReal *psi, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Steps until the filter accepts the point (ok), or the violation no longer falls (stuck). *least: the smallest
-   relative gradient, which may keep falling */
+/*
+   Makes restoration steps until the filter accepts the point (*ok), or the violation no longer falls (*stuck). *least:
+   smallest relative gradient since psi last fell; it may still fall while psi does not.
+*/
 static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, PetscBool *ok, PetscBool *stuck,
   PetscReal *least)
 {
@@ -443,8 +458,8 @@ static PetscErrorCode RestoreIterate(Tao tao, PetscReal theta0, PetscReal *psi, 
 }
 
 /*
-   Reduces the violation until the filter accepts the point. *ok: whether it did. *infeasible: if not, whether the
-   violation has a local minimum that is not zero: it no longer falls and its projected gradient is small
+   Reduces the violation until the filter accepts the point. *ok: whether it does. *infeasible: if not, whether the
+   violation has a local minimum that is not zero, that is, it no longer falls and its projected gradient is small.
 */
 PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
 {
@@ -459,7 +474,8 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
   PetscCall(RestoreFirstZeta(tao));
   PetscCall(RestoreViolation(tao, &ip->at, &psi));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &ip->restore->D));
-  PetscCall(RestoreAccepts(tao, theta0, ok)); /* possibly only the slacks are far from the constraints' values */
+  PetscCall(RestoreAccepts(tao, theta0, ok)); /* It is possible that only the slacks are far from the constraints'
+                                                 values. */
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore->D));
   *infeasible =

@@ -1,4 +1,4 @@
-/* Initial values of slacks and multipliers. */
+/* Chooses the initial slacks, multipliers and mu */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -8,9 +8,9 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-#define IP_LEAST_START 1e-10 /* initial gap of the pairs, relative to the terms of the objective */
+#define IP_LEAST_START 1e-10 /* least initial complementarity gap, relative to the terms of the objective */
 
-/* Cold start with given constants: s = s0, z = z0, lambda = 0, mu = mu0; t of bounds is unchanged */
+/* Cold start with given constants: s = s0, z = z0, lambda = 0, mu = mu0. The distances t of bounds are unchanged. */
 static PetscErrorCode StartCold(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -27,7 +27,7 @@ static PetscErrorCode StartCold(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* mean: weighted mean of rho q^2 (length x pressure) for constraint values within reach */
+/* Computes the weighted mean of rho q^2 (length x pressure). Rows with q out of reach count as zero. */
 static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -47,7 +47,7 @@ static PetscErrorCode MeanProduct(Tao tao, Vec q, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Weighted mean of |v| */
+/* Computes the weighted mean of |v| */
 static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
 {
   IPPair *slack = &((TAO_IPFILTER *)tao->data)->pair[IP_SLACK];
@@ -62,7 +62,7 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Weighted mean of the constraints' values within reach */
+/* Computes the weighted mean of the constraints' absolute values. Rows out of reach count as zero. */
 static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
 {
   Vec near;
@@ -75,7 +75,10 @@ static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* The pressure, equal in all rows, that balances the gradient where the gradient is large: (g, g) / (|g|, |J|^T w) */
+/*
+   Computes the pressure that, equal in all rows, balances the gradient g in the unknowns where g is large: (g, g) /
+   (|g|, |J|^T w)
+*/
 static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -96,8 +99,11 @@ static PetscErrorCode GradientPressure(Tao tao, PetscReal *pressure)
   PetscFunctionReturn(0);
 }
 
-/* Stiffness without a penalty step, or if the objective has no curvature: that pressure divided by the constraints'
-   mean value, or, if all values are zero, by a fraction of their terms */
+/*
+   Chooses the stiffness rho if there was no penalty step, or the objective has no curvature: the pressure of
+   GradientPressure() divided by *length, the constraints' mean value. If that is zero, *length becomes a fraction of
+   the mean of the constraints' terms.
+*/
 static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -116,13 +122,16 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
   PetscFunctionReturn(0);
 }
 
-/* bound: mean product per pair of bounds: the work of the forces on the way to the bounds. Used if the objective is
-   almost linear, so that only the bounds end the iteration */
+/*
+   Computes the mean product t z of a pair of bounds, if z balances the gradient: the work of the gradient on the way to
+   the bounds, divided by the number of bounds. Only unknowns count for which the objective is almost linear, so that
+   only the bounds stop them.
+*/
 static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal    linear = 100.0; /* Newton steps longer than this many times the distance to bounds count as a
-                                        linear objective */
+  const PetscReal    linear = 100.0; /* an objective is almost linear if its Newton step is more than this many times
+                                        the distance to the bound */
   PetscReal          sum[2] = {0.0, 0.0};
   const PetscScalar *g, *h, *t;
   PetscInt           n;
@@ -151,8 +160,10 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
-/* Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Used if mu
-   was computed from the bounds alone */
+/*
+   Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Needed if mu
+   was computed from the bounds alone.
+*/
 static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -168,9 +179,11 @@ static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
   PetscFunctionReturn(0);
 }
 
-/* Predicted start: s and z from the constraints' values after the penalty step, moved to the central path; mu is a
-   fraction of length x pressure there. If all constraints happen to be active this gives zero. The pairs then start
-   with a gap that is noticeable relative to the objective. */
+/*
+   Predicted start: s and z follow from the constraints' values after a penalty step and are moved to the central path.
+   mu is a fraction of length x pressure there. If all constraints happen to be active this mu is zero; the pairs then
+   start with a complementarity gap that is noticeable relative to the objective.
+*/
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -206,8 +219,10 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* mismatch: how badly the caller's s and z fit x: the larger of the relative force imbalance and |c - s| / |c|, at
-   most 1 */
+/*
+   Computes how badly the caller's s and z fit x: the relative force imbalance or |c - s| / |c|, whichever is larger, at
+   most 1
+*/
 static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -226,8 +241,10 @@ static PetscErrorCode WarmMismatch(Tao tao, PetscReal *mismatch)
   PetscFunctionReturn(0);
 }
 
-/* solves: whether the caller's slacks and multipliers (almost) solve the problem. They are then kept, and mu is
-   their mean product */
+/*
+   Finds whether the caller's slacks and multipliers almost solve the problem. They are then used unchanged, and mu is
+   their mean product.
+*/
 static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
 {
   TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
@@ -249,8 +266,10 @@ static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
   PetscFunctionReturn(0);
 }
 
-/* Warm start from the caller's s and z. Pairs are moved to the central path, keeping s - z/rho; the worse they fit
-   x, the farther from the boundary */
+/*
+   Warm start from the caller's s and z. The pairs are moved to the central path such that s - z/rho is unchanged. The
+   worse they fit x, the larger is mu.
+*/
 static PetscErrorCode StartWarm(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -281,7 +300,10 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Warm start from the caller's multipliers of the bounds, if there are no rows; mu is chosen as for rows */
+/*
+   Warm start from the caller's multipliers of the bounds, if there are no inequality constraints. mu is chosen as in
+   StartWarm().
+*/
 static PetscErrorCode StartWarmBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -296,7 +318,10 @@ static PetscErrorCode StartWarmBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets mu (from the rows, if any) and multipliers of the bounds, if the caller gave none */
+/*
+   Sets the multipliers of the bounds to mu / t if the caller gave none. Without inequality constraints mu is chosen as
+   well.
+*/
 static PetscErrorCode StartBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -316,7 +341,10 @@ static PetscErrorCode StartBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* If the objective is linear, the curvature is that of the constraints with their first multipliers */
+/*
+   If the objective is linear, computes the stiffness again, from the curvature of the constraints with their first
+   multipliers
+*/
 static PetscErrorCode StartCurvature(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -334,7 +362,10 @@ static PetscErrorCode StartCurvature(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets initial slacks, multipliers and mu. Needs the Hessian at x for the stiffness of the constraints. */
+/*
+   Sets the initial slacks, multipliers and mu. The Hessian at x must be evaluated, since the stiffness of the
+   constraints depends on it.
+*/
 PetscErrorCode IPStartPoint(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/step, one step: filter, barrier, direction, line search, restoration. Files are in the order in which
-   they depend on each other; they use the folders below.
+   tao_ipfilter/step: one step, with filter, barrier, direction, line search, and restoration. The files are listed such
+   that each depends only on those before it and on the folders above this one in ipfilterimpl.h.
 */
 #ifndef IPFILTER_STEPIMPL_H
 #define IPFILTER_STEPIMPL_H

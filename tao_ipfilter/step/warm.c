@@ -1,11 +1,13 @@
-/* Warm start from the caller's multipliers of bounds and equality constraints, so that a solved problem ends at
-   once. */
+/*
+   Warm start from the caller's multipliers of bounds and equality constraints. A problem that is already solved then
+   ends at once.
+*/
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* Copies the multipliers of the bounds into the pairs, divided by the weights */
+/* Sets the pairs' multipliers of the bounds to the caller's, divided by the weights */
 PetscErrorCode IPWarmSetBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -22,7 +24,10 @@ PetscErrorCode IPWarmSetBounds(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether multipliers of all equality constraints are given, including rows with equal bounds */
+/*
+   Returns whether the caller has given multipliers of all equality constraints, including those of rows with equal
+   bounds
+*/
 PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
 {
   const PetscBool own = (PetscBool)(ip->me > ip->sides->nall);
@@ -31,7 +36,7 @@ PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
                      (!ip->sides->nall || ip->given->warm_s));
 }
 
-/* Those multipliers */
+/* Sets the multipliers of the equality constraints to the caller's */
 PetscErrorCode IPWarmSetEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -43,7 +48,7 @@ PetscErrorCode IPWarmSetEquality(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* mean: mean distance to the bounds x mean multiplier, over all bounds */
+/* Computes the mean distance to the bounds times the mean multiplier, over all bounds */
 PetscErrorCode IPWarmMeanProduct(Tao tao, PetscReal *mean)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -73,8 +78,10 @@ PetscErrorCode IPWarmMeanProduct(Tao tao, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Moves pairs with a product far below mu to the central path: if z is large relative to the stiffness of the
-   Hessian (rho: |diagonal of H|), z is kept and x moves; otherwise z changes */
+/*
+   Moves pairs with a product far below mu to the central path. If z is large relative to the stiffness of the Hessian,
+   z is unchanged and x moves; otherwise z changes. *moved: whether an x has moved on this rank.
+*/
 static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBool *moved)
 {
   const PetscReal    least = 1e-2;
@@ -108,7 +115,10 @@ static PetscErrorCode WarmCenterPairs(Tao tao, IPPair *p, PetscReal mu, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* Does this for all bounds; evaluates everything again if x has moved */
+/*
+   Moves the pairs of all bounds to the central path, see WarmCenterPairs(). If x has moved, objective, constraints and
+   derivatives are evaluated again.
+*/
 PetscErrorCode IPWarmCenterBounds(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

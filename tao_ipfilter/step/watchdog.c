@@ -1,18 +1,19 @@
 /*
-   A watchdog (Chamberlain, Powell, Lemarechal and Pedersen 1982; in IPOPT's implementation, Waechter and Biegler 2006,
-   section 3.2). Where the line search has shortened many steps in a row, steps as long as the bounds allow are taken
-   without test. If one of them is acceptable compared with the iterate at which that began, the iteration goes on from
-   there. Otherwise it returns to that iterate, and the watchdog waits longer before it tries again.
+   Watchdog (Chamberlain, Powell, Lemarechal and Pedersen 1982; implemented as in IPOPT, Waechter and Biegler 2006,
+   section 3.2). If the line search has shortened many consecutive steps, a few steps are taken without a test, as long
+   as the bounds allow. If one of the new points is acceptable compared with the iterate at which these steps began, the
+   iteration continues from it. Otherwise the iteration returns to that iterate, and more shortened steps are needed
+   before the next attempt.
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/search.h"
 
-#define IP_WATCHDOG_PATIENCE 10 /* shortened steps in a row, at first */
-#define IP_WATCHDOG_STEPS    3  /* steps without test */
+#define IP_WATCHDOG_PATIENCE 10 /* number of consecutive shortened steps before the first attempt */
+#define IP_WATCHDOG_STEPS    3  /* number of steps without a test */
 
-/* Vectors like those of the other iterate; NULL where that has none */
+/* Creates a vector like `from`; nothing if `from` is NULL */
 static PetscErrorCode WatchdogDuplicate(Vec from, Vec *to)
 {
   PetscFunctionBegin;
@@ -34,7 +35,7 @@ static PetscErrorCode WatchdogKeep(const IPIterate *at, IPIterate *kept)
   PetscFunctionReturn(0);
 }
 
-/* Ends the steps without test, if there are any; the iteration goes on from the present iterate */
+/* Ends the steps without a test, if there are any. The iteration continues from the present iterate. */
 PetscErrorCode IPWatchdogEnd(IPWatchdog *watch)
 {
   PetscFunctionBegin;
@@ -43,8 +44,10 @@ PetscErrorCode IPWatchdogEnd(IPWatchdog *watch)
   PetscFunctionReturn(0);
 }
 
-/* Begins steps without test if enough steps have been shortened; ends them if mu has changed. alpha: length of the
-   first one; slope: derivative of the barrier function along it */
+/*
+   Begins the steps without a test if enough consecutive steps were shortened; ends them if mu has changed. alpha:
+   length of the first of these steps; slope: derivative of the barrier function along it.
+*/
 PetscErrorCode IPWatchdogBegin(Tao tao, PetscReal alpha, PetscReal slope)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -65,7 +68,7 @@ PetscErrorCode IPWatchdogBegin(Tao tao, PetscReal alpha, PetscReal slope)
   PetscFunctionReturn(0);
 }
 
-/* Returns to the iterate at which the steps without test began; *returned: whether there were any */
+/* Returns to the iterate at which the steps without a test began. *returned: false if there are no such steps. */
 PetscErrorCode IPWatchdogReturn(Tao tao, PetscBool *returned)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

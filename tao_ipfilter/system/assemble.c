@@ -1,16 +1,18 @@
 /*
-   Assembly of the condensed matrix A = H + ... + J^T D J. A has H's type, with two exceptions. It is AIJ for a dense H.
-   It is BAIJ on one process for an SBAIJ H, unless the preconditioner factors SBAIJ; H then takes half the memory,
-   while products with A and hypre work on full rows. A's pattern is the union of those of H and J^T J and is
-   preallocated. While H is unchanged only rows with entries of J^T D J are written again, so a constant H is copied
-   once.
+   Assembles the condensed matrix A = H + ... + J^T D J. A has the type of H, with two exceptions. For a dense H it is
+   AIJ. For an SBAIJ H on one process it is BAIJ, unless the preconditioner factors SBAIJ: H then takes half the memory,
+   while products with A and hypre use full rows.
+   The pattern of A is the union of those of H and J^T J, and A is preallocated for it. While H is unchanged, only rows
+   with entries of J^T D J are written again; a constant H is therefore copied once.
 */
 #include "systemimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/matrices.h"
 
-/* Sorted union of the block columns of block row ib in H and in J^T D J, and the diagonal; upper: from the diagonal
-   on */
+/*
+   Computes the sorted block columns of block row ib of A: those of H and of C = J^T D J (may be NULL), and the diagonal
+   block. upper: only columns from the diagonal on.
+*/
 static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs, PetscBool upper, PetscInt *n,
   PetscInt cols[])
 {
@@ -38,7 +40,10 @@ static PetscErrorCode CondensedRowPattern(Mat H, Mat C, PetscInt ib, PetscInt bs
   PetscFunctionReturn(0);
 }
 
-/* Upper bound of a block row's pattern: longest row of H plus that of J^T D J, times the block size */
+/*
+   Computes an upper bound of the number of block columns of a block row: the longest row of H plus the longest row of
+   C, times the block size, plus one
+*/
 static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *longest)
 {
   PetscInt rstart, rend, h = 0, c = 0;
@@ -60,7 +65,7 @@ static PetscErrorCode CondensedLongestRow(Mat H, Mat C, PetscInt bs, PetscInt *l
   PetscFunctionReturn(0);
 }
 
-/* Lengths of the block rows of the union pattern: in this rank's columns (dnz), and in others (onz) */
+/* Counts the blocks of each block row of A: in columns of this rank (dnz), and in columns of other ranks (onz) */
 static PetscErrorCode CondensedCountBlocks(Mat H, Mat C, PetscInt bs, PetscBool upper, PetscInt dnz[], PetscInt onz[])
 {
   PetscInt rstart, rend, longest = 0, *cols;
@@ -86,7 +91,10 @@ static PetscErrorCode CondensedCountBlocks(Mat H, Mat C, PetscInt bs, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* The type of A for a Hessian of H's type, and whether it consists of blocks, or of the upper triangle of blocks */
+/*
+   Chooses the type of A for a Hessian of the type of H. *baij: it stores blocks; *sbaij: it stores the upper triangle
+   of blocks.
+*/
 static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij, PetscBool *sbaij)
 {
   PetscBool aij, dense;
@@ -103,7 +111,7 @@ static PetscErrorCode CondensedChooseType(Mat H, MatType *type, PetscBool *baij,
   PetscFunctionReturn(0);
 }
 
-/* Creates A, preallocated for the union pattern */
+/* Creates A, preallocated for the union of the patterns of H and C */
 static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
 {
   PetscInt     bs = 1, hbs, m, n, M, N, *dnz, *onz;
@@ -138,7 +146,7 @@ static PetscErrorCode CondensedCreate(Mat H, Mat C, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* Sets the entries of A in the pattern of C to zero */
+/* Sets the entries of A in the pattern of C to zero, for the given rows */
 static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const PetscInt rows[])
 {
   PetscScalar *zeros = NULL;
@@ -162,7 +170,7 @@ static PetscErrorCode CondensedZeroTouched(Mat A, Mat C, PetscInt nrows, const P
   PetscFunctionReturn(0);
 }
 
-/* unfolds: whether H stores its upper triangle only and A needs full rows */
+/* Finds whether H stores its upper triangle only while A needs full rows */
 static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
 {
   PC        pc;
@@ -177,7 +185,7 @@ static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
   PetscFunctionReturn(0);
 }
 
-/* A_r = H_r or A_r += H_r for one row */
+/* Sets (INSERT_VALUES) or adds (ADD_VALUES) one row of H to A */
 static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
 {
   const PetscInt    *c;
@@ -191,8 +199,10 @@ static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
   PetscFunctionReturn(0);
 }
 
-/* Adds one row of an upper triangle and its mirror image. Entries with c < row are added with row c if that is
-   written too */
+/*
+   Inserts one row of an upper triangle, and its mirror image as a column. Entries left of the diagonal are inserted by
+   the row that holds them in the upper triangle, if that row is written too.
+*/
 static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
 {
   const PetscInt    *c;
@@ -207,7 +217,10 @@ static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
   PetscFunctionReturn(0);
 }
 
-/* Copies a BAIJ matrix by block rows; stacked scalar rows have the format of MatSetValuesBlocked() */
+/*
+   Copies a BAIJ matrix by block rows. The scalar rows of a block row, one after the other, have the format of
+   MatSetValuesBlocked().
+*/
 static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
 {
   PetscScalar *values = NULL;
@@ -238,7 +251,7 @@ static PetscErrorCode CopyBlocked(Mat A, Mat H, PetscInt bs)
   PetscFunctionReturn(0);
 }
 
-/* Writes all of H into A */
+/* Inserts all of H into A */
 static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
 {
   PetscInt  rstart, rend, bs;
@@ -259,7 +272,7 @@ static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
   PetscFunctionReturn(0);
 }
 
-/* Writes the rows of H that have entries of J^T D J into A */
+/* Inserts those rows of H into A in which J^T D J has entries. unfolds: H stores its upper triangle only. */
 static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBool unfolds)
 {
   PetscBool sbaij;
@@ -275,7 +288,10 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* Writes H into A: all of it for a new pattern or new values; otherwise only the entries that J^T D J changed */
+/*
+   Inserts H into A: all of it if the pattern or the values are new; otherwise only the rows that were changed by J^T D
+   J
+*/
 PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool values)
 {
   IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
@@ -302,7 +318,7 @@ PetscErrorCode IPCondensedWriteHessian(Tao tao, PetscBool pattern, PetscBool val
   PetscFunctionReturn(0);
 }
 
-/* A += J^T D J, after entries were inserted into A */
+/* Adds J^T D J to A, after entries were inserted into A */
 PetscErrorCode IPCondensedAddProduct(IPCondensed *cond)
 {
   PetscFunctionBegin;

@@ -1,10 +1,7 @@
 /*
    The condensed system. Elimination of slacks and multipliers from the Newton system gives A d = b with
-
      A = H + Sigma + J^T D J + delta M_u,   D = M_s z/s,
      b = -grad f + J^T (M_s target/s - D (c - s)) + bound terms.
-
-   assemble.c assembles A.
 */
 #include "systemimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -29,7 +26,7 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscFunctionReturn(0);
 }
 
-/* Finds the local rows with entries of J^T D J */
+/* Lists the local rows with entries of J^T D J */
 static PetscErrorCode TouchedRows(IPCondensed *cond)
 {
   PetscInt rstart, rend;
@@ -54,7 +51,7 @@ static PetscErrorCode TouchedRows(IPCondensed *cond)
   PetscFunctionReturn(0);
 }
 
-/* Computes J^T D J and its local rows; *changed: its pattern is new */
+/* Computes J^T D J and lists its local rows. *changed: its pattern is new. */
 static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
 {
   const IPRows *rows = &cond->rows;
@@ -76,7 +73,7 @@ static PetscErrorCode UpdateProduct(IPCondensed *cond, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Drops the product if no rows are condensed any longer */
+/* Destroys the product J^T D J, and A with it, if no rows are condensed any longer */
 static PetscErrorCode DropProduct(IPCondensed *cond)
 {
   PetscFunctionBegin;
@@ -89,7 +86,7 @@ static PetscErrorCode DropProduct(IPCondensed *cond)
   PetscFunctionReturn(0);
 }
 
-/* shift = Sigma of the bounds + delta M_u; *shifted: whether it is not zero */
+/* Computes shift = Sigma of the bounds + delta M_u. *shifted: whether it is not zero. */
 static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -117,7 +114,7 @@ static PetscErrorCode UpdateShift(Tao tao, PetscBool *shifted)
   PetscFunctionReturn(0);
 }
 
-/* Writes A's diagonal: that of H plus the shift. The first zero shift after a non-zero one restores H's diagonal. */
+/* Inserts A's diagonal: that of H plus the shift. If only the last shift was not zero, this restores H's diagonal. */
 static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -137,14 +134,14 @@ static PetscErrorCode WriteDiagonal(Tao tao, PetscBool shifted)
   PetscFunctionReturn(0);
 }
 
-/* Whether nothing is ever added to H, so that A = H */
+/* Returns whether nothing is added to H, so that A = H */
 static PetscBool Unconstrained(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(!ip->mi && !ip->prox->condensed && !ip->fixed && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n &&
                      ip->shift->delta == 0.0);
 }
 
-/* A = H, without a copy */
+/* Sets A to a reference to H */
 static PetscErrorCode TakeHessian(Tao tao)
 {
   IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;
@@ -158,7 +155,7 @@ static PetscErrorCode TakeHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* A = H + Sigma + J^T D J + delta M_u; writes only what has changed */
+/* Computes A = H + Sigma + J^T D J + delta M_u, and writes only what has changed */
 static PetscErrorCode WriteSum(Tao tao)
 {
   TAO_IPFILTER    *ip   = (TAO_IPFILTER *)tao->data;
@@ -205,7 +202,7 @@ static PetscErrorCode WriteOperator(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Assembles A for the weights D of the inequality constraints */
+/* Assembles A. D: weights of the inequality constraints. */
 PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -222,7 +219,10 @@ PetscErrorCode IPCondenseMatrix(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Right-hand side b for the primal residual rc (c - s, or that of a second-order correction) and the pairs' targets */
+/*
+   Computes the right-hand side b for the pairs' targets and the primal residual rc: c - s, or that of a second-order
+   correction
+*/
 PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -246,7 +246,10 @@ PetscErrorCode IPCondenseRHS(Tao tao, Vec rc, Vec b)
   PetscFunctionReturn(0);
 }
 
-/* Directions of slacks, multipliers and bounds from dx: ds = J dx + rc, lambda + dlambda = target/s - (z/s) ds */
+/*
+   Computes the directions of slacks, multipliers and bounds from dx: ds = J dx + rc, lambda + dlambda = target/s -
+   (z/s) ds
+*/
 PetscErrorCode IPBackSubstitute(Tao tao, Vec rc)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

@@ -1,11 +1,13 @@
-/* The condensed matrix for a Hessian that only has products: H + Sigma + J^T D J + delta M_u as a MATSHELL, with its
-   diagonal. */
+/*
+   The condensed matrix for a Hessian that only has products: H + Sigma + J^T D J + delta M_u as a MATSHELL with a
+   diagonal
+*/
 #include "systemimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
-/* y = J^T D J x + y */
+/* Adds J^T D J x to y */
 static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)
 {
   IPRows *rows = &((TAO_IPFILTER *)tao->data)->cond->rows;
@@ -21,7 +23,9 @@ static PetscErrorCode OperatorAddRows(Tao tao, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* y = A x; fixed variables are removed and get a diagonal entry of the Hessian's size */
+/*
+   Computes y = A x. Fixed variables are removed: their rows hold only a diagonal entry, of the size of the Hessian's.
+*/
 static PetscErrorCode OperatorMult(Mat A, Vec x, Vec y)
 {
   TAO_IPFILTER *ip;
@@ -49,7 +53,7 @@ static PetscErrorCode OperatorMult(Mat A, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* d += diagonal of J^T D J */
+/* Adds the diagonal of J^T D J to d */
 static PetscErrorCode OperatorAddRowsDiagonal(const IPRows *rows, Vec d)
 {
   const PetscScalar *weight;
@@ -88,8 +92,10 @@ static PetscErrorCode OperatorGetDiagonal(Mat A, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Creates cond.A at the first call. It refers to the iteration's data, so later calls only increase its state to
-   notify the preconditioner. */
+/*
+   Creates cond->A at the first call. The shell uses the present data of the iteration. Later calls therefore only
+   increase its object state, so that the preconditioner is updated.
+*/
 PetscErrorCode IPOperatorUpdate(Tao tao)
 {
   IPCondensed *cond = ((TAO_IPFILTER *)tao->data)->cond;

@@ -1,8 +1,9 @@
 /*
-   Rows that are condensed into A as J^T D J: J is J_I, J_E, or J_I with J_E or with the rows of norm terms below it on
-   each rank. Norm terms are filtered too, and may be all that holds a body. For condensed equality constraints D is 1 /
-   (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists them. In a restoration step D is 1/delta,
-   which is equivalent to the augmented system.
+   Rows that are condensed into A as J^T D J. On each rank J consists of the Jacobian of c_I, followed by that of
+   condensed equality constraints or by the rows of norm terms. Either part may be missing. The rows of norm terms are
+   included since the filter must cover them, and since they may be the only support of a body.
+   For condensed equality constraints D_i = 1 / (proximal sum_j J_ij^2 / |H_jj|), many times the stiffness that resists
+   them. In a restoration step D = 1/delta, which is equivalent to the augmented system.
 */
 #include "systemimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -32,7 +33,10 @@ static PetscBool RowsSamePattern(const IPStamp *a, const IPStamp *b)
   return (PetscBool)(a->pattern_id == b->pattern_id && a->pattern_state == b->pattern_state);
 }
 
-/* Copies the rows of J to the stacked matrix from local row `first` on; if dnz is given, only counts entries */
+/*
+   Copies the rows of J to the stacked matrix, starting at row `first`. If dnz is not NULL, only counts the entries of
+   the rows, in columns of this rank (dnz) and others (onz); `first` is then a local row.
+*/
 static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[], PetscInt onz[])
 {
   PetscInt rstart, rend, cstart, cend;
@@ -57,7 +61,7 @@ static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[
   PetscFunctionReturn(0);
 }
 
-/* An empty matrix with the rows of both */
+/* Creates an empty matrix for the rows of `upper` followed by those of `lower` on each rank */
 static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
 {
   PetscInt m[2], n, N, *dnz, *onz;
@@ -75,7 +79,10 @@ static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
   PetscFunctionReturn(0);
 }
 
-/* Stacks the Jacobian of c_I and `lower`; refills the matrix while the patterns stay */
+/*
+   Computes rows->J, the Jacobian of c_I followed by `lower`. The matrix is created anew only if a pattern has changed.
+   stamp: that of `lower`.
+*/
 static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
@@ -105,7 +112,7 @@ static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
   PetscFunctionReturn(0);
 }
 
-/* Takes a single Jacobian, or none, without a copy */
+/* Sets rows->J to a reference to a single Jacobian; J may be NULL */
 static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
 {
   PetscFunctionBegin;
@@ -117,7 +124,10 @@ static PetscErrorCode RowsTakeOne(Mat J, const IPStamp *stamp, IPRows *rows)
   PetscFunctionReturn(0);
 }
 
-/* The matrix below the rows of c_I: condensed equality constraints, norm terms, or NULL */
+/*
+   Returns the matrix that follows the rows of c_I: that of condensed equality constraints or of norm terms; NULL if
+   there is none
+*/
 static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 {
   if (ip->me && ip->prox->condensed) {
@@ -128,7 +138,10 @@ static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
   return ip->terms->n ? ip->terms->T : NULL;
 }
 
-/* Weights of the lower rows. A row with very small entries is limited to 100 times the mean stiffness. */
+/*
+   Computes the weights D of the rows that follow those of c_I. The weight of a row with very small entries is limited
+   to 100 times the mean weight.
+*/
 static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -154,7 +167,7 @@ static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
   PetscFunctionReturn(0);
 }
 
-/* Copies the local part of v to the vector of all weights, from local entry `first` on */
+/* Copies the local part of v into the vector of all weights, starting at local entry `first` */
 static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
 {
   const PetscScalar *from;
@@ -171,7 +184,7 @@ static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
   PetscFunctionReturn(0);
 }
 
-/* Keeps a copy of v; recreated if its layout changed */
+/* Copies v to *copy, which is created at the first call */
 static PetscErrorCode RowsKeep(Vec v, Vec *copy)
 {
   PetscFunctionBegin;
@@ -180,7 +193,7 @@ static PetscErrorCode RowsKeep(Vec v, Vec *copy)
   PetscFunctionReturn(0);
 }
 
-/* Joins the weights of upper and lower rows in one vector */
+/* Joins the weights of c_I and of the rows that follow in one vector, rows->D */
 static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -198,7 +211,7 @@ static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
   PetscFunctionReturn(0);
 }
 
-/* Takes the rows at the present point, without weights */
+/* Sets rows->J for the present point, but not the weights */
 PetscErrorCode IPRowsTake(Tao tao)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;
@@ -213,7 +226,7 @@ PetscErrorCode IPRowsTake(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Updates rows and weights; D: weights of the inequality constraints, NULL if there are none */
+/* Updates rows and weights. D: weights of the inequality constraints; not used if there are none. */
 PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;

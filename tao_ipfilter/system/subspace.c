@@ -1,5 +1,7 @@
-/* Chooses the unknowns that PCAMGF filters (those that the constraints involve), and whether the constraints are
-   stiff enough to need the filter. */
+/*
+   Chooses the unknowns that PCAMGF filters, namely those that the constraints involve, and decides whether the
+   constraints are stiff enough to need the filter
+*/
 #include "systemimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -9,7 +11,7 @@
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
 
-/* Local unknowns with a column of J that is not negligible: |J_ij| > threshold max|J| for some i */
+/* Creates the index set of the unknowns j with |J_ij| > IP_FILTER_THRESHOLD max|J| for some row i */
 PetscErrorCode IPSubspaceOf(Mat J, IS *is)
 {
   Vec                mark;
@@ -54,8 +56,10 @@ PetscErrorCode IPSubspaceOf(Mat J, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* Updates the filter for the present Jacobian. The IS object stays the same as long as its entries do, so that
-   PCAMGF recognizes it */
+/*
+   Updates the filter for the present Jacobian. If its entries are unchanged the same IS object is used, so that PCAMGF
+   recognizes it.
+*/
 PetscErrorCode IPSubspaceUpdate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -78,8 +82,11 @@ PetscErrorCode IPSubspaceUpdate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Marks the unknowns of a set in v by irregular numbers (squares), so that couplings to them do not cancel; numbers
-   linear in the index would vanish under a difference operator */
+/*
+   Sets v to irregular positive numbers in the unknowns of a set, and to zero elsewhere, so that couplings to the set do
+   not cancel in A v. Numbers that are linear in the index would be cancelled by a difference operator; the numbers are
+   therefore computed from its square.
+*/
 static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
   const PetscReal golden = 0.6180339887498949;
@@ -98,7 +105,7 @@ static PetscErrorCode SubspaceMark(IS set, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* The unknowns of a set, and those coupled to them by A */
+/* Creates the index set of the unknowns of a set and those coupled to them by A */
 PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
 {
   const PetscReal    weak = 1e-8;
@@ -111,7 +118,7 @@ PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &coupled));
   PetscCall(SubspaceMark(set, marked));
   PetscCall(MatMult(A, marked, coupled));
-  PetscCall(VecISSet(coupled, set, PETSC_MAX_REAL)); /* the set's own unknowns are always included */
+  PetscCall(VecISSet(coupled, set, PETSC_MAX_REAL)); /* the set itself is always included */
   PetscCall(MatGetDiagonal(A, marked));
   PetscCall(VecGetOwnershipRange(marked, &rstart, NULL));
   PetscCall(VecGetLocalSize(marked, &n));
@@ -129,8 +136,10 @@ PetscErrorCode IPSubspaceGrow(Tao tao, Mat A, IS set, IS *is)
   PetscFunctionReturn(0);
 }
 
-/* ratio: largest (J^T D J)_ii / H_ii, the factor by which the constraints stiffen an unknown; infinite for a row
-   that only the constraints hold */
+/*
+   Computes the largest (J^T D J)_ii / H_ii, the factor by which the constraints stiffen an unknown. Infinite if H_ii is
+   not positive.
+*/
 static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
@@ -162,7 +171,10 @@ static PetscErrorCode Stiffening(Tao tao, PetscReal *ratio)
   PetscFunctionReturn(0);
 }
 
-/* Switches the filter of a PCAMGF on if J^T D J is stiff relative to H, else off; counts the systems */
+/*
+   Switches the filter of PCAMGF on if J^T D J is stiff relative to H, and off otherwise. Counts the systems with
+   filter.
+*/
 PetscErrorCode IPSubspaceSwitch(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/system, the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter. Files are in the order
-   in which they depend on each other; they use the folders below.
+   tao_ipfilter/system: the condensed matrix A = H + Sigma + J^T D J + delta M_u and its filter. The files are listed
+   such that each depends only on those before it and on the folders above this one in ipfilterimpl.h.
 */
 #ifndef IPFILTER_SYSTEMIMPL_H
 #define IPFILTER_SYSTEMIMPL_H
