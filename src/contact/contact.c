@@ -281,10 +281,6 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
       "make it the mortar side",
       pair->name, pair->nonmortar.name);
     if (!SceneBodyIsSurface(&bodies[pair->mortar.body])) continue;
-    PetscCheck(!pair->frictional, contact->comm, PETSC_ERR_SUP,
-      "Contact pair \"%s\" has friction, but rigid surfaces such as %s have none: use a rigid body with facets, for "
-      "example a box of one cell for a plane",
-      pair->name, pair->mortar.name);
     pair->formula = &bodies[pair->mortar.body];
     pair->smooth  = PETSC_FALSE;
   }

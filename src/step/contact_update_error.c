@@ -1,6 +1,7 @@
 /* Differences between a contact linearization and the one at its solution, apart from the gap: rotation of the
-   normals and change of the slip. */
+   normals, change of the slip, and lever arms of the forces on rigid surfaces. */
 #include "stepimpl.h"
+#include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
@@ -8,6 +9,10 @@
 /* Weight of the rotation of the normals. The error of the displacements is proportional to it, that of the gap is of
    second order. Updates with friction, which have no Newton's method, would take twice as many for it */
 static const PetscReal askew = 1.0, askew_friction = 1e-2;
+
+/* The lever arms of forces on rigid surfaces may be wrong by this part of the size of the contact. Where a tool slides,
+   the forces act where it was at the last contact update. */
+static const PetscReal misplaced = 1e-3;
 
 /* Weight of the error of free rotations: elastic faces that are tied to the body would be strained by it */
 static const PetscReal tied = 1e4;
@@ -90,14 +95,113 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
+/* rotation: of the rigid surfaces at u, about an axis through the centre of each; 0 at the nodes of other bodies */
+static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const BodyPose poses[], PetscInt axis,
+  Vec rotation)
+{
+  const PetscInt     d = (axis + 1) % 3, e = (axis + 2) % 3;
+  const PetscScalar *x, *a;
+  PetscScalar       *t;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(rotation));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArray(rotation, &t));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscInt body = sim->places.body[i / 3];
+
+    if (!SceneBodyIsSurface(&sim->scene->bodies[body])) continue;
+    t[i + d] = -(x[i + e] + a[i + e] - poses[body].to[e]);
+    t[i + e] = x[i + d] + a[i + d] - poses[body].to[d];
+  }
+  PetscCall(VecRestoreArray(rotation, &t));
+  PetscCall(VecRestoreArrayRead(u, &a));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscFunctionReturn(0);
+}
+
+/* Sums over each pair's rows of the normal forces, the areas, and the moment about an axis by which the forces on the
+   tool at u exceed those of the solve */
+static PetscErrorCode ContactUpdateErrorSumMoments(Simulation sim, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], Vec rotation, PetscInt axis, PetscReal sums[][5])
+{
+  ContactLinearization solved = sim->solved->linearization;
+  const PetscScalar   *mass, *z, *a, *b;
+  Vec                  before, after;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(solved->g, &before));
+  PetscCall(VecDuplicate(at_u->g, &after));
+  PetscCall(MatMult(solved->J, rotation, before));
+  PetscCall(MatMult(at_u->J, rotation, after));
+  PetscCall(VecGetArrayRead(solved->mass, &mass));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(before, &a));
+  PetscCall(VecGetArrayRead(after, &b));
+  for (PetscInt r = 0; r < solved->nlocal; ++r) {
+    PetscReal *sum = sums[solved->pair[r]];
+
+    if (row[r] < 0) continue;
+    sum[axis] += PetscRealPart(z[r] * mass[r] * (b[row[r]] - a[r]));
+    if (!axis) sum[3] += PetscRealPart(z[r] * mass[r]);
+    if (!axis) sum[4] += PetscRealPart(mass[r]);
+  }
+  PetscCall(VecRestoreArrayRead(after, &b));
+  PetscCall(VecRestoreArrayRead(before, &a));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscCall(VecRestoreArrayRead(solved->mass, &mass));
+  PetscCall(VecDestroy(&after));
+  PetscCall(VecDestroy(&before));
+  PetscFunctionReturn(0);
+}
+
+/* Largest error of the lever arms of the normal forces on rigid surfaces [length]; 0 if it is small for the contact */
+static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, const PetscInt row[], PetscReal *arm)
+{
+  const Bodies bodies = SimulationBodies(sim);
+  Scene        scene  = sim->scene;
+  PetscBool    any    = PETSC_FALSE;
+  BodyPose    *poses;
+  Vec          rotation;
+  PetscReal(*sums)[5];
+
+  PetscFunctionBegin;
+  *arm = 0.0;
+  for (PetscInt p = 0; p < scene->npairs; ++p)
+    any = (PetscBool)(any || SceneBodyIsSurface(SceneFaceBody(scene, scene->pairs[p].mortar)));
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(scene->nbodies, &poses));
+  PetscCall(PetscCalloc1(scene->npairs, &sums));
+  PetscCall(PosesFind(&bodies, NULL, u, poses));
+  PetscCall(VecDuplicate(u, &rotation));
+  for (PetscInt axis = 0; axis < 3; ++axis) {
+    PetscCall(ContactUpdateErrorSetRotation(sim, u, poses, axis, rotation));
+    PetscCall(ContactUpdateErrorSumMoments(sim, sol, at_u, row, rotation, axis, sums));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(5 * scene->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const PetscReal wrong = sums[p][3] > 0.0 ? VectorNorm(sums[p]) / sums[p][3] : 0.0;
+
+    if (wrong > misplaced * PetscSqrtReal(sums[p][4])) *arm = PetscMax(*arm, wrong);
+  }
+  PetscCall(VecDestroy(&rotation));
+  PetscCall(PetscFree(sums));
+  PetscCall(PetscFree(poses));
+  PetscFunctionReturn(0);
+}
+
 /* at_u: at the state u, which was found with sim->solved->linearization; report->gap_change is set. Sets the rotation
-   of the normals, the change of the slip, and update_error: the largest of the three and of the correction of free
-   rotations, each as an equivalent change of the gap [length] */
+   of the normals, the change of the slip, and update_error: the largest of these, of the lever arms and of the
+   correction of free rotations, each as an equivalent change of the gap [length] */
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
   const PetscReal weight = sim->solved->linearization->slip ? askew_friction : askew;
-  PetscReal       size;
+  PetscReal       size, arm;
   PetscInt       *row;
 
   PetscFunctionBegin;
@@ -105,9 +209,11 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
   PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, at_u, &row));
   PetscCall(ContactUpdateErrorMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
   PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
+  PetscCall(ContactUpdateErrorMeasureArms(sim, u, sol, at_u, row, &arm));
   PetscCall(PetscFree(row));
   report->update_error =
     PetscMax(PetscMax(report->gap_change, report->slip_change), weight * report->normals_turn * size);
+  report->update_error = PetscMax(report->update_error, arm);
   report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }

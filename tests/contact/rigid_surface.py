@@ -24,7 +24,7 @@ bodies:
   - tool: {{shape: rigid_plane, point: [0.3, 0.2, 1], normal: [0, 0, -2], material: rigid}}
 {rest}
 contact:
-  - touch: {{mortar: tool.surface, nonmortar: block.zmax{pair}}}
+  - touch: {{mortar: tool.surface, nonmortar: block.zmax}}
 """
 DRIVEN = """problem: driven
 bodies:
@@ -78,9 +78,8 @@ SCENES = {
     "sphere": HALF_SPACE.format(name="sphere", tool=SPHERE, press=-APPROACH, grading=grading(), inverse=1 / grading()),
     "cone": HALF_SPACE.format(name="cone", tool=CONE, press=-DEPTH, grading=grading(), inverse=1 / grading()),
     "beside": BESIDE,
-    "pressed": FLAT.format(pair="", rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
+    "pressed": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
     "driven": DRIVEN,
-    "rubbed": FLAT.format(pair=", friction: 0.2", rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
     "rubber_1": RUBBER.format(order=1, tool=CYLINDER, face="surface"),
     "rubber_2": RUBBER.format(order=2, tool=CYLINDER, face="surface"),
     "rubber_mesh": RUBBER.format(order=1, tool=TUBE, face="outer"),

@@ -13,6 +13,5 @@ try() {
 try pressed 's/normal: \[0, 0, -2\], material: rigid/normal: [0, 0, -2], young: 1, poisson: 0/'
 try pressed 's/normal: \[0, 0, -2\]/normal: [0, 0, 0]/'
 try pressed 's/mortar: tool.surface, nonmortar: block.zmax/mortar: block.zmax, nonmortar: tool.surface/'
-try rubbed 's/none/none/'
 try cone 's/half_angle: 89.9/half_angle: 90/'
 try sphere 's/radius: 1000/radius: -1/'

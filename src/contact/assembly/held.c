@@ -80,8 +80,8 @@ static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 
 /*
    Computes what prescribes the motion of a rigid body along an axis: the number of a displacement, CONTACT_AT_REST if
-   its displacement is zero, or CONTACT_FREE if the body can rotate or is driven by forces. Returns false if the body is
-   not rigid.
+   its displacement is zero, or CONTACT_FREE if a rotation moves it along the axis or forces drive it. Returns false if
+   the body is not rigid.
 */
 static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
@@ -95,8 +95,9 @@ static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt ax
 
     if (!d->moves || strncmp(d->face, face, length) || strcmp(d->face + length, SCENE_WHOLE_BODY)) continue;
     rigid = PETSC_TRUE;
-    free  = (PetscBool)(d->rotation[0] != 0.0 || d->rotation[1] != 0.0 || d->rotation[2] != 0.0);
-    for (PetscInt m = 0; m < 6; ++m) free = (PetscBool)(free || ((m == axis || m >= 3) && d->released[m]));
+    free  = (PetscBool)(d->rotation[(axis + 1) % 3] != 0.0 || d->rotation[(axis + 2) % 3] != 0.0);
+    for (PetscInt m = 0; m < 6; ++m)
+      free = (PetscBool)(free || ((m == axis || (m >= 3 && m != 3 + axis)) && d->released[m]));
     if (free || *motion == CONTACT_FREE) *motion = CONTACT_FREE;
     else if (d->value[axis] != 0.0) *motion = k;
   }

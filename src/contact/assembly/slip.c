@@ -168,8 +168,10 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
     if (!pair->frictional) continue;
     PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
       lin->slip, &lin->covered[k]));
-    /* Dual functions have negative values. SlipCover(), a sum of magnitudes, would therefore be too large. */
-    if (pair->gap == GAP_DUAL || pair->dual) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
+    /* Dual functions, and the weights of a rigid surface's corners, have negative values. SlipCover(), a sum of
+       magnitudes, would therefore be too large. */
+    if (pair->gap == GAP_DUAL || pair->dual || pair->formula)
+      lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));
