@@ -12,6 +12,9 @@
   SHAPE(BOX, Box, "box") \
   SHAPE(TUBE_ARC, TubeArc, "tube_arc") \
   SHAPE(CYLINDER, Cylinder, "cylinder") \
+  SHAPE(CONE, Cone, "cone") \
+  SHAPE(WEDGE, Wedge, "wedge") \
+  SHAPE(HOLED_BOX, HoledBox, "holed_box") \
   SHAPE(HALF_ELLIPSE, HalfEllipse, "half_ellipse") \
   SHAPE(SPHERE_SHELL, SphereShell, "sphere_shell") \
   SHAPE(SPHEROID_SHELL, SpheroidShell, "spheroid_shell") \
@@ -39,12 +42,13 @@ enum {
   SURFACE_SIZE    = 9
 };
 
-/* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis y:
-   from z to x) */
+/* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent; of a cone the radii at the start
+   and end of the extent. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis
+   y: from z to x) */
 typedef struct {
   PetscInt  axis;      /* 0, 1, 2: along x, y, z */
   PetscReal center[3]; /* a point on the axis [length] */
-  PetscReal radii[2];  /* inner, outer [length] */
+  PetscReal radii[2];  /* inner, outer; of a cone at its start and end [length] */
   PetscReal angles[2]; /* first and last angle [degrees] */
   PetscReal extent[2]; /* first and last position along the axis [length] */
 } SceneTubeArc;
@@ -64,10 +68,12 @@ typedef struct {
   PetscReal radius, center[3]; /* [length] */
 } SceneSphere;
 
+#define OCTANT_BOTH 2 /* the body goes on beyond the plane */
+
 /* The octants of shells and balls: cut out by the three coordinate planes through a corner */
 typedef struct {
   PetscReal   corner[3];     /* [length] */
-  PetscInt    signs[3];      /* +1 or -1 for the side of each plane; 0 stands for 1 */
+  PetscInt    signs[3];      /* +1 or -1 for the side of each plane, or OCTANT_BOTH; 0 stands for 1 */
   SceneSphere inner, outer;  /* of sphere_shell; outer also of ball */
   SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
   PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */

@@ -11,15 +11,19 @@ typedef struct {
 static const KeyMeaning shape_meanings[] = {
   {"angles", " [degrees]",
     "first and last angle about the axis, from the next axis in the order x, y, z, x; 360 apart: a whole tube", ""},
-  {"axis", "", "the axis along which the body is a prism: `x`, `y`, `z`", ""},
+  {"axis", "", "the axis along which the body is a prism, of a cone or a hole its own: `x`, `y`, `z`", ""},
   {"cap_center", " [L]", "centre of a third sphere, which cuts the outer one", "`center`"},
   {"cap_radius", " [L]", "radius of the third sphere", "no cut"},
   {"cells", "",
-    "number of cells along x, y, z; of a tube across the wall, around and along the axis; of a cylinder across the "
-    "square core, from the core to the surface and along the axis",
+    "number of cells along x, y, z; of a tube across the wall, around and along the axis; of a cylinder or cone "
+    "across the square core, from the core to the surface and along the axis; of a holed box from the hole to the "
+    "sides, along an eighth of the hole, and along its axis",
     ""},
-  {"center", " [L]", "the centre; of a tube, cylinder or half ellipse a point on the axis; of an octant its corner",
-    "0"},
+  {"center", " [L]",
+    "the centre; of a tube, cylinder, cone, hole or half ellipse a point on the axis; of an octant its corner", "0"},
+  {"corners", " [L]",
+    "the three corners of the triangle, two coordinates each, in the order y, z or z, x or x, y for the axis x, y or z",
+    ""},
   {"depth", "", "direction from the flat side to the crown: `x`, `-x`, ...", ""},
   {"direction", "", "of the axis; of a cone from the tip into it", ""},
   {"even", "", "number of cells of equal size at the fine end of a graded direction", "1"},
@@ -34,10 +38,14 @@ static const KeyMeaning shape_meanings[] = {
   {"layer_grading", "", "thickness of the last layer over that of the first", "1"},
   {"layers", "",
     "number of cells across the shell; of a ball from the core to the surface; of a half ellipse along its axis", ""},
+  {"length_cells", "", "number of cells along the axis", ""},
   {"lower", " [L]", "lower corner", ""},
   {"mesh", "", "the file, relative to the folder of the scene", ""},
   {"normal", "", "away from the rigid side", ""},
-  {"octant", "", "signs of x, y, z in the octant, as in [1, 1, -1]", "[1, 1, 1]"},
+  {"octant", "",
+    "signs of x, y, z in the octant, as in [1, 1, -1]; 2: both sides, so that [2, 2, 2] is a whole ball and [2, 2, 1] "
+    "a half",
+    "[1, 1, 1]"},
   {"outer_center", " [L]", "centre of the outer sphere", "`center`"},
   {"outer_radius", " [L]", "radius of the outer sphere", ""},
   {"outer_semi_axes", " [L]", "of the outer ellipsoid along x, y, z", ""},
@@ -46,11 +54,13 @@ static const KeyMeaning shape_meanings[] = {
     "across the ring around it",
     ""},
   {"point", " [L]", "a point of the plane", ""},
-  {"radii", " [L]", "inner and outer radius", ""},
-  {"radius", " [L]", "the radius; of a torus that of the circle in the middle of the ring", ""},
+  {"radii", " [L]", "inner and outer radius; of a cone those at the start and the end of its extent", ""},
+  {"radius", " [L]",
+    "the radius; of a torus that of the circle in the middle of the ring; of a holed box that of the hole", ""},
   {"scale", "", "factor of all coordinates of the file", "1"},
   {"section_radius", " [L]", "radius of the cross-section of the ring", ""},
   {"semi_axes", " [L]", "semi-axis along `depth`, and across", ""},
+  {"side_cells", "", "number of cells along half of a side", ""},
   {"size", " [L]", "edge of the cube that shows the place of the surface in the output", "1"},
   {"tip", " [L]", "the tip", ""},
   {"upper", " [L]", "upper corner", ""},
@@ -134,12 +144,11 @@ static PetscErrorCode RowsView(PetscViewer viewer, const char title[], const Key
 
 PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
 {
-  static const char *const numbers[] = {"", "a number", "two numbers", "three numbers"}, *const whole[] = {"",
-                                                                                           "a whole number",
-                                                                                           "two whole numbers",
-                                                                                           "three whole numbers"};
-  MeaningRow *rows;
-  PetscInt    n = 0;
+  static const char *const numbers[] = {"", "a number", "two numbers", "three numbers", "four numbers", "five numbers",
+    "six numbers"};
+  static const char *const whole[]   = {"", "a whole number", "two whole numbers", "three whole numbers"};
+  MeaningRow              *rows;
+  PetscInt                 n = 0;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(MEANING_ROWS, &rows));

@@ -72,6 +72,23 @@ symmetry: [wheel.lmin, wheel.lmax]
 contact:
   - touch: {{mortar: table.{face}, nonmortar: wheel.arc, friction: 0.25, gap: node, smooth: false}}
 """
+# Half of a ball, pressed on a plane and pushed along it
+BALL = """problem: ball
+bodies:
+  - ball: {{shape: ball, center: [0, 0, 1], octant: [2, 1, -1], radius: 1, patches: [4, 4, 3], layers: 5, grading: [12, 12, 1], even: [2, 2, 1], layer_grading: 0.2, young: 1000, poisson: 0.45, order: 2}}
+  - {table}
+load_steps: 2
+ramps:
+  - down: {{factors: [1, 1]}}
+  - along: {{factors: [0, 1]}}
+displacements:
+  - press: {{face: ball.z0, value: [free, free, -0.04], ramp: down}}
+  - push: {{face: ball.z0, value: [0.008, free, free], ramp: along}}
+  - table: {{body: table, value: [0, 0, 0]}}
+symmetry: [ball.y0]
+contact:
+  - touch: {{mortar: table.{face}, nonmortar: ball.surface, friction: 0.25, gap: node}}
+"""
 TURNED = "  - turn: {body: roller, value: [0, 0, 0], rotation: [0, 20, 0], center: [0, 0, 0.5], ramp: turn}"
 MOMENT = "forces:\n  - turn: {body: roller, value: [0, 0, 0], moment: [0, 0.2, 0], point: [0, 0, 0.5], ramp: turn}"
 ANGLE = math.radians(20)
@@ -90,6 +107,8 @@ SCENES = {
     "moment": ROLLER.format(steps=2, ones="1, 1", turns="rotation: [0, free, 0], center: [0, 0, 0.5], ", drive=MOMENT),
     "cone": CONE.format(tip=1 / math.tan(ANGLE), friction=MU),
     "mindlin": MINDLIN.format(table=PLANE, face="surface"),
+    "ball": BALL.format(table=PLANE, face="surface"),
+    "ball_mesh": BALL.format(table=SLAB, face="zmax"),
     "mindlin_mesh": MINDLIN.format(table=SLAB, face="zmax"),
 }
 
@@ -142,5 +161,10 @@ if sys.argv[1:] == ["scenes"]:
     for name, text in SCENES.items():
         with open(name + ".yaml", "w") as file:
             file.write(text)
+elif sys.argv[1:] == ["ball"]:
+    seen, other = pair("ball"), pair("ball_mesh")
+    one, two = steps("ball")[-1]["energy"], steps("ball_mesh")[-1]["energy"]
+    say("ball on a plane that sticks in part: force, stick area and energy as with facets", within(seen["stick_area"], other["stick_area"], 1e-6) and seen["slip_area"] > 0 and within(seen["force"][0], other["force"][0], 2e-2) and within(one, two, 1e-3), (seen, other, one, two))
+    say("the same on three ranks", within(steps("ball_3")[-1]["energy"], one, 1e-6), (steps("ball_3")[-1]["energy"], one))
 else:
     judge()

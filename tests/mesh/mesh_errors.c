@@ -120,7 +120,7 @@ static PetscErrorCode BadShapes(void)
       SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2}, .cap = {.radius = 0.5}})},
     {"corner outside", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2, .center = {3, 0, 0}}})},
     {"radius 0", SHELL(.octant = {.inner = {.radius = 0}, .outer = {.radius = 1}})},
-    {"sign 2", SHELL(.octant = {.signs = {1, 2, 1}, .inner = {.radius = 1}, .outer = {.radius = 2}})},
+    {"sign 3", SHELL(.octant = {.signs = {1, 3, 1}, .inner = {.radius = 1}, .outer = {.radius = 2}})},
     {"layers graded by 1e9", SHELL(.octant = {.inner = {.radius = 1}, .outer = {.radius = 2}, .layer_grading = 1e9})},
     {"semi-axes that cross", {.name    = egg,
                                .shape  = SHAPE_SPHEROID_SHELL,

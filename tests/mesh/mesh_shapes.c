@@ -91,6 +91,27 @@ static PetscReal PlaneZ(const PetscReal p[3])
   return p[2];
 }
 
+static PetscReal Cone(const PetscReal p[3])
+{
+  return PetscSqrtReal(PetscSqr(p[1] - 40) + PetscSqr(p[2])) - (2 - p[0] / 3);
+}
+static PetscReal Slope(const PetscReal p[3])
+{
+  return p[2] + 0.5 * p[0] - 1;
+}
+static PetscReal Hole(const PetscReal p[3])
+{
+  return PetscSqrtReal(PetscSqr(p[0]) + PetscSqr(p[1] - 0.2)) - 0.5;
+}
+static PetscReal Notch(const PetscReal p[3])
+{
+  return PetscSqrtReal(PetscSqr(p[0]) + PetscSqr(p[2])) - 1;
+}
+static PetscReal Groove(const PetscReal p[3])
+{
+  return PetscSqrtReal(PetscSqr(p[1]) + PetscSqr(p[2] - 2)) - 1;
+}
+
 /* Surfaces with the place x of their body's center */
 static const struct {
   const char *face;
@@ -123,6 +144,25 @@ static const struct {
   {"ball.pole", 70, Sphere2},
   {"ball.x0", 70, PlaneX},
   {"ball.z0", 70, PlaneZ},
+  {"globe.surface", 80, Sphere2},
+  {"dome.surface", 90, Sphere2},
+  {"dome.y0", 90, PlaneY},
+  {"hollow.inner", 100, Sphere08},
+  {"hollow.outer", 100, Sphere1},
+  {"hollow.x0", 100, PlaneX},
+  {"frustum.surface", 0, Cone},
+  {"frustum.lmin", 0, PlaneX},
+  {"wedge.side1", 120, PlaneX},
+  {"wedge.side2", 120, Slope},
+  {"wedge.side3", 0, PlaneZ},
+  {"key.side1", 125, PlaneX},
+  {"plate.hole", 130, Hole},
+  {"plate.xmax", 132, PlaneX},
+  {"quarter.hole", 140, Notch},
+  {"quarter.xmax", 140, PlaneX},
+  {"quarter.zmin", 140, PlaneZ},
+  {"strip.hole", 150, Groove},
+  {"strip.ymin", 150, PlaneY},
 };
 
 static PetscErrorCode CheckSurfaces(DM dm)
@@ -223,7 +263,8 @@ static PetscErrorCode CheckVolumes(Scene scene, PetscInt levels)
     PETSC_PI / 4 * 0.7 * 2.5, PETSC_PI / 4, PETSC_PI / 2, PETSC_PI / 6 * (1 - 0.512),
     /* the sphere of 0.8 up to the crease, the cap beyond, less the inner sphere */
     PETSC_PI / 4 * (0.64 * 0.5125 - 0.5125 * 0.5125 * 0.5125 / 3) + Cap(0.85, 0.2625) - Cap(0.7, 0.625),
-    PETSC_PI / 6 * (0.8 * 0.8 * 1.2 - 0.6 * 0.7 * 0.8), PETSC_PI / 6 * 8};
+    PETSC_PI / 6 * (0.8 * 0.8 * 1.2 - 0.6 * 0.7 * 0.8), PETSC_PI / 6 * 8, PETSC_PI * 32 / 3, PETSC_PI * 16 / 3,
+    PETSC_PI * 2 / 3 * (1 - 0.512), PETSC_PI * 7, 2, 1, 4.5 - PETSC_PI / 8, 6 - PETSC_PI / 4, 8 - PETSC_PI / 2};
   PetscReal       volume[2][PETSC_STATIC_ARRAY_LENGTH(exact)], first[PETSC_STATIC_ARRAY_LENGTH(exact)];
   const PetscInt  n = scene->nbodies;
 

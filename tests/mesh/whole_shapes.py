@@ -21,7 +21,11 @@ def write():
     fit = ("bodies:\n  - pin: {shape: cylinder, axis: z, radius: 1.001, extent: [0, 2], cells: [3, 3, 5], %s}\n"
            "  - ring: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 360], extent: [0, 2], cells: [3, 24, 5], %s}\n"
            "symmetry: [ring.lmin, pin.lmin]\ncontact:\n  - fit: {mortar: ring.inner, nonmortar: pin.surface, interference: true}\nweak_springs: %s\n")
+    kirsch = ("bodies:\n  - plate: {shape: holed_box, axis: z, lower: [0, 0, 0], upper: [20, 20, 0.5], radius: 1, cells: [8, 3, 1], grading: [30, 1, 1], %s, order: 2}\n"
+              "symmetry: [plate.xmin, plate.ymin, plate.zmin]\ntractions:\n  - pull: {face: plate.xmax, value: [1, 0, 0]}\n"
+              "probes:\n  - top: {point: [0, 1, 0]}\n  - side: {point: [1, 0, 0]}\n")
     for name, text in {
+        "kirsch": kirsch % MATERIAL,
         "fit": fit % (MATERIAL, MATERIAL, "true"),
         "fit_finite": fit % (MATERIAL + ", material: neohookean", MATERIAL + ", material: neohookean", "true"),
         "fit_springs": fit % (MATERIAL, MATERIAL, "1e-3"),
@@ -49,6 +53,8 @@ def judge():
         say(f"cylinder, refine {refine}: the volume of a prism of {n} sides", within(energy[f"rod_{refine}"], 0.5 * 1000 * 0.001**2 * polygon, 1e-7), energy)
     say("cylinder of order 2: the volume to 1e-4", within(energy["rod_order2_1"], 0.5 * 1000 * 0.001**2 * math.pi * 12, 1e-4), energy)
     say("two oblique motions of a face add up", within(energy["oblique_0"], energy["straight_0"], 1e-9), energy)
+    top, side = (load("kirsch_0")["steps"][-1]["probes"][k]["displacement"] for k in (0, 1))
+    say("plate with a hole: it widens as Kirsch says", within(side[0], 3e-3, 5e-3) and within(top[1], -1e-3, 1e-2), (top, side))
     springs = load("fit_springs_0")["steps"][-1]
     for name in "fit", "fit_finite":
         step = load(name + "_0")["steps"][-1]

@@ -1,4 +1,4 @@
-/* Octant of a ball: a core, the image of a cube, and three patches between the core and the sphere */
+/* Octant of a ball, or several: a core, the image of a cube, and three patches between the core and the sphere */
 #include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
@@ -30,8 +30,9 @@ static void BallCore(const PetscReal p[3], PetscReal x[3])
     const PetscInt at[3]  = {corner & 1, corner >> 1 & 1, corner >> 2};
     PetscReal      weight = 1;
 
-    for (PetscInt d = 0; d < 3; ++d) weight *= at[d] ? p[d] : 1 - p[d];
-    for (PetscInt d = 0; d < 3; ++d) x[d] += weight * component[at[0] + at[1] + at[2]] * (PetscReal)at[d];
+    for (PetscInt d = 0; d < 3; ++d) weight *= at[d] ? PetscAbsReal(p[d]) : 1 - PetscAbsReal(p[d]);
+    for (PetscInt d = 0; d < 3; ++d)
+      x[d] += weight * component[at[0] + at[1] + at[2]] * (PetscReal)(p[d] < 0 ? -at[d] : at[d]);
   }
 }
 
@@ -41,7 +42,7 @@ static PetscErrorCode ShapeMap_Ball(const SceneBody *body, const PetscReal p[3],
   PetscReal       place[3];
 
   PetscFunctionBegin;
-  if (PetscMax(p[0], PetscMax(p[1], p[2])) <= 1) BallCore(p, place);
+  if (PetscMax(PetscAbsReal(p[0]), PetscMax(PetscAbsReal(p[1]), PetscAbsReal(p[2]))) <= 1) BallCore(p, place);
   else {
     PetscReal q[3], s, direction[3];
 

@@ -1,7 +1,8 @@
 /*
-   Cylinder: a square core around the axis, and four patches between the core and the surface. Parameters: a place in a
-   square of half the width 2, whose core has half the width 1, and the position along the axis. A place (a, b) outside
-   of the core has m = max(|a|, |b|): the direction (a, b)/m, and m - 1 of the way from the core to the surface.
+   Cylinder, and cone without its tip: a square core around the axis, and four patches between the core and the surface.
+   Parameters: a place in a square of half the width 2, whose core has half the width 1, and the position along the axis.
+   A place (a, b) outside of the core has m = max(|a|, |b|): the direction (a, b)/m, and m - 1 of the way from the core
+   to the surface.
 */
 #include "shapesimpl.h"
 
@@ -28,7 +29,12 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
 
   PetscFunctionBegin;
   PetscCheck(tube->radii[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the radius of the cylinder must be positive, but is %g", body->name, (double)tube->radii[1]);
+    "Body \"%s\": the radius of the %s must be positive, but is %g%s", body->name,
+    body->shape == SHAPE_CONE ? "cone" : "cylinder", (double)tube->radii[1],
+    body->shape == SHAPE_CONE ? ": cut the tip off" : "");
+  PetscCheck(tube->radii[0] > 0 || body->shape != SHAPE_CONE, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the cone must be positive, but is %g: cut the tip off", body->name,
+    (double)tube->radii[0]);
   PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
     (double)tube->extent[0], (double)tube->extent[1]);
@@ -126,25 +132,18 @@ static PetscErrorCode ShapeCreate_Cylinder(const SceneBody *body, ShapeGrid *gri
   PetscFunctionReturn(0);
 }
 
-/* The point on the circle of radius 1 for a place on the sides of the square: along a side the angle is linear */
-static void CylinderCircle(const PetscReal q[2], PetscReal x[2])
-{
-  const PetscBool steep = (PetscBool)(PetscAbsReal(q[1]) > PetscAbsReal(q[0]));
-  const PetscReal big = q[steep ? 1 : 0], angle = (q[steep ? 0 : 1] / PetscAbsReal(big)) * PETSC_PI / 4;
-
-  x[steep ? 1 : 0] = big > 0 ? PetscCosReal(angle) : -PetscCosReal(angle);
-  x[steep ? 0 : 1] = PetscSinReal(angle);
-}
-
 static PetscErrorCode ShapeMap_Cylinder(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
 {
   const PetscInt  axis = body->tube.axis, s = (axis + 1) % 3, t = (axis + 2) % 3;
-  const PetscReal m = PetscMax(PetscAbsReal(p[0]), PetscAbsReal(p[1])), radius = body->tube.radii[1], along = p[2];
-  PetscReal       place[2] = {CYLINDER_CORE * p[0], CYLINDER_CORE * p[1]}, circle[2];
+  const PetscReal m = PetscMax(PetscAbsReal(p[0]), PetscAbsReal(p[1])), along = p[2];
+  const PetscReal part = (along - body->tube.extent[0]) / (body->tube.extent[1] - body->tube.extent[0]);
+  const PetscReal radius =
+    body->shape == SHAPE_CONE ? (1 - part) * body->tube.radii[0] + part * body->tube.radii[1] : body->tube.radii[1];
+  PetscReal place[2] = {CYLINDER_CORE * p[0], CYLINDER_CORE * p[1]}, circle[2];
 
   PetscFunctionBegin;
   if (m > 1) {
-    CylinderCircle(p, circle);
+    ShapeCircle(p, circle);
     for (PetscInt c = 0; c < 2; ++c) place[c] = (2 - m) * place[c] / m + (m - 1) * circle[c];
   }
   x[axis] = along;
@@ -153,15 +152,25 @@ static PetscErrorCode ShapeMap_Cylinder(const SceneBody *body, const PetscReal p
   PetscFunctionReturn(0);
 }
 
-static const ShapeKey keys[] = {
-  SHAPE_KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE),
-  SHAPE_KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE),
+#define CYLINDER_PLACE_KEYS \
+  SHAPE_KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE), SHAPE_KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE)
+#define CYLINDER_GRID_KEYS \
+  SHAPE_KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE), SHAPE_KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE), \
+    SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE), SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE)
+
+static const ShapeKey cylinder_keys[] = {
+  CYLINDER_PLACE_KEYS,
   SHAPE_KEY("radius", KEY_REALS, 1, tube.radii[1], PETSC_TRUE),
-  SHAPE_KEY("extent", KEY_REALS, 2, tube.extent, PETSC_TRUE),
-  SHAPE_KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
-  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
-  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  CYLINDER_GRID_KEYS,
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+static const ShapeKey cone_keys[] = {
+  CYLINDER_PLACE_KEYS,
+  SHAPE_KEY("radii", KEY_REALS, 2, tube.radii, PETSC_TRUE),
+  CYLINDER_GRID_KEYS,
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeCylinder = {ShapeFaces_Cylinder, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder, keys};
+const Shape ShapeCylinder = {ShapeFaces_Cylinder, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder,
+  cylinder_keys};
+const Shape ShapeCone = {ShapeFaces_Cylinder, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder, cone_keys};

@@ -96,6 +96,15 @@ PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
   return ShapeGradedLength(ratio, even, i) / ShapeGradedLength(ratio, even, n);
 }
 
+void ShapeCircle(const PetscReal q[2], PetscReal x[2])
+{
+  const PetscBool steep = (PetscBool)(PetscAbsReal(q[1]) > PetscAbsReal(q[0]));
+  const PetscReal big = q[steep ? 1 : 0], angle = (q[steep ? 0 : 1] / PetscAbsReal(big)) * PETSC_PI / 4;
+
+  x[steep ? 1 : 0] = big > 0 ? PetscCosReal(angle) : -PetscCosReal(angle);
+  x[steep ? 0 : 1] = PetscSinReal(angle);
+}
+
 PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)
 {
   PetscFunctionBegin;

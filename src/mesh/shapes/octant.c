@@ -1,8 +1,10 @@
-/* The O-grid of an octant: three patches around an optional core */
+/* The O-grid of an octant, or of several: patches on the sides of an optional core */
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt  n[3], layers, ncore, nsurface; /* number of vertices of the core, and of one layer outside of it */
+  PetscInt  n[3], layers, ncore, nsurface; /* n: cells of the core's lattice; number of vertices of the core, and of one
+                                              layer outside of it */
+  PetscInt  middle[3]; /* index of the plane through the corner: 0, or n/2 if both of its sides are modelled */
   PetscBool core;
   PetscInt *surface; /* number of each vertex of the core's lattice on the core's outer sides; PETSC_DECIDE inside */
 } Octant;
@@ -10,51 +12,104 @@ typedef struct {
 typedef struct {
   const Octant *octant;
   PetscInt      axis; /* axis normal to the patch */
+  PetscBool     low;  /* at the lower end of the axis */
 } OctantPatch;
 
-/* Order of the faces; x0, y0, z0 are consecutive, and a ball has no inner face */
-enum { OCTANT_OUTER, OCTANT_PLANE, OCTANT_INNER = OCTANT_PLANE + 3 };
+enum { OCTANT_OUTER }; /* the first face; the planes follow, and a shell's inner face is the last */
+
+static PetscBool OctantHasBoth(const SceneBody *body, PetscInt d)
+{
+  return (PetscBool)(body->octant.signs[d] == OCTANT_BOTH);
+}
 
 const char *const *OctantFaces(const SceneBody *body)
 {
-  static const char *const shell[] = {"outer", "x0", "y0", "z0", "inner", NULL};
-  static const char *const ball[]  = {"surface", "x0", "y0", "z0", NULL};
+  static const char *const shell[8][6] = {{"outer", "x0", "y0", "z0", "inner", NULL},
+    {"outer", "y0", "z0", "inner", NULL}, {"outer", "x0", "z0", "inner", NULL}, {"outer", "z0", "inner", NULL},
+    {"outer", "x0", "y0", "inner", NULL}, {"outer", "y0", "inner", NULL}, {"outer", "x0", "inner", NULL},
+    {"outer", "inner", NULL}};
+  static const char *const ball[8][5]  = {{"surface", "x0", "y0", "z0", NULL}, {"surface", "y0", "z0", NULL},
+     {"surface", "x0", "z0", NULL}, {"surface", "z0", NULL}, {"surface", "x0", "y0", NULL}, {"surface", "y0", NULL},
+     {"surface", "x0", NULL}, {"surface", NULL}};
+  PetscInt                 both        = 0;
 
-  return body->shape == SHAPE_BALL ? ball : shell;
+  for (PetscInt d = 0; d < 3; ++d) both += OctantHasBoth(body, d) << d;
+  return body->shape == SHAPE_BALL ? ball[both] : shell[both];
+}
+
+/* Number of the face in the plane normal to an axis; PETSC_DECIDE if the body goes on beyond it. Axis 3: the inner face
+   of a shell */
+static PetscInt OctantFace(const SceneBody *body, PetscInt axis)
+{
+  PetscInt face = OCTANT_OUTER + 1;
+
+  if (axis < 3 && OctantHasBoth(body, axis)) return PETSC_DECIDE;
+  for (PetscInt d = 0; d < axis; ++d) face += !OctantHasBoth(body, d);
+  return face;
+}
+
+static Octant OctantSetUp(const SceneBody *body, PetscBool core)
+{
+  Octant o = {.layers = body->layers, .core = core};
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    o.middle[d] = OctantHasBoth(body, d) ? body->cells[d] : 0;
+    o.n[d]      = body->cells[d] + o.middle[d];
+  }
+  return o;
+}
+
+/* Whether an index of the lattice is at one of the core's outer sides that are normal to the axis */
+static PetscBool OctantIsOuter(const Octant *o, PetscInt d, PetscInt i)
+{
+  return (PetscBool)(i == o->n[d] || (o->middle[d] && i == 0));
 }
 
 PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, PetscInt64 *ncells,
   PetscInt64 *nvertices)
 {
-  const PetscInt *n = body->cells;
-  PetscInt64      surface, patches, inside;
+  const PetscInt *n     = body->cells;
+  PetscInt64      total = 1, inside = 1, cells = 1, patches = 0;
+  PetscReal       size = 1;
+  Octant          o;
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < 3; ++d) {
     const char *const what[] = {"along x (patches)", "along y (patches)", "along z (patches)"};
     const PetscInt    sign   = body->octant.signs[d];
 
-    PetscCheck(sign >= -1 && sign <= 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "Body \"%s\": the signs of an octant must be 1 or -1, but that along %c is %" PetscInt_FMT, body->name, "xyz"[d],
-      sign);
+    PetscCheck(sign >= -1 && sign <= OCTANT_BOTH, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the signs of an octant must be 1, -1 or, for both sides, %d, but that along %c is %" PetscInt_FMT,
+      body->name, OCTANT_BOTH, "xyz"[d], sign);
     PetscCall(ShapeCheckCount(comm, body, what[d], n[d]));
     PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
+    size *= (OctantHasBoth(body, d) ? 2 : 1) * (PetscReal)n[d] + 1;
   }
   PetscCall(ShapeCheckCount(comm, body, "across the layers", body->layers));
   PetscCall(ShapeCheckGrading(comm, body, body->octant.layer_grading, body->octant.layer_even, body->layers));
-  PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)n[0] + 1) * ((PetscReal)n[1] + 1) * ((PetscReal)n[2] + 1)));
-  patches = (PetscInt64)n[0] * n[1] + (PetscInt64)n[1] * n[2] + (PetscInt64)n[2] * n[0];
-  surface = patches + n[0] + n[1] + n[2] + 1;
-  inside  = (PetscInt64)n[0] * n[1] * n[2];
-  PetscCall(ShapeCheckTotal(comm, body, ((PetscReal)body->layers + 1) * (PetscReal)surface + (PetscReal)inside));
-  *ncells    = body->layers * patches + (core ? inside : 0);
-  *nvertices = core ? inside + surface + body->layers * surface : (body->layers + 1) * surface;
+  PetscCall(ShapeCheckTotal(comm, body, size));
+  o = OctantSetUp(body, core);
+  for (PetscInt d = 0; d < 3; ++d) {
+    total *= o.n[d] + 1;
+    cells *= o.n[d];
+    inside *= o.middle[d] ? o.n[d] - 1 : o.n[d];
+    patches += (PetscInt64)(o.middle[d] ? 2 : 1) * o.n[(d + 1) % 3] * o.n[(d + 2) % 3];
+  }
+  PetscCall(
+    ShapeCheckTotal(comm, body, ((PetscReal)body->layers + 1) * (PetscReal)(total - inside) + (PetscReal)inside));
+  *ncells    = body->layers * patches + (core ? cells : 0);
+  *nvertices = (body->layers + 1) * (total - inside) + (core ? inside : 0);
   PetscFunctionReturn(0);
+}
+
+static PetscInt OctantLattice(const Octant *o, const PetscInt at[3])
+{
+  return at[0] + (o->n[0] + 1) * (at[1] + (o->n[1] + 1) * at[2]);
 }
 
 static PetscInt OctantVertex(const Octant *o, PetscInt layer, const PetscInt at[3])
 {
-  const PetscInt lattice = at[0] + (o->n[0] + 1) * (at[1] + (o->n[1] + 1) * at[2]);
+  const PetscInt lattice = OctantLattice(o, at);
 
   if (!o->core) return layer * o->nsurface + o->surface[lattice];
   return layer ? o->ncore + (layer - 1) * o->nsurface + o->surface[lattice] : lattice;
@@ -67,15 +122,15 @@ static PetscInt OctantCoreVertex(const void *context, PetscInt i, PetscInt j, Pe
   return OctantVertex(((const OctantPatch *)context)->octant, 0, at);
 }
 
-/* Vertex number of a patch: layers, then the two other axes in cyclic order, which is right-handed */
+/* Vertex number of a patch: layers, then the two other axes in the order that is right-handed */
 static PetscInt OctantPatchVertex(const void *context, PetscInt layer, PetscInt i, PetscInt j)
 {
   const OctantPatch *patch = (const OctantPatch *)context;
   PetscInt           at[3];
 
-  at[patch->axis]           = patch->octant->n[patch->axis];
-  at[(patch->axis + 1) % 3] = i;
-  at[(patch->axis + 2) % 3] = j;
+  at[patch->axis]           = patch->low ? 0 : patch->octant->n[patch->axis];
+  at[(patch->axis + 1) % 3] = patch->low ? j : i;
+  at[(patch->axis + 2) % 3] = patch->low ? i : j;
   return OctantVertex(patch->octant, layer, at);
 }
 
@@ -89,12 +144,23 @@ static PetscErrorCode OctantNumberSurface(Octant *o)
   o->nsurface = 0;
   for (PetscInt k = 0; k <= o->n[2]; ++k) {
     for (PetscInt j = 0; j <= o->n[1]; ++j) {
-      for (PetscInt i = 0; i <= o->n[0]; ++i)
-        *number++ = (i == o->n[0] || j == o->n[1] || k == o->n[2]) ? o->nsurface++ : PETSC_DECIDE;
+      for (PetscInt i = 0; i <= o->n[0]; ++i) {
+        const PetscBool outer = (PetscBool)(OctantIsOuter(o, 0, i) || OctantIsOuter(o, 1, j) || OctantIsOuter(o, 2, k));
+
+        *number++ = outer ? o->nsurface++ : PETSC_DECIDE;
+      }
     }
   }
   o->ncore = o->core ? (PetscInt)(number - o->surface) : 0;
   PetscFunctionReturn(0);
+}
+
+/* Parameter of a lattice index, from -1 (if both sides are modelled) to 1 */
+static PetscReal OctantParameter(const SceneBody *body, const Octant *o, PetscInt d, PetscInt i)
+{
+  const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i - o->middle[d]));
+
+  return i < o->middle[d] ? -place : place;
 }
 
 static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, ShapeGrid *grid)
@@ -106,13 +172,11 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
     for (PetscInt k = 0; k <= o->n[2]; ++k) {
       for (PetscInt j = 0; j <= o->n[1]; ++j) {
         for (PetscInt i = 0; i <= o->n[0]; ++i) {
-          const PetscInt at[3]  = {i, j, k};
-          const PetscInt inside = o->surface[i + (o->n[0] + 1) * (j + (o->n[1] + 1) * k)] < 0;
+          const PetscInt at[3] = {i, j, k};
 
-          if (inside && (layer || !o->core)) continue;
+          if (o->surface[OctantLattice(o, at)] < 0 && (layer || !o->core)) continue;
           for (PetscInt d = 0; d < 3; ++d)
-            grid->coordinates[3 * OctantVertex(o, layer, at) + d] =
-              m * ShapeGraded(body->grading[d], body->even[d], o->n[d], at[d]);
+            grid->coordinates[3 * OctantVertex(o, layer, at) + d] = m * OctantParameter(body, o, d, at[d]);
         }
       }
     }
@@ -120,35 +184,39 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
   PetscFunctionReturn(0);
 }
 
+/* The patch normal to an axis, at its upper or lower end */
+static ShapeBlock OctantPatchBlock(const SceneBody *body, const OctantPatch *patch)
+{
+  const Octant  *o = patch->octant;
+  const PetscInt s = (patch->axis + (patch->low ? 2 : 1)) % 3, t = (patch->axis + (patch->low ? 1 : 2)) % 3;
+
+  return (ShapeBlock){{o->layers, o->n[s], o->n[t]},
+    {o->core ? PETSC_DECIDE : OctantFace(body, 3), OCTANT_OUTER, OctantFace(body, s), PETSC_DECIDE, OctantFace(body, t),
+      PETSC_DECIDE},
+    patch, OctantPatchVertex};
+}
+
 PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *grid)
 {
-  Octant      o    = {{body->cells[0], body->cells[1], body->cells[2]}, body->layers, 0, 0, core, NULL};
-  PetscInt    sign = 1;
-  ShapeBlock  blocks[4];
-  OctantPatch patches[3];
+  Octant      o    = OctantSetUp(body, core);
+  PetscInt    sign = 1, n = 0;
+  ShapeBlock  blocks[7];
+  OctantPatch patches[6];
 
   PetscFunctionBegin;
   PetscCall(OctantNumberSurface(&o));
   for (PetscInt d = 0; d < 3; ++d) {
-    const PetscInt   s = (d + 1) % 3, t = (d + 2) % 3;
-    const ShapeBlock block = {{o.layers, o.n[s], o.n[t]},
-      {core ? PETSC_DECIDE : OCTANT_INNER, OCTANT_OUTER, OCTANT_PLANE + s, PETSC_DECIDE, OCTANT_PLANE + t,
-        PETSC_DECIDE},
-      &patches[d], OctantPatchVertex};
-
-    patches[d].octant = &o;
-    patches[d].axis   = d;
-    blocks[d]         = block;
+    for (PetscInt low = 0; low <= (o.middle[d] ? 1 : 0); ++low, ++n) {
+      patches[n] = (OctantPatch){&o, d, (PetscBool)low};
+      blocks[n]  = OctantPatchBlock(body, &patches[n]);
+    }
     if (body->octant.signs[d] < 0) sign = -sign;
   }
-  if (core) {
-    const ShapeBlock block = {{o.n[0], o.n[1], o.n[2]},
-      {OCTANT_PLANE, PETSC_DECIDE, OCTANT_PLANE + 1, PETSC_DECIDE, OCTANT_PLANE + 2, PETSC_DECIDE}, &patches[0],
-      OctantCoreVertex};
-
-    blocks[3] = block;
-  }
-  PetscCall(ShapeGridCreate(core ? 4 : 3, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface,
+  if (core)
+    blocks[n++] = (ShapeBlock){{o.n[0], o.n[1], o.n[2]},
+      {OctantFace(body, 0), PETSC_DECIDE, OctantFace(body, 1), PETSC_DECIDE, OctantFace(body, 2), PETSC_DECIDE},
+      &patches[0], OctantCoreVertex};
+  PetscCall(ShapeGridCreate(n, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface,
     sign < 0 ? PETSC_TRUE : PETSC_FALSE, grid));
   PetscCall(OctantCoordinates(body, &o, grid));
   PetscCall(PetscFree(o.surface));
@@ -157,7 +225,7 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
 
 void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s)
 {
-  const PetscReal m = PetscMax(p[0], PetscMax(p[1], p[2]));
+  const PetscReal m = PetscMax(PetscAbsReal(p[0]), PetscMax(PetscAbsReal(p[1]), PetscAbsReal(p[2])));
 
   *s = m - 1;
   for (PetscInt d = 0; d < 3; ++d) q[d] = p[d] / m;

@@ -43,6 +43,8 @@ PETSC_INTERN PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock[]
 /* Position in [0, 1] of vertex i of n graded cells. The last cell is `grading` times as large as the first (0: 1).
    `even` (0: 1) cells at the fine end are equal, the others grow geometrically */
 PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i);
+/* The point on the circle of radius 1 for a place on the sides of a square: along a side the angle is linear */
+PETSC_INTERN void ShapeCircle(const PetscReal q[2], PetscReal x[2]);
 /* Checks: error for a count that is not positive; a count or total that is too large; a grading that is not
    positive, or has more even cells than cells */
 PETSC_INTERN PetscErrorCode ShapeCheckCount(MPI_Comm, const SceneBody *, const char what[], PetscInt count);
@@ -83,7 +85,7 @@ typedef struct {
   }
 
 /*
-   box.c, tube_arc.c, half_ellipse.c, sphere_shell.c, spheroid_shell.c, ball.c: the shapes. A new shape is a file with a
+   box.c, tube_arc.c, ..., rigid_surface.c: the shapes. A new shape is a file with a
    Shape, and a line in model.h.
 */
 typedef struct {
@@ -103,10 +105,11 @@ BODY_SHAPES(SHAPE_DECLARE)
 #undef SHAPE_DECLARE
 
 /*
-   octant.c: octants of shells and balls as O-grids. The parameters are a cube [0, 1]^3 with one corner at the octant's
-   corner; its three far sides (the patches) are extruded to the cube [0, 2]^3. With m the largest component of p, the
-   point q = p/m on a far side gives a direction, and s = m - 1 the position through the shell, 0 at its inner and 1 at
-   its outer surface. Shells have no cells in [0, 1]^3; a ball has its core there.
+   octant.c: octants of shells and balls as O-grids, or two, four or eight of them in one. The parameters are a cube
+   [0, 1]^3 with one corner at the octant's corner; its three far sides (the patches) are extruded to the cube [0, 2]^3.
+   With m the largest component of p, the point q = p/m on a far side gives a direction, and s = m - 1 the position
+   through the shell, 0 at its inner and 1 at its outer surface. Shells have no cells in [0, 1]^3; a ball has its core
+   there. Along an axis of which both sides are modelled, parameters are negative on one of them.
 */
 /* Keys of every octant: position and division */
 #define OCTANT_PLACE_KEYS \
@@ -124,9 +127,9 @@ PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBoo
 PETSC_INTERN PetscErrorCode     OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
 /* Splits parameters outside of the core into q on the far sides of the unit cube, and s */
 PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
-/* Unit vector of a point on the far sides, all components >= 0; equal steps along the cube's edges are equal angles */
+/* Unit vector of a point on the far sides; equal steps along the cube's edges are equal angles */
 PETSC_INTERN void OctantDirection(const PetscReal q[3], PetscReal direction[3]);
-/* Coordinates of a point that is given relative to the corner with all components >= 0 */
+/* Coordinates of a point that is given relative to the corner, with components >= 0 along axes of one side */
 PETSC_INTERN void OctantPlace(const SceneBody *, const PetscReal relative[3], PetscReal x[3]);
 
 /* shape.c: the shape of a body; NULL for a body from a file */

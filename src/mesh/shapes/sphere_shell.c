@@ -1,8 +1,9 @@
-/* Octant of a shell between spheres that need not be concentric. A third sphere, the cap, may cut the outer surface.
-   Each surface is intersected by rays from the octant's corner, so that points stay in their coordinate planes. */
+/* Octant of a shell, or several, between spheres that need not be concentric. A third sphere, the cap, may cut the outer
+   surface. Each surface is intersected by rays from the octant's corner, so that points stay in their coordinate
+   planes. */
 #include "shapesimpl.h"
 
-/* Distance from the corner, which is inside the sphere, to the sphere along a direction of the first octant */
+/* Distance from the corner, which is inside the sphere, to the sphere along a direction */
 static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere, const PetscReal direction[3])
 {
   PetscReal along = 0, square = 0;
@@ -51,13 +52,14 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
   PetscCall(ShellCheckCorner(comm, body, "inner", &body->octant.inner));
   PetscCall(ShellCheckCorner(comm, body, "outer", &body->octant.outer));
   if (body->octant.cap.radius > 0) PetscCall(ShellCheckCorner(comm, body, "cap", &body->octant.cap));
-  for (PetscInt i = 0; i < 3 * PetscSqr(samples + 1); ++i) {
-    const PetscInt column = i / 3 % (samples + 1), row = i / 3 / (samples + 1);
+  for (PetscInt i = 0; i < 8 * 3 * PetscSqr(samples + 1); ++i) {
+    const PetscInt column = i / 24 % (samples + 1), row = i / 24 / (samples + 1), side = i / 3 % 8;
     PetscReal      q[3], direction[3], inner, outer;
 
     q[i % 3]       = 1;
     q[(i + 1) % 3] = (PetscReal)column / samples;
     q[(i + 2) % 3] = (PetscReal)row / samples;
+    for (PetscInt d = 0; d < 3; ++d) q[d] *= body->octant.signs[d] == OCTANT_BOTH && side >> d & 1 ? -1 : 1;
     OctantDirection(q, direction);
     ShellDistances(body, direction, &inner, &outer);
     PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,

@@ -77,7 +77,8 @@ static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
 
   if (b < 0) return PETSC_DECIDE;
   body = &scene->bodies[b];
-  if (body->shape == SHAPE_CYLINDER) return SymmetryIsOneOf(name, "lmin", "lmax") ? body->tube.axis : PETSC_DECIDE;
+  if (body->shape == SHAPE_CYLINDER || body->shape == SHAPE_CONE || body->shape == SHAPE_WEDGE)
+    return SymmetryIsOneOf(name, "lmin", "lmax") ? body->tube.axis : PETSC_DECIDE;
   if (body->shape == SHAPE_TUBE_ARC) return SymmetryAxisOfTubeArc(&body->tube, name);
   if (body->shape == SHAPE_HALF_ELLIPSE) return SymmetryAxisOfHalfEllipse(&body->ellipse, name);
   return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);

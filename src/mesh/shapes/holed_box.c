@@ -1,0 +1,201 @@
+/*
+   Box with a round hole through it. The hole is inside of the box; or its axis is on a side or an edge of the box, of
+   which there is then a half or a quarter. Parameters: a place in a square of half the width 2, whose hole has half the
+   width 1, and the position along the axis. A place (a, b) has m = max(|a|, |b|), the direction (a, b)/m, and m - 1 of
+   the way from the hole to the sides of the box.
+*/
+#include "shapesimpl.h"
+
+typedef struct {
+  PetscInt n, layers, first, count; /* cells of an eighth of a turn, and from the hole to the sides; eighths of a turn:
+                                       the first one, and how many there are */
+  PetscInt around;                  /* vertices around the hole */
+  PetscInt eighth;                  /* of a block */
+} HoledBox;
+
+/* Distance from the hole's axis to the side at the lower (0) or upper (1) end of axis d */
+static PetscReal HoledReach(const SceneBody *body, PetscInt d, PetscInt end)
+{
+  const PetscReal reach = end ? body->upper[d] - body->tube.center[d] : body->tube.center[d] - body->lower[d];
+
+  return reach > PETSC_SQRT_MACHINE_EPSILON * (body->upper[d] - body->lower[d]) ? reach : 0;
+}
+
+static HoledBox HoledSetUp(const SceneBody *body)
+{
+  const PetscInt s = (body->tube.axis + 1) % 3, t = (body->tube.axis + 2) % 3;
+  HoledBox       h = {.n = body->cells[1], .layers = body->cells[0]};
+  PetscBool      has[4]; /* the quarters of a turn */
+
+  for (PetscInt q = 0; q < 4; ++q)
+    has[q] = (PetscBool)(HoledReach(body, s, q == 0 || q == 3) > 0 && HoledReach(body, t, q < 2) > 0);
+  for (PetscInt q = 0; q < 4; ++q) {
+    h.count += 2 * has[q];
+    if (has[q] && !has[(q + 3) % 4]) h.first = 2 * q;
+  }
+  h.around = h.count * h.n + (h.count < 8);
+  return h;
+}
+
+static const char *const *ShapeFaces_HoledBox(PETSC_UNUSED const SceneBody *body)
+{
+  static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "hole", NULL};
+
+  return faces;
+}
+
+static PetscErrorCode HoledCheckPlace(MPI_Comm comm, const SceneBody *body)
+{
+  const PetscReal radius = body->tube.radii[1];
+
+  PetscFunctionBegin;
+  PetscCheck(radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the radius of the hole must be positive, but is %g", body->name, (double)radius);
+  for (PetscInt d = 0; d < 3; ++d) {
+    PetscCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
+      PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\": the box must have lower < upper along each axis, but along %c they are %g and %g", body->name,
+      "xyz"[d], (double)body -> lower[d], (double)body -> upper[d]);
+    for (PetscInt end = 0; end < 2 && d != body->tube.axis; ++end) {
+      const PetscReal reach = HoledReach(body, d, end);
+
+      PetscCheck(reach == 0 || reach > radius, comm, PETSC_ERR_ARG_OUTOFRANGE,
+        "Body \"%s\": the hole of radius %g must lie inside of the box, or its axis on a side or an edge of the box, "
+        "but "
+        "the axis is %g from the side %c%s",
+        body->name, (double)radius, (double)reach, "xyz"[d], end ? "max" : "min");
+    }
+    PetscCheck(d == body->tube.axis ||
+                 (body->tube.center[d] >= body->lower[d] && body->tube.center[d] <= body->upper[d]),
+      comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis of the hole is outside of the box along %c, at %g",
+      body->name, "xyz"[d], (double)body -> tube.center[d]);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeSize_HoledBox(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
+  PetscInt64 *nvertices)
+{
+  const PetscInt *n = body->cells;
+  HoledBox        h;
+
+  PetscFunctionBegin;
+  PetscCall(HoledCheckPlace(comm, body));
+  PetscCall(ShapeCheckCount(comm, body, "from the hole to the sides", n[0]));
+  PetscCall(ShapeCheckCount(comm, body, "along an eighth of the hole", n[1]));
+  PetscCall(ShapeCheckCount(comm, body, "along the hole", n[2]));
+  for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
+  PetscCheck(body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the cells around the hole are equal, so their grading is 1, but it is %g", body->name,
+    (double)body->grading[1]);
+  PetscCall(ShapeCheckTotal(comm, body, (8 * (PetscReal)n[1] + 1) * ((PetscReal)n[0] + 1) * ((PetscReal)n[2] + 1)));
+  h          = HoledSetUp(body);
+  *ncells    = (PetscInt64)h.count * n[1] * n[0] * n[2];
+  *nvertices = (PetscInt64)h.around * (n[0] + 1) * (n[2] + 1);
+  PetscFunctionReturn(0);
+}
+
+/* at: position around the hole in cells, from the first eighth */
+static PetscInt HoledNumber(const HoledBox *h, PetscInt layer, PetscInt at, PetscInt k)
+{
+  return at % h->around + h->around * (layer + (h->layers + 1) * k);
+}
+
+static PetscInt HoledVertex(const void *context, PetscInt layer, PetscInt i, PetscInt k)
+{
+  const HoledBox *h = (const HoledBox *)context;
+
+  return HoledNumber(h, layer, (h->eighth - h->first) * h->n + i, k);
+}
+
+/* The place on the square of half the width 1, i of n cells into an eighth of a turn */
+static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
+{
+  static const PetscInt corners[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+
+  for (PetscInt c = 0; c < 2; ++c)
+    q[c] =
+      ((PetscReal)(n - i) * (PetscReal)corners[eighth % 8][c] + (PetscReal)i * (PetscReal)corners[eighth % 8 + 1][c]) /
+      (PetscReal)n;
+}
+
+/* Number of the box's side that a turn by this many eighths points to: 0, 2, 4, 6 */
+static PetscInt HoledSide(const SceneBody *body, PetscInt eighths)
+{
+  const PetscInt quarter = eighths / 2 % 4, axis = (body->tube.axis + 1 + quarter % 2) % 3;
+
+  return 2 * axis + (quarter < 2);
+}
+
+static PetscErrorCode ShapeCreate_HoledBox(const SceneBody *body, ShapeGrid *grid)
+{
+  const PetscInt length = body->cells[2], axis = body->tube.axis;
+  HoledBox       h = HoledSetUp(body), parts[8];
+  ShapeBlock     blocks[8];
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < h.count; ++b) {
+    const PetscInt eighth = h.first + b, first = h.count < 8 && b == 0, last = h.count < 8 && b == h.count - 1;
+
+    parts[b]        = h;
+    parts[b].eighth = eighth;
+    /* The cuts through the axis are sides of the box, too, a quarter before the first and after the last eighth */
+    blocks[b] = (ShapeBlock){{h.layers, h.n, length},
+      {6, HoledSide(body, eighth + eighth % 2), first ? HoledSide(body, eighth + 6) : PETSC_DECIDE,
+        last ? HoledSide(body, eighth + 3) : PETSC_DECIDE, 2 * axis, 2 * axis + 1},
+      &parts[b], HoledVertex};
+  }
+  PetscCall(ShapeGridCreate(h.count, blocks, h.around * (h.layers + 1) * (length + 1), PETSC_FALSE, grid));
+  for (PetscInt k = 0; k <= length; ++k) {
+    const PetscReal part = ShapeGraded(body->grading[2], body->even[2], length, k);
+
+    for (PetscInt layer = 0; layer <= h.layers; ++layer) {
+      const PetscReal m = 1 + ShapeGraded(body->grading[0], body->even[0], h.layers, layer);
+
+      for (PetscInt at = 0; at < h.around; ++at) {
+        PetscReal     *p      = grid->coordinates + 3 * HoledNumber(&h, layer, at, k);
+        const PetscInt eighth = PetscMin(at / h.n, h.count - 1);
+        PetscReal      q[2];
+
+        HoledSquare(h.first + eighth, at - eighth * h.n, h.n, q);
+        p[0] = m * q[0];
+        p[1] = m * q[1];
+        p[2] = (1 - part) * body->lower[axis] + part * body->upper[axis];
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ShapeMap_HoledBox(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
+{
+  const PetscInt  axis = body->tube.axis;
+  const PetscReal m = PetscMax(PetscAbsReal(p[0]), PetscAbsReal(p[1])), along = p[2];
+  const PetscReal q[2] = {p[0] / m, p[1] / m};
+  PetscReal       circle[2];
+
+  PetscFunctionBegin;
+  ShapeCircle(q, circle);
+  x[axis] = along;
+  for (PetscInt c = 0; c < 2; ++c) {
+    const PetscInt d = (axis + 1 + c) % 3;
+
+    x[d] =
+      body->tube.center[d] + (2 - m) * body->tube.radii[1] * circle[c] + (m - 1) * q[c] * HoledReach(body, d, q[c] > 0);
+  }
+  PetscFunctionReturn(0);
+}
+
+static const ShapeKey keys[] = {
+  SHAPE_KEY("lower", KEY_REALS, 3, lower, PETSC_TRUE),
+  SHAPE_KEY("upper", KEY_REALS, 3, upper, PETSC_TRUE),
+  SHAPE_KEY("axis", KEY_AXIS, 1, tube.axis, PETSC_TRUE),
+  SHAPE_KEY("center", KEY_REALS, 3, tube.center, PETSC_FALSE),
+  SHAPE_KEY("radius", KEY_REALS, 1, tube.radii[1], PETSC_TRUE),
+  SHAPE_KEY("cells", KEY_INTS, 3, cells, PETSC_TRUE),
+  SHAPE_KEY("grading", KEY_REALS, 3, grading, PETSC_FALSE),
+  SHAPE_KEY("even", KEY_INTS, 3, even, PETSC_FALSE),
+  {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
+};
+
+const Shape ShapeHoledBox = {ShapeFaces_HoledBox, ShapeSize_HoledBox, ShapeCreate_HoledBox, ShapeMap_HoledBox, keys};
