@@ -1,8 +1,8 @@
 /*
    Cylinder, and cone without its tip: a square core around the axis, and four patches between the core and the surface.
-   Parameters: a place in a square of half the width 2, whose core has half the width 1, and the position along the axis.
-   A place (a, b) outside of the core has m = max(|a|, |b|): the direction (a, b)/m, and m - 1 of the way from the core
-   to the surface.
+   Parameters: a place in a square of half the width 2, whose core has half the width 1, and the position along the
+   axis. A place (a, b) outside of the core has m = max(|a|, |b|): the direction (a, b)/m, and m - 1 of the way from the
+   core to the surface.
 */
 #include "shapesimpl.h"
 

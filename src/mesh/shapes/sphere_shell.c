@@ -1,6 +1,6 @@
-/* Octant of a shell, or several, between spheres that need not be concentric. A third sphere, the cap, may cut the outer
-   surface. Each surface is intersected by rays from the octant's corner, so that points stay in their coordinate
-   planes. */
+/* Octant of a shell, or several, between spheres that need not be concentric. A third sphere, the cap, may cut the
+   outer surface. Each surface is intersected by rays from the octant's corner, so that points stay in their
+   coordinate planes. */
 #include "shapesimpl.h"
 
 /* Distance from the corner, which is inside the sphere, to the sphere along a direction */
