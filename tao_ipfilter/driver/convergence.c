@@ -1,4 +1,4 @@
-/* Convergence test: when the iteration ends, and with which reason. */
+/* Convergence test: decides when the iteration ends, and with which reason */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
@@ -9,8 +9,10 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Tests the start: with zero gradient and no violated constraint it is stationary with zero multipliers. No error
-   scale can be derived from such a point, so it is tested before the iteration. */
+/*
+   Ends the solve at the start if the gradient is zero and no constraint is violated: the point is then stationary with
+   zero multipliers. It is tested before the iteration, since no error scale can be derived from such a point.
+*/
 PetscErrorCode IPTestFirstPoint(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
@@ -34,7 +36,7 @@ PetscErrorCode IPTestFirstPoint(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the violation is significant compared with the constraints' first values, which do not grow with x */
+/* Returns whether the violation is significant compared with the constraints' first values, which do not grow with x */
 static PetscBool Violated(const TAO_IPFILTER *ip)
 {
   const PetscReal small = 1e-3;
@@ -42,7 +44,7 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt->violation > small);
 }
 
-/* Whether the violation is also small relative to the constraints' own terms (own.c) */
+/* Returns whether the violation is also small relative to the constraints' own terms (own.c) */
 static PetscBool OwnMet(const TAO_IPFILTER *ip)
 {
   const PetscReal trace = 1e-6;
@@ -50,7 +52,7 @@ static PetscBool OwnMet(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt->own <= PetscMax(trace, ip->tol));
 }
 
-/* Whether both measures of the KKT error are within the tolerance, and the absolute limits hold */
+/* Returns whether both measures of the KKT error are within the tolerance, and the absolute tolerances are met */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = ip->kkt;
@@ -61,14 +63,16 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
                      k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
 }
 
-/* Whether both measures of the KKT error are within the acceptable tolerance */
+/* Returns whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
 }
 
-/* Counts successive steps that are as small as the rounding error of x, or of a small fraction of the first x if x
-   goes to zero */
+/*
+   Counts consecutive steps that are as small as rounding errors of x. If x tends to zero, a small fraction of the first
+   x takes its place.
+*/
 static PetscErrorCode CountTinySteps(Tao tao)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -82,8 +86,11 @@ static PetscErrorCode CountTinySteps(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration if the KKT error is within the tolerance. Exceptions: the multipliers used to measure it grow
-   without limit, or the relaxation of the constraints changes the objective by more than the tolerance */
+/*
+   Ends the iteration, since the KKT error is within the tolerance. The reason is `acceptable` or a failure in two
+   cases: the multipliers with which the error is measured grow without limit, or the relaxation of the constraints
+   changes the objective by more than the tolerance.
+*/
 static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -113,7 +120,10 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* If the gradient is zero and no constraint is violated, all multipliers may be zero, whatever their present values */
+/*
+   Finds whether the gradient is zero and no constraint is violated. If so, the multipliers are set to zero, which makes
+   the point stationary, and the residuals are computed again.
+*/
 static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -135,7 +145,7 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration if a residual or the objective is not a number */
+/* Ends the iteration if a residual or the objective is NaN or infinite */
 PetscErrorCode IPTestNumbers(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -147,8 +157,10 @@ PetscErrorCode IPTestNumbers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether the constraints meet the tolerances of TaoSetConstraintTolerances(), if set: catol bounds the largest
-   violation, crtol the relative violation. As everywhere in TAO, 0 means no tolerance */
+/*
+   Returns whether the tolerances of TaoSetConstraintTolerances() are met: catol for the largest violation, crtol for
+   the relative one. As everywhere in TAO, 0 means that there is no tolerance.
+*/
 PetscBool IPConstraintsMet(Tao tao)
 {
   const IPKKT *k = ((TAO_IPFILTER *)tao->data)->kkt;
@@ -195,7 +207,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
-  if (ip->watch->left) unbounded = PETSC_FALSE; /* the last step was not tested */
+  if (ip->watch->left) unbounded = PETSC_FALSE; /* steps of the watchdog are taken without a test */
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
@@ -213,8 +225,8 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   } else if (unbounded) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
       (double)ip->first->f, (double)lowest));
-    ip->rec->best_error = PETSC_INFINITY; /* this point, or the last step, shows that the objective is unbounded; the
-                                            best iterate would not */
+    ip->rec->best_error = PETSC_INFINITY; /* The last iterate, or the last step, shows that the objective is
+                                             unbounded; the best iterate would not show it. */
   } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),
@@ -223,7 +235,10 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* Ends the iteration at a limit of iterations or evaluations */
+/*
+   Ends the iteration if a limit of iterations or evaluations is reached, or if several steps were as small as rounding
+   errors
+*/
 static PetscErrorCode TestLimits(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -261,7 +276,7 @@ static PetscErrorCode TestLimits(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Runs the convergence test (the caller's or the default one), and tests the limits */
+/* Calls the convergence test (the caller's or the default one), and then tests the limits */
 PetscErrorCode IPTestConvergence(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -1,11 +1,16 @@
-/* Detects solutions without bounded multipliers. The KKT error, which is measured with the multipliers, is
-   meaningless there. */
+/*
+   Detects solutions without bounded multipliers, at which the KKT error is meaningless because it is measured with the
+   multipliers
+*/
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-/* Largest force of the present multipliers with the constraint gradients of the starting point */
+/*
+   Computes the largest force of the present multipliers of equality constraints if the constraint gradients were as
+   large as at the start
+*/
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -20,14 +25,19 @@ static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
   PetscFunctionReturn(0);
 }
 
-/* The larger of the present and the first magnitude of the objective. Possible decreases are compared with it */
+/*
+   Returns the larger one of the present and the first magnitude of the objective, with which possible decreases are
+   compared
+*/
 PetscReal IPDegenerateObjective(const TAO_IPFILTER *ip)
 {
   return PetscMax(PetscMax(PetscAbsReal(ip->at.f), PetscAbsReal(ip->first->f)), ip->first->gradient * ip->first->x);
 }
 
-/* stands: whether the last step changed the objective by a negligible part of its magnitude. If multipliers do not
-   exist, only this shows that the iteration has reached the solution */
+/*
+   Finds whether the last step changed the objective by a negligible fraction of its magnitude. If there are no bounded
+   multipliers, only this shows that the iteration has reached the solution.
+*/
 static PetscErrorCode DegenerateStagnates(Tao tao, PetscBool *stands)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
@@ -40,8 +50,11 @@ static PetscErrorCode DegenerateStagnates(Tao tao, PetscBool *stands)
   PetscFunctionReturn(0);
 }
 
-/* Whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
-   vanish, so that their multipliers grow without limit, and the stationarity residual is small relative to them */
+/*
+   Finds whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
+   vanish, so that their multipliers grow without limit, and the stationarity residual is small relative to the
+   multipliers' forces
+*/
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

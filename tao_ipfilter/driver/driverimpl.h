@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/driver, the iteration: set up, solve, convergence, reasons. Files are in the order in which they depend
-   on each other; they use the folders below.
+   tao_ipfilter/driver: the iteration, with set-up, solve, convergence test and reasons. The files are listed such that
+   each depends only on those before it and on the folders above this one in ipfilterimpl.h.
 */
 #ifndef IPFILTER_DRIVERIMPL_H
 #define IPFILTER_DRIVERIMPL_H

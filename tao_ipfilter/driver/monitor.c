@@ -1,4 +1,4 @@
-/* Monitor: one line per iteration, in IPOPT's columns. */
+/* Prints one line per iteration, in the columns of IPOPT */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/kkt.h"
@@ -7,8 +7,10 @@
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/search.h"
 
-/* Prints iteration, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, step lengths,
-   trial points, Krylov iterations (f: with the filter) */
+/*
+   Prints iteration, objective, primal and dual infeasibility, lg(mu), ||d||, lg of the regularization, step lengths,
+   number of trial points, Krylov iterations (f: with the filter), and KKT error
+*/
 PetscErrorCode IPMonitor(Tao tao)
 {
   TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* Composes the sentence that explains why the solver stopped. */
+/* Stores the reason why the solver stopped, with a sentence that explains it */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/record.h"
 #include <stdarg.h>

@@ -1,4 +1,7 @@
-/* Stationary points that are no minima: where the linear solver does not meet negative curvature by itself. */
+/*
+   Leaves stationary points that are not minima. Needed where the linear solver does not notice negative curvature by
+   itself.
+*/
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
@@ -6,8 +9,10 @@
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Whether nothing has told so far that the matrix is positive definite: a factorization of the caller's choice solves
-   with any matrix, and where constraints were relaxed no factorization was asked for its inertia */
+/*
+   Finds whether the matrix might be indefinite without anyone having noticed. A factorization that the user has chosen
+   solves with any matrix. After a relaxation of constraints the inertia of factors is not tested.
+*/
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -20,8 +25,11 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
   PetscFunctionReturn(0);
 }
 
-/* At a point that is about to end the solve: whether it is left, along a direction of negative curvature, or beyond a
-   point of inflection. Relaxed constraints are so curved that the search beyond the point does not apply to them. */
+/*
+   Tries to leave a point at which the solve is about to end. The ways are a direction of negative curvature, and longer
+   steps beyond a point of inflection. The second one is not used for quadratic programs, nor for relaxed constraints,
+   which are too curved. *left: whether a better point was found.
+*/
 PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
 {
   TAO_IPFILTER  *ip   = (TAO_IPFILTER *)tao->data;

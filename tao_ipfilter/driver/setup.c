@@ -1,4 +1,6 @@
-/* Vectors of the problem's sizes: created in TaoSetUp(), recreated when the sizes change, destroyed */
+/*
+   Creates the vectors with the problem's sizes in TaoSetUp(), creates them anew if the sizes change, and destroys them
+*/
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/method.h"
@@ -44,8 +46,10 @@ static PetscErrorCode SetUpInequalities(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the equality constraints: on each rank the caller's own ones, followed by the rows of c_I with equal
-   bounds. layout: a vector for them, or NULL */
+/*
+   Counts the equality constraints, which on each rank are the caller's own ones followed by the rows of c_I with equal
+   bounds, and creates their multipliers. *layout: a vector with an entry per constraint; NULL if there are none.
+*/
 static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -70,7 +74,7 @@ static PetscErrorCode SetUpEqualities(Tao tao, Vec *layout)
   PetscFunctionReturn(0);
 }
 
-/* Destroys everything that has the sizes of the problem; keeps what the caller gave and chose */
+/* Destroys all data that depend on the problem's sizes, but not what the caller has set */
 static PetscErrorCode FreeSizes(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -103,8 +107,10 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Without TaoSetHessian(): finite differences of gradients for a small problem, a limited-memory approximation for a
-   large one. Both are recreated for other sizes */
+/*
+   Chooses a Hessian if TaoSetHessian() was not called: finite differences of gradients for a small problem, a
+   limited-memory approximation for a large one. A Hessian of this kind is created anew if the sizes change.
+*/
 static PetscErrorCode SetUpHessian(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
@@ -138,8 +144,8 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(SetUpEqualities(tao, &ce));
   c = ip->mi ? tao->constraints_inequality : NULL;
   PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
-  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* constraints are evaluated again when the iteration returns
-                                                           to it */
+  PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* constraint values are not stored; they are evaluated again
+                                                           if the iteration returns to the best iterate */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
   PetscCall(VecDestroy(&ce));
@@ -150,8 +156,10 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Whether v, created in TaoSetUp(), still has the size of the caller's vector plus `more` entries on all ranks;
-   either may be NULL */
+/*
+   Sets *same to false unless v, created in TaoSetUp(), has as many local entries as `model` plus `more`, on all ranks.
+   v and model may be NULL for no entries.
+*/
 static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
   PetscInt  local[2] = {0, 0};
@@ -166,8 +174,10 @@ static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Classifies the rows of c_I by their present bounds. Data derived from their Jacobian are dropped if any row is, or
-   was, not of the form c >= 0 */
+/*
+   Classifies the rows of c_I by their present bounds. If any row is or was not of the form c >= 0, data derived from
+   the Jacobian are destroyed.
+*/
 static PetscErrorCode SetUpSides(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -181,7 +191,7 @@ static PetscErrorCode SetUpSides(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets up again if the caller has replaced the solution or the constraints by others of another size */
+/* Sets up the solver again if the caller has replaced the solution or the constraints by vectors of another size */
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;

@@ -1,4 +1,4 @@
-/* The main iteration of TaoSolve(). */
+/* The main iteration of TaoSolve() */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -14,8 +14,10 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Evaluates objective, constraints and derivatives at the start. *defined: false if the objective is not a number;
-   then nothing else is evaluated */
+/*
+   Evaluates objective, constraints and derivatives at the start. *defined: false if the objective is NaN or infinite;
+   nothing else is evaluated then.
+*/
 static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -33,7 +35,7 @@ static PetscErrorCode EvaluateFirst(Tao tao, PetscBool *defined)
   PetscFunctionReturn(0);
 }
 
-/* Drops matrices that belong to another set of fixed variables or to other row scales */
+/* Destroys matrices that belong to another set of fixed variables or to other row scales */
 static PetscErrorCode ForgetSystem(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -44,7 +46,7 @@ static PetscErrorCode ForgetSystem(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the row scales, and scales constraints and derivatives */
+/* Chooses the row scales, and evaluates the scaled constraints and derivatives */
 static PetscErrorCode ScaleRows(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -60,7 +62,7 @@ static PetscErrorCode ScaleRows(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Measures the sizes at the start; *finite: false if one is not a number */
+/* Measures the sizes at the start. *finite: false if one of them is NaN or infinite. */
 static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -85,7 +87,7 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Evaluates everything at the start, after moving it inside its bounds; *finite: false if something is not a number */
+/* Moves the start inside its bounds and evaluates all functions there. *finite: false if a value is NaN or infinite. */
 static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -94,7 +96,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  *finite = (PetscBool)!IPUndefined(size); /* tested first, since clipping to bounds would hide a NaN */
+  *finite = (PetscBool)!IPUndefined(size); /* Test this first, since moving x into its bounds would hide a NaN. */
   if (!*finite) PetscFunctionReturn(0);
   PetscCall(TaoComputeVariableBounds(tao));
   PetscCall(IPFixedSetUp(tao, &other_fixed));
@@ -113,7 +115,7 @@ static PetscErrorCode FirstPoint(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Resets the state of the last solve, but keeps what can be reused: matrices, work vectors, memory for records */
+/* Resets the state of the last solve, but keeps what can be reused: matrices, work vectors, memory of the record */
 static PetscErrorCode ResetSolve(Tao tao)
 {
   TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
@@ -142,9 +144,9 @@ static PetscErrorCode ResetSolve(Tao tao)
 }
 
 /*
-   Whether the iterate is better than the best one: its violation is smaller, or both violations are within the
-   tolerance and its KKT error is not larger. If one of the two is acceptable, only the KKT error counts. Of two equal
-   iterates the later one is better
+   Returns whether the present iterate is better than the best one. It is if its violation is smaller, or if both
+   violations are within the tolerance and its KKT error is not larger. If one of the two iterates is acceptable, only
+   the KKT errors are compared. If both are equally good, the present one is better.
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
@@ -157,7 +159,7 @@ static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
 }
 
-/* Stores the current iterate as the best one */
+/* Stores the current iterate as the best one if it is better */
 static PetscErrorCode KeepBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -171,7 +173,7 @@ static PetscErrorCode KeepBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Returns to the best iterate if it is better than the last one, unless a convergence test has chosen the last one */
+/* Returns to the best iterate if it is better than the last one. A last iterate that met a convergence test is kept. */
 static PetscErrorCode RestoreBest(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -190,7 +192,7 @@ static PetscErrorCode RestoreBest(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Computes the KKT error of the new iterate, records it, and runs monitors and convergence test */
+/* Computes the KKT error of the new iterate, records it, and calls the monitors and the convergence test */
 static PetscErrorCode AssessIterate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -215,11 +217,11 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets the reason if no solver gave a direction */
+/* Ends the solve because no solver gave a direction */
 static PetscErrorCode EndLinear(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  /* without a direction the residual is the right-hand side itself */
+  /* without any direction the residual is the right-hand side */
   const PetscReal residual = IPUndefined(ip->lin->norm) ? ip->lin->rhs : ip->lin->norm;
 
   PetscFunctionBegin;
@@ -229,7 +231,10 @@ static PetscErrorCode EndLinear(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Sets the reason if restoration failed too */
+/*
+   Ends the solve because restoration, or all fallbacks before it, failed. solved: a direction was found; violated:
+   constraints are violated; infeasible: the violation has a local minimum.
+*/
 static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -254,14 +259,17 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/* Whether constraints are violated by more than what the last steps leave */
+/* Returns whether constraints are violated by more than the last iterations of a solve leave */
 static PetscBool StillViolated(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->kkt->primal > PetscMax(100.0 * ip->tol, 1e-6));
 }
 
-/* Called if there is no direction or no step along it. Remedies, in this order: suspend Mehrotra's choice of mu;
-   relax constraints without an interior; reduce the violation alone (restoration) */
+/*
+   Handles a step for which no direction was found (solved: false) or no step length. The fallbacks are, in this order:
+   use the monotone rule for mu for some iterations; relax constraints without an interior; reduce the violation alone
+   (restoration).
+*/
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
@@ -288,7 +296,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPRelaxInstead(tao, &relaxed));
     if (relaxed) PetscFunctionReturn(0);
   } else {
-    PetscCall(IPMeritMeasure(tao)); /* not measured by a line search if there was no direction */
+    PetscCall(IPMeritMeasure(tao)); /* measured by the line search only if there was a direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
   }
@@ -299,9 +307,10 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscFunctionReturn(0);
 }
 
-/* Estimates the multipliers of equality constraints again if their forces have become much larger than the gradient
-   that they balance. This happens for constraints that cannot be met, where the multipliers would dominate the
-   Hessian */
+/*
+   Estimates the multipliers of equality constraints again if their forces are much larger than the gradient that they
+   balance. This happens for constraints that cannot be satisfied; the multipliers would dominate the Hessian.
+*/
 static PetscErrorCode RenewMultipliers(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -323,7 +332,10 @@ static PetscErrorCode RenewMultipliers(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Reduces the violation alone where many steps in a row were cut to a small part and constraints are still violated */
+/*
+   Reduces the violation alone if many consecutive steps were shortened to a small fraction and constraints are still
+   violated
+*/
 static PetscErrorCode RestoreIfCut(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
@@ -346,7 +358,7 @@ static PetscErrorCode RestoreIfCut(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* One Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
+/* Takes one Newton step: Hessian, barrier parameter, direction, line search, derivatives at the new point */
 static PetscErrorCode TakeNewtonStep(Tao tao)
 {
   PetscBool solved = PETSC_FALSE, ok = PETSC_FALSE;
@@ -371,7 +383,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the alternative method (see IPMethodOps) if it is active */
+/* Ends the alternative method (see IPMethodOps) if it is in use */
 static PetscErrorCode EndMethod(Tao tao)
 {
   IPMethod *method = ((TAO_IPFILTER *)tao->data)->method;
@@ -382,7 +394,7 @@ static PetscErrorCode EndMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Starts the alternative method if it applies */
+/* Begins the alternative method if it can solve the problem */
 static PetscErrorCode BeginMethod(Tao tao)
 {
   IPMethod *method = ((TAO_IPFILTER *)tao->data)->method;
@@ -396,7 +408,10 @@ static PetscErrorCode BeginMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Continues from the best iterate with the interior point method if the alternative method failed */
+/*
+   Changes to the interior point method, since the alternative method made no more progress. The start is the best
+   iterate, with its multipliers.
+*/
 static PetscErrorCode LeaveMethod(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -425,7 +440,10 @@ static PetscErrorCode LeaveMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the solve if there are norm terms and the alternative method failed: no other method can treat them */
+/*
+   Ends the solve of a problem with norm terms, since the alternative method failed and no other method can treat such
+   terms
+*/
 static PetscErrorCode EndTerms(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -447,7 +465,7 @@ static PetscErrorCode EndTerms(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* One step of the active method */
+/* Takes one step of the method in use */
 static PetscErrorCode TakeStep(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
@@ -462,7 +480,7 @@ static PetscErrorCode TakeStep(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Object states of the caller's Hessian and inequality Jacobian */
+/* Gets the object states of the caller's Hessian and inequality Jacobian; 0 if there is none */
 static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
 {
   PetscFunctionBegin;
@@ -473,7 +491,10 @@ static PetscErrorCode GetStates(Tao tao, PetscObjectState states[2])
   PetscFunctionReturn(0);
 }
 
-/* Evaluates the starting point. Ends the solve there if it is not finite (*finite: false) or already stationary. */
+/*
+   Evaluates the starting point. The solve ends there if a value is NaN or infinite (*finite: false), or if the point is
+   stationary.
+*/
 static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -511,7 +532,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscFunctionReturn(0);
 }
 
-/* Returns the best iterate in the caller's units */
+/* Returns to the best iterate, and converts slacks and multipliers to the caller's units */
 static PetscErrorCode EndSolve(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -543,7 +564,8 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   PetscCall(IPSetUpSizes(tao));
   PetscCall(IPMatricesCheck(tao, &other_operator));
   if (other_operator) PetscCall(ForgetSystem(tao));
-  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* TAO's 0 asks for the best accuracy possible */
+  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* TAO's tolerance 0 means the best accuracy
+                                                                      possible */
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));
   if (!finite) PetscFunctionReturn(0);

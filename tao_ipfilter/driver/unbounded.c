@@ -1,4 +1,4 @@
-/* Detects an unbounded objective. */
+/* Detects an objective that is unbounded below */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -9,15 +9,17 @@
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* The decrease of the objective that counts as unbounded, from its first value and the gain of a Newton step at the
-   start */
+/*
+   Returns the decrease of the objective that counts as unbounded. It is a multiple of the objective's first value, or
+   of the gain of a Newton step at the start.
+*/
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
   return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first->f), ip->first->gradient * ip->first->x),
                                  PetscSqr(ip->first->gradient) / ip->stiff->hscale);
 }
 
-/* bounded: whether every unknown has two bounds or is fixed; the objective is then bounded */
+/* Finds whether every unknown has two bounds or is fixed, in which case the objective is bounded */
 static PetscErrorCode UnboundedHasAllBounds(Tao tao, PetscBool *bounded)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -35,8 +37,10 @@ static PetscErrorCode UnboundedHasAllBounds(Tao tao, PetscBool *bounded)
   PetscFunctionReturn(0);
 }
 
-/* Whether the iterate shows an unbounded objective. It does not if constraints are violated, relative to their first
-   values or to their own terms */
+/*
+   Finds whether the iterate shows an unbounded objective: the objective has fallen far, and the constraints are
+   satisfied relative to their first values and to their own terms
+*/
 static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -51,8 +55,10 @@ static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
   PetscFunctionReturn(0);
 }
 
-/* Counts successive full steps that only the shift of the Hessian kept short and along which the objective fell
-   linearly; fall: the decrease per step */
+/*
+   Counts consecutive full steps along which the objective fell linearly, so that only the shift of the Hessian limited
+   them. *fall: decrease of the objective in the last step.
+*/
 static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -72,8 +78,10 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   PetscFunctionReturn(0);
 }
 
-/* admitted: whether the trial point, at distance `far` from the iterate, satisfies bounds and constraints up to
-   rounding at that distance */
+/*
+   Finds whether the trial point, at the distance `far` from the iterate, satisfies bounds and constraints up to
+   rounding at that distance
+*/
 static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -104,8 +112,10 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
   PetscFunctionReturn(0);
 }
 
-/* Whether a multiple of the last step leads to a point that shows an unbounded objective. Newton's method would
-   approach it slowly, since the shift limits its steps */
+/*
+   Finds whether a multiple of the last step leads to a point that shows an unbounded objective. Newton's method would
+   approach such a point slowly, since the shift limits its steps. *f: objective at that point.
+*/
 static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
@@ -121,7 +131,7 @@ static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, Pets
   PetscFunctionReturn(0);
 }
 
-/* unbounded: whether the objective is unbounded; f: the lowest value found. Called once per iteration */
+/* Finds whether the objective is unbounded. *f: lowest value found. Must be called once per iteration. */
 PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;

@@ -1,8 +1,8 @@
 /*
-   Solves the laws of laws.c by Newton's method (set.c), or if that fails by continuation in the coefficients of
-   friction, or by the convex problem with fixed bounds (convex.c). With a small coefficient the path of smoothed laws
-   (path.c) is reliable. From its end the coefficient grows in steps that Newton's method can follow, up to the values
-   of terms that stick.
+   Solves the laws of laws.c by Newton's method (set.c). If that fails, the coefficients of friction are first limited
+   to a small value, for which the path of smoothed laws (path.c) is reliable. The limit is then raised in steps that
+   Newton's method can follow, up to the given values. If that fails as well, the convex problem with fixed bounds is
+   solved (convex.c).
 */
 #include "frictionimpl.h"
 
@@ -11,7 +11,10 @@ static void ContinuationLimit(IPTermSet *set, const PetscReal given[], PetscReal
   for (PetscInt i = 0; i < set->n; i++) set->coefficient[i] = PetscMin(given[i], most);
 }
 
-/* The start: the end of the path, where coefficients are at most `most` */
+/*
+   Solves the problem with the coefficients limited to `most`: follows the path of smoothed laws, then iterates by
+   Newton's method
+*/
 static PetscErrorCode ContinuationBegin(IPTermSet *set, const IPReducedSystem *s, const PetscReal given[],
   PetscReal most, PetscReal first, PetscInt *steps, PetscBool *solved)
 {
@@ -24,7 +27,10 @@ static PetscErrorCode ContinuationBegin(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* Raises the limit of the coefficients from *most to `largest`, by a factor that is smaller after a failure */
+/*
+   Raises the limit of the coefficients from `most` to `largest`, by a factor that is smaller after a failure and larger
+   after a success
+*/
 static PetscErrorCode ContinuationRaise(IPTermSet *set, const IPReducedSystem *s, const PetscReal given[],
   PetscReal most, PetscReal largest, PetscReal first, PetscInt *steps, PetscBool *solved)
 {
@@ -54,7 +60,10 @@ static PetscErrorCode ContinuationRaise(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* Continuation from a small coefficient, or, where that is too little to hold a body, from a larger one */
+/*
+   Solves by continuation from a small limit of the coefficients or, if such small friction cannot hold a body, from a
+   larger one
+*/
 static PetscErrorCode ContinuationSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
   PetscBool *solved)
 {
@@ -74,8 +83,11 @@ static PetscErrorCode ContinuationSolve(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* Computes the motions of all rows, s->gap, from the forces at the start, s->lambda. If one of them is more than ten
-   times set->length, all forces are set to zero: a guess of forces can be far too large for bodies that bend easily. */
+/*
+   Computes the motions s->gap of all rows for the initial forces s->lambda. If a motion is more than ten times
+   set->length, all forces are set to zero, since an initial guess of forces can be far too large for bodies that bend
+   easily.
+*/
 static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal much    = 10.0;
@@ -92,7 +104,7 @@ static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* Sets the forces and y to those in `begin`, or copies them there */
+/* Copies forces and y to `begin`; if `back`, copies them from there and computes the motions */
 static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscBool back)
 {
   PetscFunctionBegin;
@@ -102,8 +114,10 @@ static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s,
   PetscFunctionReturn(0);
 }
 
-/* Newton's method from the start with compliances computed from C; held: those of rows whose neighbours are held, which
-   suit rows that stick. begin: forces and y at the start */
+/*
+   Solves by Newton's method from the start, with compliances that are computed from C instead of estimated. held: each
+   row's compliance is that with all other rows held, which suits rows that stick. begin: forces and y at the start.
+*/
 static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem *s, PetscBool held, PetscReal begin[],
   PetscReal *first, PetscInt *steps, PetscBool *solved)
 {
@@ -120,8 +134,10 @@ static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem
   PetscFunctionReturn(0);
 }
 
-/* What is tried after Newton's method has failed: Newton's method with the true compliances of the rows, continuation,
-   the convex problem. begin: forces and y at the start */
+/*
+   Solves after Newton's method has failed: by Newton's method with computed compliances, by continuation, or by the
+   convex problem. begin: forces and y at the start.
+*/
 static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
   PetscInt *steps, PetscBool *solved)
 {
@@ -136,14 +152,17 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
   PetscFunctionReturn(0);
 }
 
-/* Solves for f (in s->lambda), v (in s->gap) and y, starting from the last ones. The residual is reduced to a small
-   fraction of its start, since later directions will change the problem by more. set->met tells whether that was
-   reached. simply: by Newton's method alone, because W can be extended. *steps: number of systems solved. *solved:
-   false if nothing holds a moving body */
+/*
+   Solves for the forces f (in s->lambda), the motions v (in s->gap) and y, starting from their last values. The
+   residual is reduced to a small fraction of its initial value only, since later directions change the problem by more.
+   set->met tells whether that was reached. simply: only Newton's method is used, since W can be extended if it fails.
+   *steps: number of systems solved. *solved: false if nothing holds a moving body.
+*/
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBool simply, PetscInt *steps,
   PetscBool *solved)
 {
-  const PetscInt limit = 60, few = 400; /* rows whose compliances are measured before W is extended */
+  const PetscInt limit = 60, few = 400; /* largest number of rows for which compliances are computed before W is
+                                           extended */
   PetscReal      first, *begin;
 
   PetscFunctionBegin;

@@ -1,26 +1,27 @@
 /*
-   Solves the problem with the laws of laws.c where Newton's method fails. The bounds b are fixed at the values of the
+   Solves the problem with the laws of laws.c if Newton's method fails. The bounds b are fixed at the values for the
    last forces and updated in rounds (Haslinger, Approximation of the Signorini problem with friction, obeying the
    Coulomb law, 1983). With fixed b the problem is convex. Its augmented Lagrangian (Rockafellar, Augmented Lagrangians
-   and applications of the proximal point algorithm in convex programming, 1976) is convex and once differentiable. Its
-   forces are f = p(v):
-
-     lambda = max(0, lambda' - rho v_n),   tau = P_b(tau' - rho v_t),
-
-   with multipliers f' from the last round. Newton's method with a line search finds its minimum from any start. Its
-   equations are linear in sticking rows.
+   and applications of the proximal point algorithm in convex programming, 1976) is convex and once differentiable, with
+   the forces f = p(v):
+     lambda = max(0, lambda' - rho v_n),  tau = P_b(tau' - rho v_t),
+   where f' = (lambda', tau') are the multipliers of the last round. Newton's method with a line search finds its
+   minimum from any start. The equations of sticking rows are linear.
 */
 #include "frictionimpl.h"
 
 typedef struct {
   PetscReal *multiplier; /* multipliers f' of all rows [force] */
   PetscReal *bound;      /* bounds b of all terms [force] */
-  PetscReal *p;          /* p(v) */
+  PetscReal *p;          /* forces p(v) of all rows [force] */
   PetscReal *f, *v, *y;  /* forces, motions and coefficients at the start of a Newton step */
   PetscReal  largest;    /* largest compliance of a row [length/force] */
 } TermConvex;
 
-/* Penalty stiffness rho of a row: 100/(its compliance). Larger values need fewer rounds. */
+/*
+   Returns the penalty stiffness rho of a row, a hundred times the inverse of its compliance [force/length]. Larger
+   values need fewer rounds.
+*/
 static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
 {
   const PetscReal times = 100.0;
@@ -28,7 +29,7 @@ static PetscReal ConvexStiffness(const IPTermSet *set, PetscInt row)
   return times / IPTermLawsCompliance(set, row);
 }
 
-/* Whether a row can carry a force: its compliance and its bound are not zero */
+/* Returns whether a row can carry a force: neither its compliance nor its bound is zero */
 static PetscBool ConvexIsActive(const IPTermSet *set, const TermConvex *convex, PetscInt row)
 {
   const PetscReal rounding = 1e-14, compliance = IPTermLawsCompliance(set, row);
@@ -37,7 +38,7 @@ static PetscBool ConvexIsActive(const IPTermSet *set, const TermConvex *convex, 
   return (PetscBool)(compliance > rounding * convex->largest && convex->bound[(row - set->m) / 2] > 0.0);
 }
 
-/* b = tau' - rho v of term i; returns |b| */
+/* Computes b = tau' - rho v of term i, without the component that cannot move. Returns |b|. */
 static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscInt i,
   PetscReal b[2])
 {
@@ -49,7 +50,7 @@ static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, con
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
-/* Forces p(v) of all rows */
+/* Computes the forces p(v) of all rows */
 static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const PetscReal v[], PetscReal p[])
 {
   for (PetscInt r = 0; r < set->m; r++)
@@ -66,9 +67,12 @@ static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const P
   }
 }
 
-/* Residual of a row that can carry a force, and its derivatives by the term's two motions and two forces. The slip
-   law is used in the form |b| tau = bound b, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual
-   method for total variation-based image restoration, 1999), which makes Newton's method converge from far away. */
+/*
+   Computes the residual set->F[row] of a row that can carry a force, and its derivatives: by_v by the two motions of
+   its term, by_f by the two forces. A constraint uses the first entry only. The slip law is written as |b| tau = bound
+   b, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image
+   restoration, 1999); Newton's method then converges from distant starts.
+*/
 static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscInt row,
   PetscReal by_v[2], PetscReal by_f[2])
 {
@@ -95,8 +99,10 @@ static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const Term
   }
 }
 
-/* Assembles one row of the system. The column of a term's constraint holds zeros. A row that can carry no force gets
-   the equation f = 0. */
+/*
+   Assembles one row of the system. The entry in the column of a term's constraint is zero, since b is fixed. A row that
+   cannot carry a force gets the equation f = 0.
+*/
 static PetscErrorCode ConvexAssembleRow(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
   PetscInt row)
 {
@@ -126,8 +132,11 @@ static PetscReal ConvexDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* Derivative of the augmented Lagrangian along the Newton step at the fraction alpha. Fy: residuals of the
-   directions at the start of the step; dFy: their change over the full step */
+/*
+   Returns the derivative of the augmented Lagrangian along the Newton step, at the fraction alpha of the step. Fy:
+   residuals of the directions' equations at the start of the step; dFy: their change over the full step; trial: work
+   space.
+*/
 static PetscReal ConvexSlope(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex,
   const PetscReal Fy[], const PetscReal dFy[], PetscReal alpha, PetscReal trial[])
 {
@@ -141,8 +150,10 @@ static PetscReal ConvexSlope(const IPTermSet *set, const IPReducedSystem *s, con
   return slope;
 }
 
-/* Largest fraction of the step that moves no row by more than 100 times its usual motion. It limits the step of
-   bodies that nothing holds at present. */
+/*
+   Returns the largest fraction of the step that moves no row by more than 100 times set->length. This limits the step
+   of bodies that nothing holds at present.
+*/
 static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex)
 {
   const PetscReal much    = 100.0;
@@ -152,8 +163,10 @@ static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, 
   return largest > much * set->length ? much * set->length / largest : 1.0;
 }
 
-/* Line search: sets the state to the minimum of the augmented Lagrangian along the step, at the fraction *alpha.
-   *fell: minus its derivative at the start */
+/*
+   Moves the state to the minimum of the augmented Lagrangian along the Newton step, at the fraction *alpha. *fell:
+   minus the derivative at the start of the step.
+*/
 static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscReal Fy[],
   PetscReal *fell, PetscReal *alpha)
 {
@@ -186,8 +199,10 @@ static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, con
   PetscFunctionReturn(0);
 }
 
-/* One Newton step on the augmented Lagrangian. *fell: minus its derivative along the step at the start [energy];
-   *alpha: fraction of the step that was taken */
+/*
+   Takes one Newton step on the augmented Lagrangian. *fell: minus its derivative along the step at the start [energy];
+   *alpha: fraction of the step that was taken.
+*/
 static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal rtol,
   PetscReal *fell, PetscReal *alpha, PetscBool *solved)
 {
@@ -214,8 +229,10 @@ static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermC
   PetscFunctionReturn(0);
 }
 
-/* Minimizes the augmented Lagrangian until a step is predicted to gain less than `energy`. *solved: false if it is
-   not convex or unbounded below */
+/*
+   Minimizes the augmented Lagrangian until a step is predicted to gain less than `energy`. *solved: false if the
+   Lagrangian is not convex, or is unbounded below.
+*/
 static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscReal energy,
   PetscInt *steps, PetscBool *solved)
 {
@@ -239,8 +256,11 @@ static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, T
   PetscFunctionReturn(0);
 }
 
-/* Sets the bounds b from the present forces. If there are no forces yet, all terms stick. `late`: bounds of terms
-   with a very large coefficient may only fall, since such a row might alternate between stick and open for ever. */
+/*
+   Sets the bounds b from the present forces. At the beginning, if there are no forces yet, all terms stick. late:
+   bounds of terms with a very large coefficient are not increased any more, since such a row might alternate between
+   stick and open without end.
+*/
 static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscBool begin,
   PetscBool late)
 {
@@ -257,7 +277,7 @@ static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, Term
   }
 }
 
-/* energy: squared residuals of the laws and of the directions, weighted as an energy */
+/* Computes the sum of the squared residuals of the laws and of the directions' equations, weighted as an energy */
 static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *energy)
 {
   PetscFunctionBegin;
@@ -275,9 +295,11 @@ static PetscErrorCode ConvexMarkClosed(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionReturn(0);
 }
 
-/* Finds f, v and y whose residual is a small fraction of `first` (the square root of an energy), or the nearest that
+/*
+   Finds f, v and y whose residual is a small fraction of `first` (the square root of an energy), or the nearest that
    the rounds reach. Forces and motions are in equilibrium in either case. *solved: false if nothing holds a moving
-   body. *steps is increased by the number of systems solved. */
+   body. *steps is increased by the number of systems solved.
+*/
 PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
   PetscBool *solved)
 {

@@ -1,10 +1,12 @@
-/* Solves the systems of system.c by a dense LU factorization, if they are small or GMRES fails. That happens for soft
-   bodies with very different stiffnesses along their motions. Columns of C are computed when they are needed first.
-   Rows that are open or have no friction are left out. */
+/*
+   Solves the systems of system.c by a dense LU factorization, if they are small or GMRES fails. GMRES fails for soft
+   bodies that are much stiffer in some motions than in others. A column of C is computed when it is needed first. Rows
+   that are open or have no friction are left out.
+*/
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* Whether C and the factors fit into memory and take acceptable time */
+/* Returns whether C and the factors fit into memory, and their computation takes acceptable time */
 PetscBool IPTermDenseFits(const IPTermSystem *t)
 {
   const PetscInt limit = 3000;
@@ -12,7 +14,7 @@ PetscBool IPTermDenseFits(const IPTermSystem *t)
   return (PetscBool)(t->m <= limit);
 }
 
-/* Computes the columns of C that are still missing for the given rows */
+/* Computes those columns of C that are missing for the given rows */
 static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const PetscInt rows[])
 {
   PetscFunctionBegin;
@@ -31,8 +33,10 @@ static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const Pe
   PetscFunctionReturn(0);
 }
 
-/* rows: the n rows whose equation has more than their own force. Of the others the equation is b_f x = r_f, which
-   gives x; x of the n rows is 0 */
+/*
+   Finds the n rows whose equation contains more than their own force. The equation of any other row is b_f x = r_f,
+   which gives its force x. x is zero in the n rows.
+*/
 static PetscErrorCode TermDenseFindCoupled(const IPTermSystem *t, const PetscReal rf[], PetscInt *n, PetscInt rows[],
   PetscReal x[])
 {
@@ -60,7 +64,7 @@ static PetscErrorCode TermDenseFindCoupled(const IPTermSystem *t, const PetscRea
   PetscFunctionReturn(0);
 }
 
-/* a = scale B_v a for an array a of length m */
+/* Computes a = scale B_v a for an array a with an entry per row */
 static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
 {
   PetscScalar *z;
@@ -75,8 +79,10 @@ static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
   PetscFunctionReturn(0);
 }
 
-/* Row i of the scaled matrix of n rows and of the directions, whose columns have length n + k. place: of the system's
-   rows among the n, or negative */
+/*
+   Assembles row i of the scaled dense matrix N. N has n rows of the system, followed by the directions, and columns of
+   length n + k. place: position of each of the system's rows among the n, or negative.
+*/
 static PetscErrorCode TermDenseAssembleRow(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
   const PetscInt place[], PetscInt i, PetscReal N[])
 {
@@ -107,7 +113,7 @@ static PetscErrorCode TermDenseAssembleRow(IPTermSystem *t, const IPReducedSyste
   PetscFunctionReturn(0);
 }
 
-/* Assembles the scaled matrix of n rows and of the directions */
+/* Assembles the scaled dense matrix N of n rows and the directions */
 static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
   PetscReal N[])
 {
@@ -128,7 +134,7 @@ static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* Subtracts from r_f and r_y what the known forces x contribute */
+/* Subtracts the contribution of the known forces x from r_f and r_y */
 static PetscErrorCode TermDenseSubtract(IPTermSystem *t, const IPReducedSystem *s, const PetscReal x[], PetscReal rf[],
   PetscReal ry[])
 {
@@ -153,7 +159,7 @@ static PetscErrorCode TermDenseSubtract(IPTermSystem *t, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution. *solved: false if the matrix is singular or has more than `most` rows */
+/* Overwrites r_f and r_y with the solution. *solved: false if the matrix is singular or has more than `most` rows. */
 PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, PetscInt most, PetscReal rf[],
   PetscReal ry[], PetscBool *solved)
 {
@@ -190,8 +196,10 @@ PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Inverse of C + shift I in rows scaled to a diagonal of 1. N: of m x m; the lower triangle is set. *inverted: false if
-   rounding makes it indefinite */
+/*
+   Computes the inverse of C + shift I, with rows and columns scaled to a unit diagonal. N (m x m): only the lower
+   triangle is set. *inverted: false if C is indefinite because of rounding errors.
+*/
 static PetscErrorCode TermDenseInvert(const IPTermSystem *t, const PetscReal scale[], PetscReal N[],
   PetscBool *inverted)
 {
@@ -211,11 +219,13 @@ static PetscErrorCode TermDenseInvert(const IPTermSystem *t, const PetscReal sca
   PetscFunctionReturn(0);
 }
 
-/* Compliances of rows whose neighbours are held: 1 / diag(C^-1). They are far smaller than diag(C) for bodies that bend
-   or move as a whole. */
+/*
+   Replaces each compliance by that of the row with all other rows held, 1 / (C^-1)_ii. For bodies that bend or move as
+   a whole this is far smaller than C_ii.
+*/
 static PetscErrorCode TermDenseCondense(IPTermSystem *t)
 {
-  const PetscReal least = 1e-12; /* relative to diag(C): rounding */
+  const PetscReal least = 1e-12; /* smallest value relative to C_ii that is not rounding error */
   PetscReal      *N, *scale;
   PetscBool       inverted = PETSC_FALSE;
 
@@ -230,9 +240,10 @@ static PetscErrorCode TermDenseCondense(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* Sets the compliances of the rows from all columns of C: diag(C), or with `held` those of rows whose neighbours are
-   held. The estimates from the diagonal of K_WW are far too small for bodies that bend. *measured: false if C is too
-   large */
+/*
+   Sets the compliances of the rows from C: to its diagonal or, if `held`, to the compliances with all other rows held.
+   The estimates from the diagonal of K_WW are far too small for bodies that bend. *measured: false if C is too large.
+*/
 PetscErrorCode IPTermDenseMeasure(IPTermSystem *t, PetscBool held, PetscBool *measured)
 {
   const PetscInt most = 1500;

@@ -1,17 +1,15 @@
 /*
-   Preconditioner of the systems of system.c, similar to the lumped preconditioner of FETI (Farhat and Roux, A method of
-   finite element tearing and interconnecting and its parallel solution algorithm, 1991):
-
-     (B_v C + B_f)^-1 ~ A^-1 (B_v R D K_WW D R^T + B_f) A^-1,   A = B_v R D R^T + B_f,   D = diag(K_WW)^-1,
-
+   Preconditioner of the systems of system.c. It is similar to the lumped preconditioner of FETI (Farhat and Roux, A
+   method of finite element tearing and interconnecting and its parallel solution algorithm, 1991):
+     (B_v C + B_f)^-1 ~ A^-1 (B_v R D K_WW D R^T + B_f) A^-1,  A = B_v R D R^T + B_f,  D = diag(K_WW)^-1,
    which would be exact for a square R. The Schur complement for y is H = T + RZ^T (...)^-1 B_v RZ. A is sparse and as
-   well conditioned as a mass matrix, so ILU(0) suffices for it. The condition number of the preconditioned system is
-   small on every mesh. Factors are kept for other B_v and B_f as long as GMRES converges fast with them.
+   well conditioned as a mass matrix; ILU(0) is therefore sufficient for it. The condition number of the preconditioned
+   system is small on every mesh. The factors are used for later B_v and B_f as long as GMRES converges fast.
 */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* ILU(0) of A with rows scaled so that its diagonal is about 1 */
+/* Computes ILU(0) of A, with rows and columns scaled to a diagonal of about 1 */
 static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
 {
   const PetscReal tiny = 1e-12;
@@ -42,7 +40,7 @@ static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
   PetscFunctionReturn(0);
 }
 
-/* Factors A for the present B_v and B_f and keeps copies of these. *factored: false if A is singular */
+/* Factors A for the present B_v and B_f, and stores copies of these. *factored: false if A is singular. */
 static PetscErrorCode TermFactorAll(IPTermSystem *t, PetscBool *factored)
 {
   PetscFunctionBegin;
@@ -59,7 +57,7 @@ static PetscErrorCode TermFactorAll(IPTermSystem *t, PetscBool *factored)
   PetscFunctionReturn(0);
 }
 
-/* z = A^-1 r; r is overwritten */
+/* Computes z = A^-1 r; r is overwritten */
 static PetscErrorCode TermFactorDivide(IPTermSystem *t, Vec r, Vec z)
 {
   PetscFunctionBegin;
@@ -69,7 +67,7 @@ static PetscErrorCode TermFactorDivide(IPTermSystem *t, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* z = A^-1 (P_v R D K_WW D R^T + P_f) A^-1 r; r is overwritten */
+/* Computes z = A^-1 (P_v R D K_WW D R^T + P_f) A^-1 r; r is overwritten */
 static PetscErrorCode TermFactorPrecondition(IPTermSystem *t, Vec r, Vec z)
 {
   PetscFunctionBegin;
@@ -83,7 +81,7 @@ static PetscErrorCode TermFactorPrecondition(IPTermSystem *t, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* z = the same of an array r of the rows' length */
+/* Applies the preconditioner of TermFactorPrecondition() to an array r with an entry per row */
 PetscErrorCode IPTermFactorApply(IPTermSystem *t, const PetscReal r[], PetscReal z[])
 {
   PetscScalar *a;
@@ -98,7 +96,7 @@ PetscErrorCode IPTermFactorApply(IPTermSystem *t, const PetscReal r[], PetscReal
   PetscFunctionReturn(0);
 }
 
-/* V = (...)^-1 P_v RZ for the new directions, and ZV = RZ^T V */
+/* Computes V = (...)^-1 P_v RZ for new directions, and ZV = RZ^T V, where (...)^-1 is the preconditioner */
 static PetscErrorCode TermFactorAppend(IPTermSystem *t, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, zero = 0.0;
@@ -128,8 +126,10 @@ static PetscErrorCode TermFactorAppend(IPTermSystem *t, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
-/* L U = H = T + RZ^T V. The diagonal is raised slightly for bodies that no active row holds. *factored: false if H
-   is singular */
+/*
+   Computes the factorization L U = H = T + RZ^T V. The diagonal is raised slightly for bodies that no active row holds.
+   *factored: false if H is singular.
+*/
 static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal shift = 1e-14;
@@ -148,7 +148,10 @@ static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSyste
   PetscFunctionReturn(0);
 }
 
-/* Prepares the preconditioner: new factors if the old ones are unusable, and the columns of new directions */
+/*
+   Prepares the preconditioner: factors A again if the factors cannot be used, and adds the columns of new directions.
+   *ready: false if a matrix is singular.
+*/
 PetscErrorCode IPTermFactorPrepare(IPTermSystem *t, const IPReducedSystem *s, PetscBool *ready)
 {
   const PetscInt before = t->k;

@@ -1,4 +1,4 @@
-/* Friction implementation of the laws interface of the subspace method. */
+/* Implements the interface IPLawsOps of the subspace method for friction */
 #include "frictionimpl.h"
 
 struct _p_IPLaws {

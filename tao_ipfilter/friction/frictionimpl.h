@@ -1,49 +1,53 @@
 /*
-   tao_ipfilter/friction: the laws of norm terms (friction) on the filtered subspace. Files are in the order in which
-   they depend on each other.
+   tao_ipfilter/friction: the laws of norm terms (friction) in the filtered subspace. The files are listed such that
+   each depends only on those before it.
 */
 #ifndef IPFILTER_FRICTIONIMPL_H
 #define IPFILTER_FRICTIONIMPL_H
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
-/* Linear system of a Newton step for constraints and norm terms: system.c */
+/*
+   The linear system of a Newton step for constraints and norm terms, see system.c. Its rows are those of R: the
+   constraints, followed by two rows per term.
+*/
 typedef struct {
-  PetscInt      m, k;        /* rows; directions in V */
-  Mat           K, FK;       /* K_WW, and its factors */
-  Mat           R, RD, G;    /* R, R D and R D R^T with D = diag(K_WW)^-1 */
-  Mat           Bv, Bf;      /* coefficients of v and of f in the rows' equations */
-  Mat           A, F;        /* A = B_v R D R^T + B_f in scaled rows, and its incomplete factors */
-  Mat           Pv, Pf;      /* the B_v and B_f for which A was factored */
-  PetscReal    *compliance;  /* diag(R D R^T), the estimated compliance of each row [length/force] */
-  PetscReal    *scale;       /* scale of a row: force divided by square root of energy */
-  PetscReal    *V, *ZV, *H;  /* V: columns of length m; ZV: of length kmax; H: of length k */
-  PetscBLASInt *pivots;      /* of H */
-  Vec           S;           /* scale of the rows of A */
-  PetscReal    *f, *v;       /* scratch, of rows */
-  Vec           r, z, w, Kw; /* of rows and of W */
-  PetscInt      fresh;       /* iterations that GMRES needed when the factors were new */
-  PetscBool     stale;       /* the factors must be renewed */
-  PetscBool     dense;       /* GMRES has failed: systems of all sizes are solved by dense.c */
+  PetscInt      m, k;        /* number of rows; number of directions in V */
+  Mat           K, FK;       /* K_WW; its factors */
+  Mat           R, RD, G;    /* R; R D and R D R^T with D = diag(K_WW)^-1 */
+  Mat           Bv, Bf;      /* coefficients of the motions v and of the forces f in the rows' equations */
+  Mat           A, F;        /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
+  Mat           Pv, Pf;      /* values of B_v and B_f for which A was factored */
+  PetscReal    *compliance;  /* estimated compliance of each row, diag(R D R^T) [length/force] */
+  PetscReal    *scale;       /* scale of each row: force divided by square root of energy */
+  PetscReal    *V, *ZV, *H;  /* V, with columns of length m; ZV, with columns of length kmax; factors of H, with
+                                columns of length k */
+  PetscBLASInt *pivots;      /* pivots of the factors of H */
+  Vec           S;           /* scale of each row of A */
+  PetscReal    *f, *v;       /* work arrays with an entry per row */
+  Vec           r, z, w, Kw; /* work vectors: r, z with an entry per row; w, Kw with an entry per unknown of W */
+  PetscInt      fresh;       /* number of GMRES iterations when the factors were new */
+  PetscBool     stale;       /* the factors must be computed again */
+  PetscBool     dense;       /* GMRES has failed, so that dense.c solves systems of all sizes */
   PetscReal    *C;           /* columns of C, of length m; NULL: none is computed */
-  PetscBool    *computed;    /* which columns are computed */
+  PetscBool    *computed;    /* which columns of C are computed */
 } IPTermSystem;
 
-/* State of constraints and norm terms: open or closed, stick or slip: laws.c */
+/* State of constraints and norm terms, see laws.c: constraints are open or closed, terms stick or slip */
 typedef struct {
-  PetscInt   m, n;                /* constraints and terms */
-  PetscReal *limit, *coefficient; /* of the terms; a negative coefficient: the bound is the limit alone */
-  PetscReal *rho, *slope;         /* rho: force per length of a term; slope: derivative of its bound by its
-                                       constraint's force */
-  PetscReal *theta, *direction;   /* theta = bound / |b| and direction = b / |b| of slipping terms at the last
-                                       linearization */
-  PetscReal *dead;                /* unit tangent along which a term cannot move, two entries a term; zero: none */
-  PetscReal  length;              /* magnitude of the motions, for tolerances [length] */
-  PetscBool *closed, *slips;
-  PetscBool *active,
-    listed;         /* active: rows that are active (may carry a force); listed: whether active is up to date */
-  PetscInt     na;  /* number of active rows */
-  PetscBool    met; /* the last solution satisfies the laws to the requested tolerance */
+  PetscInt     m, n;                /* number of constraints; number of terms */
+  PetscReal   *limit, *coefficient; /* per term: limit and coefficient of its bound; a negative coefficient: the bound
+                                     is the limit */
+  PetscReal   *rho, *slope;         /* per term: rho [force/length]; derivative of the bound by the force of its
+                                     constraint */
+  PetscReal   *theta, *direction;   /* at the last linearization, for slipping terms with b = tau - rho v: theta =
+                                     bound / |b|; direction = b / |b| */
+  PetscReal   *dead;   /* two entries per term: unit tangent along which the term cannot move; zero: none */
+  PetscReal    length; /* size of the motions, for tolerances [length] */
+  PetscBool   *closed, *slips;
+  PetscBool   *active, listed; /* active: rows that may carry a force; listed: whether `active` is up to date */
+  PetscInt     na;             /* number of active rows */
+  PetscBool    met;            /* whether the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
 } IPTermSet;

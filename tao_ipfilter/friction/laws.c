@@ -1,12 +1,10 @@
 /*
-   Laws of constraints and norm terms (friction among them) on the subspace. With w eliminated, forces f = (lambda, tau)
-   and motions v of all rows satisfy
-
-     v = C (f - base) - RZ y - h,   T y + RZ^T (f - base) = t,
-     lambda >= 0,   v_n >= 0,   lambda v_n = 0,   tau = P(tau - rho v_t).
-
-   P is the projection to |tau| <= b(lambda), R = [J; T], C = R K_WW^-1 R^T, RZ = R K_WW^-1 Q_W. This file finds the
-   active rows, computes the motions, and measures how far the laws are violated.
+   Laws of constraints and norm terms, e.g. friction, in the subspace. After elimination of w the forces f = (lambda,
+   tau) and motions v of all rows satisfy
+     v = C (f - base) - RZ y - h,  T y + RZ^T (f - base) = t,
+     lambda >= 0,  v_n >= 0,  lambda v_n = 0,  tau = P(tau - rho v_t).
+   P is the projection onto |tau| <= b(lambda), R = [J; T], C = R K_WW^-1 R^T, RZ = R K_WW^-1 Q_W. This file finds the
+   active rows, computes the motions, and measures the violation of the laws.
 */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
@@ -22,8 +20,10 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
   PetscFunctionReturn(0);
 }
 
-/* Creates the state: m constraints, all open, and n terms, all sticking; R has their rows, K is K_WW. *definite:
-   false if K_WW is not positive definite */
+/*
+   Creates the state of m constraints, all open, and n terms, all sticking. R has the rows of both; K is K_WW.
+   *definite: false if K_WW is not positive definite.
+*/
 PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *set,
   PetscBool *definite)
 {
@@ -45,7 +45,7 @@ PetscInt IPTermLawsRow(const IPTermSet *set, PetscInt term)
   return set->m + 2 * term;
 }
 
-/* Whether a term can carry a force with the present bound */
+/* Returns whether term i can carry a force with its present bound */
 static PetscBool TermLawsTakePart(const IPTermSet *set, PetscInt i)
 {
   if (set->limit[i] == 0.0 || set->coefficient[i] == 0.0) return PETSC_FALSE;
@@ -65,7 +65,7 @@ static PetscReal TermLawsLargest(PetscInt n, const PetscReal a[])
   return largest;
 }
 
-/* Computes v = C (f - base) - RZ y - h into s->gap, and the magnitude of its terms */
+/* Computes s->gap = v = C (f - base) - RZ y - h, and set->length, the size of its terms */
 PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -84,13 +84,13 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionReturn(0);
 }
 
-/* Removes the components of forces along directions that cannot move */
+/* Removes the components of the terms' forces along directions that cannot move */
 void IPTermLawsRelieve(const IPTermSet *set, const IPReducedSystem *s)
 {
   for (PetscInt i = 0; i < set->n; i++) IPTermRemoveDead(&set->dead[2 * i], &s->lambda[IPTermLawsRow(set, i)]);
 }
 
-/* Compliance of a row, from the diagonal estimate; for the two rows of a term the larger one [length/force] */
+/* Returns the compliance of a row [length/force]; for either row of a term it is the larger one of both */
 PetscReal IPTermLawsCompliance(const IPTermSet *set, PetscInt row)
 {
   const PetscReal *compliance = set->system.compliance;
@@ -99,11 +99,11 @@ PetscReal IPTermLawsCompliance(const IPTermSet *set, PetscInt row)
   return PetscMax(compliance[first], row < set->m ? 0.0 : compliance[first + 1]);
 }
 
-/* Lists the active rows: closed constraints and terms that can carry a force, if their compliance is not zero */
+/* Lists the active rows: closed constraints, and terms that can carry a force. Rows without compliance are left out. */
 void IPTermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
-  const PetscReal rounding = 1e-14; /* relative to the largest compliance: tangents of held directions have a
-                                       compliance of rounding size */
+  const PetscReal rounding = 1e-14; /* relative to the largest compliance; tangents along held directions have a
+                                       compliance of the size of rounding errors */
   PetscReal       largest  = TermLawsLargest(s->m, set->system.compliance);
 
   set->na = 0;
@@ -116,7 +116,7 @@ void IPTermLawsList(IPTermSet *set, const IPReducedSystem *s)
   set->listed = PETSC_TRUE;
 }
 
-/* rho of each term: the inverse of its compliance [force/length] */
+/* Sets rho of each term to the inverse of its compliance [force/length] */
 void IPTermLawsResist(IPTermSet *set)
 {
   for (PetscInt i = 0; i < set->n; i++) {
@@ -126,14 +126,14 @@ void IPTermLawsResist(IPTermSet *set)
   }
 }
 
-/* v: motion of a term's two rows, without the component along the direction that cannot move */
+/* Gets the motion of a term's two rows, without the component along the direction that cannot move */
 void IPTermLawsMotion(const IPTermSet *set, const IPReducedSystem *s, PetscInt i, PetscReal v[2])
 {
   for (PetscInt a = 0; a < 2; a++) v[a] = s->gap[IPTermLawsRow(set, i) + a];
   IPTermRemoveDead(&set->dead[2 * i], v);
 }
 
-/* b = tau - rho v of term i; returns |b| */
+/* Computes b = tau - rho v of term i. Returns |b|. */
 PetscReal IPTermLawsTrial(const IPTermSet *set, const IPReducedSystem *s, PetscInt i, PetscReal b[2])
 {
   PetscReal v[2];
@@ -143,7 +143,10 @@ PetscReal IPTermLawsTrial(const IPTermSet *set, const IPReducedSystem *s, PetscI
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
-/* Gets the norm term that a row of the system belongs to, and its component (0 or 1); -1: the row of a constraint */
+/*
+   Returns the term to which a row of the system belongs, and its component (0 or 1); -1 if the row is that of a
+   constraint
+*/
 PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component)
 {
   if (row < set->m) return -1;
@@ -151,7 +154,7 @@ PetscInt IPTermLawsOfRow(const IPTermSet *set, PetscInt row, PetscInt *component
   return (row - set->m) / 2;
 }
 
-/* Residual of the directions' equations: Fy = T y + RZ^T (f - base) - t */
+/* Computes the residual of the directions' equations, Fy = T y + RZ^T (f - base) - t */
 PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -169,8 +172,10 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscFunctionReturn(0);
 }
 
-/* Violation of the laws by f and v [energy]: the sum of rho r^2 over all rows, with r = min(lambda / rho, v) for
-   constraints and r = |tau - P(tau - rho v)| / rho for terms */
+/*
+   Returns the violation of the laws [energy]: the sum of rho r^2 over all rows, with r = min(lambda / rho, v) for
+   constraints and r = |tau - P(tau - rho v)| / rho for terms
+*/
 PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal merit = 0.0;
@@ -190,7 +195,7 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   return merit;
 }
 
-/* Updates the list of active rows, sets the force of all other rows to zero, and computes v */
+/* Updates the list of active rows, sets the forces of all other rows to zero, and computes v */
 PetscErrorCode IPTermLawsRenew(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscFunctionBegin;

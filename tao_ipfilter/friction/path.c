@@ -1,12 +1,10 @@
 /*
-   Path-following start for the laws of laws.c where Newton's method fails. The laws are smoothed:
-
-     lambda w = m,   v_n = w,   lambda > 0,   w > 0,   r tau = -b(lambda) v_t,   r = sqrt(|v_t|^2 + e^2),
-
-   and m and e are reduced to zero, as in an interior point method. The friction law is linearized in the form above,
-   not divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
-   1999); that works for sticking and slipping terms. Newton's method then starts from the rows that are closed at the
-   end.
+   Finds a start by path following if Newton's method fails for the laws of laws.c. The laws are smoothed:
+     lambda w = m, v_n = w, lambda > 0, w > 0,  r tau = -b(lambda) v_t, r = sqrt(|v_t|^2 + e^2),
+   and m and e are reduced to zero, as in an interior point method. The friction law is linearized in this form, not
+   divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
+   1999), which works for sticking and for slipping terms. Newton's method then starts with those rows closed that are
+   closed at the end of the path.
 */
 #include "frictionimpl.h"
 
@@ -17,8 +15,10 @@ typedef struct {
   PetscReal  m, e;
 } TermPath;
 
-/* Initial point: the same force for all constraints, chosen so that they move each other by the largest gap; w is
-   the largest gap */
+/*
+   Computes the initial point. All constraints get the same force, chosen such that the forces move the rows by the
+   largest gap on average. w is the largest gap.
+*/
 static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, TermPath *path)
 {
   PetscReal length = 0.0, moved = 0.0, force;
@@ -49,7 +49,7 @@ static PetscErrorCode TermPathBegin(IPTermSet *set, const IPReducedSystem *s, Te
   PetscFunctionReturn(0);
 }
 
-/* Residual of a constraint's equation and its coefficients in the linear system */
+/* Sets the residual and the coefficients of a constraint's equation */
 static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i)
 {
   const PetscReal compliance = set->system.compliance[i], lambda = s->lambda[i], w = path->w[i],
@@ -64,8 +64,10 @@ static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSyste
   PetscFunctionReturn(0);
 }
 
-/* Linearizes component a of term i's law. by_v: derivatives by its two motions; by_f: by its two forces and by its
-   constraint's force; F: residual */
+/*
+   Linearizes component a of the law of term i. by_v: derivatives by the term's two motions; by_f: derivatives by its
+   two forces and by the force of its constraint; F: residual.
+*/
 static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i, PetscInt a,
   PetscReal by_v[3], PetscReal by_f[3], PetscReal *F)
 {
@@ -88,7 +90,10 @@ static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const Te
   *F      = sticks ? v[a] : (r * tau[a] + bound * v[a]) / size;
 }
 
-/* Residual and coefficients of a term's row. The force of an inactive row is left unchanged. */
+/*
+   Sets the residual and the coefficients of a term's row. An inactive row gets an equation that does not change its
+   force.
+*/
 static PetscErrorCode TermPathSetTerm(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt row)
 {
   const PetscReal tiny = 1e-9;
@@ -109,7 +114,7 @@ static PetscErrorCode TermPathSetTerm(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
-/* Largest step up to alpha that keeps x + step dx positive, with a safety factor */
+/* Returns the largest step up to alpha for which x + step dx remains positive, with a safety factor */
 static PetscReal TermPathToBoundary(PetscReal x, PetscReal dx, PetscReal alpha)
 {
   const PetscReal short_of = 0.995;
@@ -117,7 +122,9 @@ static PetscReal TermPathToBoundary(PetscReal x, PetscReal dx, PetscReal alpha)
   return dx < 0.0 ? PetscMin(alpha, -short_of * x / dx) : alpha;
 }
 
-/* Newton step for the smoothed laws; alpha: the fraction of it that keeps lambda and w positive */
+/*
+   Takes a Newton step for the smoothed laws. *alpha: the fraction of the step for which lambda and w remain positive.
+*/
 static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal *alpha,
   PetscBool *solved)
 {
@@ -153,7 +160,7 @@ static PetscErrorCode TermPathStep(IPTermSet *set, const IPReducedSystem *s, Ter
   PetscFunctionReturn(0);
 }
 
-/* Reduces m and e; more strongly after a long step */
+/* Reduces m and e, by a smaller factor after a longer step alpha */
 static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, TermPath *path, PetscReal alpha)
 {
   const PetscReal fraction = alpha > 0.9 ? 0.1 : alpha > 0.3 ? 0.3 : 0.7;
@@ -169,8 +176,10 @@ static void TermPathAdvance(const IPTermSet *set, const IPReducedSystem *s, Term
   path->e = path->m / force;
 }
 
-/* Follows the path to its end: f, v, y, and the rows that are closed there. *followed: false if a system could not
-   be solved or no constraint is active. *steps is increased by the number of systems solved. */
+/*
+   Follows the path to its end, and sets f, v, y, and which rows are closed there. *followed: false if a system could
+   not be solved or no constraint is active. *steps is increased by the number of systems solved.
+*/
 PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *followed)
 {
   const PetscInt  limit = 100;

@@ -1,19 +1,24 @@
 /*
-   Solves the laws of laws.c by a semi-smooth Newton method (Alart and Curnier, A mixed formulation for frictional
+   Solves the laws of laws.c by a semismooth Newton method (Alart and Curnier, A mixed formulation for frictional
    contact problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set
    algorithm for three-dimensional contact problems with Coulomb friction, 2008). Constraints are open or closed. Terms
-   stick, v_t = 0, or slip, tau = b d with d the direction of tau - rho v_t. The linear systems are not symmetric:
-   system.c.
+   stick, v_t = 0, or slip, tau = b d, where d is the direction of tau - rho v_t. The linear systems, see system.c, are
+   not symmetric.
 */
 #include "frictionimpl.h"
 
-/* Exchanges of constraints: the smallest number of wrong ones so far, and exchanges since */
+/*
+   Progress of the exchange of constraints: the smallest number of wrong constraints so far, and the number of exchanges
+   since then. A constraint is wrong if it is closed under tension, or open with penetration.
+*/
 typedef struct {
   PetscInt fewest, idle;
 } TermSetCount;
 
-/* Updates which constraints are closed: a closed one opens under tension, an open one closes if penetrated. all: all
-   of them, else only the last one that is wrong. Returns the number of wrong ones. */
+/*
+   Opens closed constraints under tension and closes open ones with penetration: all of them if `all`, otherwise only
+   the last one. Returns the number of wrong constraints.
+*/
 static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)
 {
   const PetscReal rounding = 1e-13;
@@ -29,8 +34,10 @@ static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool
   return wrong;
 }
 
-/* Friction bound of a term. If its constraint has just closed, the bound is estimated from the force that would
-   remove the penetration if no other row moved. */
+/*
+   Returns the friction bound of a term. If its constraint has just closed, the bound is estimated from the force that
+   would remove the penetration if no other row moved.
+*/
 static PetscReal TermSetPredictBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal compliance = i < set->m ? set->system.compliance[i] : 0.0;
@@ -39,7 +46,7 @@ static PetscReal TermSetPredictBound(const IPTermSet *set, const IPReducedSystem
   return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / compliance);
 }
 
-/* Updates which terms slip; returns whether any changed */
+/* Updates which terms slip. Returns whether any has changed. */
 static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscBool changed = PETSC_FALSE;
@@ -56,8 +63,10 @@ static PetscBool TermSetSlip(IPTermSet *set, const IPReducedSystem *s)
   return changed;
 }
 
-/* For slipping terms: the direction b / |b|, theta = bound / |b|, and the derivative of the bound, at which the
-   equations are linearized */
+/*
+   Computes, for slipping terms with b = tau - rho v, the direction b / |b|, theta = bound / |b|, and the derivative of
+   the bound, with which the equations are linearized
+*/
 static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
 {
   for (PetscInt i = 0; i < set->n; i++) {
@@ -72,7 +81,7 @@ static void TermSetLinearize(IPTermSet *set, const IPReducedSystem *s)
   }
 }
 
-/* Factor of the force of an inactive row in its equation f = 0 [length/force] */
+/* Returns the factor by which the force of an inactive row is multiplied in its equation f = 0 [length/force] */
 static PetscReal TermSetUnit(const IPTermSet *set, PetscInt row)
 {
   const PetscReal compliance = IPTermLawsCompliance(set, row);
@@ -81,8 +90,10 @@ static PetscReal TermSetUnit(const IPTermSet *set, PetscInt row)
   return compliance > 0.0 ? compliance : 1.0;
 }
 
-/* Residuals of all rows [length]: the force, as a length, of inactive ones; v of closed and sticking rows, (tau - bound
-   d) / rho of slipping ones. Returns the largest. */
+/*
+   Computes the residuals of all rows [length]: the force, converted to a length, of inactive rows; v of closed and
+   sticking rows; (tau - bound d) / rho of slipping rows. Returns the largest residual of an active row.
+*/
 static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal largest = 0.0;
@@ -113,8 +124,9 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   Derivatives of a row's equation. by_v: by the motions of the term's two rows; by_f: by its two forces; by_lambda: by
-   the force of its constraint. A closed or sticking row has by_v = 1 at itself.
+   Computes the derivatives of a row's equation. by_v: by the motions of the term's two rows; by_f: by the term's two
+   forces; by_lambda: by the force of the term's constraint. In a closed or sticking row only the derivative by its own
+   motion is not zero; it is 1.
 */
 static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], PetscReal by_f[2], PetscReal *by_lambda)
 {
@@ -141,9 +153,11 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
   if (set->slips[i]) *by_lambda = -set->slope[i] * direction[a] / set->rho[i];
 }
 
-/* Assembles one row of the system. A tiny shift of the diagonal makes linearly dependent rows solvable; rows of
-   terms are dependent where bodies are held. The residual has no such shift, so the solution is not changed. The
-   force of an inactive row is left unchanged. */
+/*
+   Assembles one row of the system. A tiny addition to the diagonal makes linearly dependent rows solvable; rows of
+   terms are dependent if bodies are held. The residual has no such addition, so that the solution does not change. The
+   force of an inactive row is unchanged.
+*/
 static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
 {
   const PetscReal shift = 1e-13, terms = 1e-9, compliance = IPTermLawsCompliance(set, row);
@@ -164,7 +178,7 @@ static PetscErrorCode TermSetAssembleRow(IPTermSet *set, PetscInt row)
   PetscFunctionReturn(0);
 }
 
-/* One Newton step from f and y */
+/* Takes one Newton step from f and y */
 static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, PetscReal rtol, PetscBool *solved)
 {
   PetscFunctionBegin;
@@ -180,15 +194,18 @@ static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, Pets
   PetscFunctionReturn(0);
 }
 
-/* x := x0 + alpha (x - x0) */
+/* Computes x := x0 + alpha (x - x0) */
 static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], PetscReal x[])
 {
   for (PetscInt i = 0; i < n; i++) x[i] = x0[i] + alpha * (x[i] - x0[i]);
 }
 
-/* Line search: from the end of a Newton step back towards its start (f, v, y), by halving, to the point of smallest
-   violation. If no point has less than the start, the whole step is taken, since many short ones would lead nowhere.
-   directions: norm of the directions' residual at the start. v is linear along the step, so no system is solved. */
+/*
+   Line search: moves from the end of a Newton step back towards its start (f, v, y) by halving, to the point of
+   smallest violation. If no point is better than the start, the whole step is taken, since many short steps would make
+   no progress. directions: norm of the residual of the directions' equations at the start. v is linear along the step,
+   so that no system is solved.
+*/
 static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[],
   const PetscReal y[], PetscReal directions)
 {
@@ -221,7 +238,7 @@ static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, co
   PetscFunctionReturn(0);
 }
 
-/* A Newton step with line search */
+/* Takes a Newton step with line search */
 static PetscErrorCode TermSetCarefulStep(IPTermSet *set, const IPReducedSystem *s, PetscReal rtol, PetscBool *solved)
 {
   PetscReal *before, directions = 0.0;
@@ -238,7 +255,7 @@ static PetscErrorCode TermSetCarefulStep(IPTermSet *set, const IPReducedSystem *
   PetscFunctionReturn(0);
 }
 
-/* Square root of the squared residuals, weighted as an energy */
+/* Returns the square root of the sum of the squared residuals, weighted as an energy */
 static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
 {
   PetscReal sum = 0.0;
@@ -252,10 +269,12 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
   return PetscSqrtReal(sum);
 }
 
-/* Updates which constraints are closed and which terms slip. All constraints that are wrong are exchanged; only the
-   last of them if their number has not fallen for several steps, since exchanges of all may cycle (Portugal, Judice and
-   Vicente, A comparison of block pivoting and interior-point algorithms for linear least squares problems with
-   nonnegative variables, 1994). *changed: whether anything changed */
+/*
+   Updates which constraints are closed and which terms slip. All wrong constraints are exchanged. If their number has
+   not fallen for several steps, only the last of them is exchanged, since exchanges of all may cycle (Portugal, Judice
+   and Vicente, A comparison of block pivoting and interior-point algorithms for linear least squares problems with
+   nonnegative variables, 1994). *changed: whether anything changed.
+*/
 static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, TermSetCount *count, PetscBool *changed)
 {
   const PetscInt patience = 10;
@@ -274,7 +293,10 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
   PetscFunctionReturn(0);
 }
 
-/* Residual that rounding leaves, of forces that are large compared with their changes [square root of energy] */
+/*
+   Returns the residual that rounding errors cause if forces are large compared with their changes [square root of
+   energy]
+*/
 static PetscReal TermSetRounding(const IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal exact = 1e-13;
@@ -284,7 +306,10 @@ static PetscReal TermSetRounding(const IPTermSet *set, const IPReducedSystem *s)
   return exact * PetscSqrtReal(sum);
 }
 
-/* off: square root of the squared residuals of the laws and of the directions, weighted as an energy */
+/*
+   Computes the square root of the sum of the squared residuals of the laws and of the directions' equations, weighted
+   as an energy
+*/
 PetscErrorCode IPTermSetOff(IPTermSet *set, const IPReducedSystem *s, PetscReal *off)
 {
   PetscFunctionBegin;
@@ -295,7 +320,7 @@ PetscErrorCode IPTermSetOff(IPTermSet *set, const IPReducedSystem *s, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* A state of the iteration: f, v, y and which constraints are closed */
+/* A state of the iteration: its residual, f, v and y, and which constraints are closed */
 typedef struct {
   PetscReal  off, *values;
   PetscBool *closed;
@@ -316,7 +341,7 @@ static PetscErrorCode TermSetCopy(IPTermSet *set, const IPReducedSystem *s, Term
   PetscFunctionReturn(0);
 }
 
-/* Whether the residuals are at the level of rounding, or no longer fall there */
+/* Returns whether the residuals are rounding errors, or are small and no longer decrease */
 static PetscBool TermSetIsExact(const IPTermSet *set, PetscReal largest, PetscReal before)
 {
   const PetscReal exact = 1e-12, rounding = 1e-9;
@@ -324,9 +349,11 @@ static PetscBool TermSetIsExact(const IPTermSet *set, PetscReal largest, PetscRe
   return (PetscBool)(largest <= exact * set->length || (largest <= rounding * set->length && largest > 0.5 * before));
 }
 
-/* Newton's method from the present state, which becomes `state` where the residual is smallest. first: residual that is
-   to be reduced to a small fraction. Ends early if the residual is not halved, nor the number of wrong constraints
-   reduced, in several steps. */
+/*
+   Iterates by Newton's method from the present state until the residual is a small fraction of `first`. The state with
+   the smallest residual is stored in `state`. The iteration ends early if for several steps neither the residual was
+   halved nor the number of wrong constraints fell.
+*/
 static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal first,
   TermSetState *state, PetscInt *steps, PetscBool *solved)
 {
@@ -364,8 +391,11 @@ static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, Pe
   PetscFunctionReturn(0);
 }
 
-/* At most `limit` Newton steps. If they do not reduce the residual to a small fraction of `first` (of the start if
-   negative), the state of smallest residual is kept. *steps is increased by the number of systems solved. */
+/*
+   Takes at most `limit` Newton steps. If they do not reduce the residual to a small fraction of `first` (of its initial
+   value if negative), the state with the smallest residual is restored. *steps is increased by the number of systems
+   solved.
+*/
 PetscErrorCode IPTermSetIterate(IPTermSet *set, const IPReducedSystem *s, PetscInt limit, PetscReal first,
   PetscInt *steps, PetscBool *solved)
 {

@@ -1,14 +1,14 @@
-/* Solves the systems of system.c by GMRES without forming C; by dense factors if GMRES fails. */
+/* Solves the systems of system.c by GMRES without forming C, or by dense factors if GMRES fails */
 #include "frictionimpl.h"
 #include <petscblaslapack.h>
 
-/* Context of the shell matrix and shell preconditioner */
+/* Context of the shell matrix and of the shell preconditioner */
 typedef struct {
   IPTermSystem          *system;
   const IPReducedSystem *s;
 } TermSolveShell;
 
-/* a += factor RZ y and b += RZ^T f; either is skipped if NULL */
+/* Adds factor RZ y to a and factor RZ^T f to b; either is skipped if a or b is NULL */
 static PetscErrorCode TermSolveCouple(const IPReducedSystem *s, PetscReal factor, const PetscReal y[], PetscReal a[],
   const PetscReal f[], PetscReal b[])
 {
@@ -61,7 +61,7 @@ static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
   PetscFunctionReturn(0);
 }
 
-/* Applies the preconditioner: y = H^-1 (r_y - RZ^T P r_f), f = P r_f + V y */
+/* Applies the preconditioner: y = H^-1 (r_y - RZ^T P r_f), f = P r_f + V y, where P is that of IPTermFactorApply() */
 static PetscErrorCode TermSolvePrecondition(PC pc, Vec in, Vec out)
 {
   const PetscReal    one = 1.0;
@@ -114,7 +114,7 @@ static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, 
   PetscFunctionReturn(0);
 }
 
-/* GMRES from the start x with the present factors; b: right hand side */
+/* Solves by GMRES with the present factors and the initial guess x. b: right-hand side. */
 static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, PetscInt limit, Vec b, Vec x,
   PetscInt *its, PetscBool *converged)
 {
@@ -132,7 +132,7 @@ static PetscErrorCode TermSolveIterate(TermSolveShell *solve, PetscReal rtol, Pe
   PetscFunctionReturn(0);
 }
 
-/* Copies (r_f, r_y), scaled, to the vector b, or back */
+/* Copies (r_f, r_y), scaled, into the vector b, or from b if `back` */
 static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, PetscReal rf[], PetscReal ry[],
   PetscBool back)
 {
@@ -150,8 +150,11 @@ static PetscErrorCode TermSolveCopy(const IPTermSystem *t, PetscInt k, Vec b, Pe
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution by GMRES. *converged: false if the residual was not reached. The factors
-   are renewed if GMRES needs many more iterations than with new factors; soft bodies need 20 to 30 even then. */
+/*
+   Overwrites r_f and r_y with the solution by GMRES. *converged: false if the residual was not reduced enough, unless
+   `keep` accepts any result. The factors are computed again if GMRES needs many more iterations than with new factors;
+   for soft bodies 20 to 30 iterations are normal.
+*/
 static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool keep, PetscBool *converged)
 {
@@ -181,9 +184,11 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   PetscFunctionReturn(0);
 }
 
-/* Overwrites r_f and r_y with the solution to the relative residual rtol. Small systems are solved by dense factors,
-   and large ones once GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned.
-   *solved: false if there is no solution */
+/*
+   Overwrites r_f and r_y with the solution, to the relative residual rtol. Small systems are solved by dense factors;
+   large ones only if GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned.
+   *solved: false if there is no solution.
+*/
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {

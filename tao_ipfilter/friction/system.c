@@ -1,10 +1,9 @@
 /*
-   Linear systems of Newton's method on the laws of laws.c, for changes of the forces f of all rows R and of y:
-
+   The linear systems of Newton's method for the laws of laws.c. The unknowns are the changes of the forces f of all
+   rows of R, and of y:
      (B_v C + B_f) f - B_v RZ y = r_f,   RZ^T f + T y = r_y,   C = R K_WW^-1 R^T.
-
-   B_v and B_f consist of blocks of a constraint and its term. K_WW is factored and C is applied, not formed. Solver:
-   solve.c; preconditioner: factor.c.
+   B_v and B_f consist of one block per constraint and its term. K_WW is factored, and C is applied without being
+   formed. solve.c has the solver, factor.c the preconditioner.
 */
 #include "frictionimpl.h"
 
@@ -35,7 +34,7 @@ PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* Creates a zero matrix for all rows with a block for each constraint and its term */
+/* Creates a zero matrix with a block for each constraint and its term */
 static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
 {
   const PetscScalar zeros[9] = {0.0};
@@ -52,7 +51,10 @@ static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
   PetscFunctionReturn(0);
 }
 
-/* Computes R D and G = R D R^T with room for the blocks, and the diagonal compliances of all rows */
+/*
+   Computes R D and G = R D R^T, with the nonzero pattern of the blocks included, and the estimated compliances of all
+   rows
+*/
 static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
 {
   const PetscScalar *a;
@@ -77,7 +79,7 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* L U = K_WW by PETSc's LU, whose solves have little overhead. *definite: whether all pivots are positive */
+/* Computes L U = K_WW by PETSc's LU, whose solves have little overhead. *definite: whether all pivots are positive. */
 static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *definite)
 {
   MatFactorInfo  info;
@@ -103,8 +105,10 @@ static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *defi
   PetscFunctionReturn(0);
 }
 
-/* Sets up for sequential K_WW and R. R has m rows of constraints, then two rows for each of n terms; kmax: largest
-   number of directions. *definite: false if K_WW is not positive definite */
+/*
+   Sets up the system for the sequential matrices K = K_WW and R. R has m rows of constraints, followed by two rows for
+   each of n terms. kmax: largest number of directions. *definite: false if K_WW is not positive definite.
+*/
 PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
   PetscBool *definite)
 {
@@ -129,7 +133,10 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Sets the coefficients of one row: by_v and by_f in the n <= 3 columns of its constraint and its term */
+/*
+   Sets the coefficients by_v and by_f of one row, in the n <= 3 columns of its constraint and its term, and the row's
+   scale
+*/
 PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
 {
@@ -140,7 +147,7 @@ PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, con
   PetscFunctionReturn(0);
 }
 
-/* Call after all rows have been set */
+/* Assembles B_v and B_f after all rows have been set */
 PetscErrorCode IPTermSystemAssemble(IPTermSystem *t)
 {
   const Mat B[2] = {t->Bv, t->Bf};
@@ -153,7 +160,7 @@ PetscErrorCode IPTermSystemAssemble(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* v = C f */
+/* Computes v = C f */
 PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *t, const PetscReal f[], PetscReal v[])
 {
   PetscFunctionBegin;

@@ -120,7 +120,7 @@ static PetscBool Coarse(const TAO_IPFILTER *ip)
 static const struct {
   PetscErrorCode (*prepare)(Tao, PetscBool *);
   PetscErrorCode (*solve)(Tao, Vec, Vec, IPLinearVerdict *);
-} remedies[] = {
+} attempts[] = {
   {NULL, IPKrylovSolve},
   {RebuildAMG, IPKrylovSolve},
   {SwitchFilterOn, IPKrylovSolve},
@@ -174,9 +174,9 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 }
 
 /* Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED */
-static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
-  const size_t n     = PETSC_STATIC_ARRAY_LENGTH(remedies);
+  const size_t n     = PETSC_STATIC_ARRAY_LENGTH(attempts);
   const size_t first = DirectOnly((TAO_IPFILTER *)tao->data) ? n - 1 : 0;
   PetscBool    sound = PETSC_TRUE, possible;
 
@@ -185,8 +185,8 @@ static PetscErrorCode TryRemedies(Tao tao, Vec b, Vec d, IPLinearVerdict *verdic
     if (k == PetscMax(first, 1)) PetscCall(CheckNumbers(tao, &sound));
     if (!sound) PetscFunctionReturn(0);
     possible = PETSC_TRUE;
-    if (remedies[k].prepare) PetscCall((*remedies[k].prepare)(tao, &possible));
-    if (possible) PetscCall((*remedies[k].solve)(tao, b, d, verdict));
+    if (attempts[k].prepare) PetscCall((*attempts[k].prepare)(tao, &possible));
+    if (possible) PetscCall((*attempts[k].solve)(tao, b, d, verdict));
     if (k == n - 1) PetscCall(ConcludeDirect(tao, verdict));
   }
   PetscFunctionReturn(0);
@@ -207,7 +207,7 @@ PetscErrorCode IPLinearSolve(Tao tao, Vec b, Vec d, PetscReal target, PetscBool 
   PetscCall(VecNorm(b, NORM_2, &ip->lin->rhs));
   ip->lin->target = target;
   ip->lin->why[0] = '\0';
-  PetscCall(TryRemedies(tao, b, d, &verdict));
+  PetscCall(MakeAttempts(tao, b, d, &verdict));
   *usable         = (PetscBool)(verdict == IP_LINEAR_SOLVED);
   ip->lin->failed = (PetscBool)(verdict == IP_LINEAR_FAILED);
   if (*usable) ip->rec->fallbacks.backward_error = PetscMax(ip->rec->fallbacks.backward_error, ip->lin->backward_error);

@@ -1,13 +1,12 @@
 /*
-   The contact problem on the subspace as a linear complementarity problem in the constraints. With w eliminated:
-
-     C lambda - JZ y = h,   T y + JZ^T lambda = t   in the active rows,   lambda >= 0,
-     gap = C lambda - JZ y - h >= 0   in the others,
-
-   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. It is solved by block principal
+   Solves the contact problem in the subspace as a linear complementarity problem in the constraints. After elimination
+   of w:
+     C lambda - JZ y = h, T y + JZ^T lambda = t in the active rows, lambda >= 0,
+     gap = C lambda - JZ y - h >= 0 in the inactive rows,
+   where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. The method is block principal
    pivoting (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
-   squares problems with nonnegative variables, 1994). This is the primal-dual active set method, which exchanges single
-   rows when exchanging all of them makes no progress, and so terminates.
+   squares problems with nonnegative variables, 1994), that is, the primal-dual active set method, which changes to
+   exchanging single rows if exchanging all of them makes no progress, and therefore terminates.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -37,7 +36,7 @@ PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *set)
   PetscFunctionReturn(0);
 }
 
-/* The rows of the active set, without rows that cannot move */
+/* Lists the rows of the active set, without rows that have no compliance */
 static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
 {
   PetscInt n = 0;
@@ -55,8 +54,10 @@ static PetscErrorCode ActiveSetList(IPActiveSet *set, IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* L L^T = C_AA, with a small addition to the diagonal so that dependent rows can be factored; *factored is false if no
-   small addition suffices */
+/*
+   Computes L L^T = C_AA, with a small addition to the diagonal so that dependent rows can be factored. *factored: false
+   if no small addition is sufficient.
+*/
 static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, PetscBool *factored)
 {
   const PetscReal first = 1e-13, last = 1e-8;
@@ -82,7 +83,7 @@ static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, Pet
   PetscFunctionReturn(0);
 }
 
-/* V = L^-1 JZ_A for the new columns */
+/* Computes V = L^-1 JZ_A for new directions */
 static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSystem *s)
 {
   PetscBLASInt    n, k;
@@ -104,8 +105,10 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
   PetscFunctionReturn(0);
 }
 
-/* H = T + V^T V, with a small addition to the diagonal for bodies that no active constraint holds; *factored is false
-   if H is indefinite */
+/*
+   Factors H = T + V^T V, with a small addition to the diagonal for bodies that no active constraint holds. *factored:
+   false if H is indefinite.
+*/
 static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
@@ -130,7 +133,7 @@ static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReduce
   PetscFunctionReturn(0);
 }
 
-/* y = H^-1 (t - V^T r), lambda_A = L^-T (V y + r) with r = L^-1 h_A */
+/* Computes y = H^-1 (t - V^T r) and lambda_A = L^-T (V y + r) with r = L^-1 h_A */
 static PetscErrorCode ActiveSetBackSubstitute(IPActiveSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -145,7 +148,8 @@ static PetscErrorCode ActiveSetBackSubstitute(IPActiveSet *set, const IPReducedS
   if (n && k) PetscCallBLAS("BLASgemv", BLASgemv_("T", &n, &k, &minus, set->V, &n, set->r, &inc, &one, s->y, &inc));
   if (k) {
     PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &k, &inc, set->H, &k, s->y, &k, &info));
-    PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs said %d of %d directions", (int)info, (int)k);
+    PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs returned %d for %d directions", (int)info,
+      (int)k);
   }
   if (n && k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &one, set->V, &n, s->y, &inc, &one, set->r, &inc));
   if (n) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "T", "N", &n, &inc, &one, set->L, &n, set->r, &n));
@@ -154,7 +158,7 @@ static PetscErrorCode ActiveSetBackSubstitute(IPActiveSet *set, const IPReducedS
   PetscFunctionReturn(0);
 }
 
-/* gap = C lambda - JZ y - h */
+/* Computes gap = C lambda - JZ y - h */
 static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -171,7 +175,7 @@ static PetscErrorCode ActiveSetGap(const IPActiveSet *set, const IPCompliance *c
   PetscFunctionReturn(0);
 }
 
-/* Solves for the present active set */
+/* Solves for lambda, y and gap with the present active set */
 PetscErrorCode IPActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscBool *solved)
 {
   PetscFunctionBegin;
@@ -190,8 +194,10 @@ PetscErrorCode IPActiveSetSolveRows(IPActiveSet *set, IPCompliance *c, const IPR
   PetscFunctionReturn(0);
 }
 
-/* Whether a row is in the wrong set: an active row with a tensile force, or an inactive one with a penetration beyond
-   rounding */
+/*
+   Returns whether a row is in the wrong set: an active row with a tensile force, or an inactive one with a penetration
+   beyond rounding
+*/
 static PetscBool ActiveSetMisplaced(const IPActiveSet *set, const IPReducedSystem *s, PetscInt i)
 {
   const PetscReal rounding = 1e-13;
@@ -210,8 +216,10 @@ static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscB
   }
 }
 
-/* lambda, gap and y of the contact problem, from the last active set. *steps: number of systems solved; *solved is
-   false if the active set does not settle */
+/*
+   Solves the contact problem for lambda, gap and y, starting from the last active set. *steps: number of systems
+   solved. *solved: false if the active set keeps changing.
+*/
 PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
   PetscBool *solved)
 {

@@ -1,7 +1,7 @@
 /*
-   The directions P of the filtered subspace, which are kept between solves. They are zero on the constraints' unknowns
-   W. The products Q = K P and the Gram matrix P^T K P are stored with them. New directions are K-orthonormal. After a
-   change of W the entries on the new W are set to zero, and Q and the Gram matrix are corrected.
+   The directions P of the filtered subspace, which later solves reuse. They are zero on the constraints' unknowns W.
+   The products Q = K P and the Gram matrix P^T K P are stored with them. A new direction is made K-orthonormal to the
+   others. If W changes, the entries on the new W are set to zero, and Q and the Gram matrix are corrected.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -37,12 +37,14 @@ static PetscErrorCode BasisSolve(const IPBasis *b, PetscReal h[])
   PetscCall(PetscBLASIntCast(b->n, &n));
   PetscCall(PetscBLASIntCast(b->max, &ld));
   PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &n, &one, b->factor, &ld, h, &ld, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs said %d of %d directions", (int)info, (int)n);
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs returned %d for %d directions", (int)info, (int)n);
   PetscFunctionReturn(0);
 }
 
-/* Projects d to be K-orthogonal to P: d -= P h and, if given, Kd -= Q h, with h = (P^T K P)^-1 Q^T d. *removed: the
-   energy h^T P^T K P h */
+/*
+   Makes d K-orthogonal to P: d -= P h and, unless Kd is NULL, Kd -= Q h, with h = (P^T K P)^-1 Q^T d. *removed: energy
+   h^T P^T K P h of the removed part.
+*/
 static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *removed)
 {
   PetscReal *h, *s;
@@ -64,7 +66,7 @@ static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *r
   PetscFunctionReturn(0);
 }
 
-/* Allocates direction n and copies d into it */
+/* Creates the vectors of direction n if they do not exist, and copies d into it */
 static PetscErrorCode BasisTake(IPBasis *b, Vec d)
 {
   const PetscInt n = b->n;
@@ -76,8 +78,11 @@ static PetscErrorCode BasisTake(IPBasis *b, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Appends d, zero on W, after making it K-orthonormal to the other directions. Projects twice if the first projection
-   removed half of its energy. *appended: false if d is dependent up to rounding, or K is not positive along it */
+/*
+   Makes d, which is zero on W, K-orthonormal to the other directions and appends it. It is projected twice if the first
+   projection removed half of its energy. *appended: false if d depends on the other directions up to rounding, or K is
+   not positive along it.
+*/
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
   const PetscInt  n   = b->n;
@@ -109,8 +114,10 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
   PetscFunctionReturn(0);
 }
 
-/* Keeps the marked directions in their order, and the vectors of the others for reuse; the Gram matrix must be
-   factored again */
+/*
+   Selects the directions with keep[j], in their order. The vectors of the others remain allocated for new directions.
+   The Gram matrix must be factored again.
+*/
 static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
 {
   PetscInt n = 0;
@@ -132,7 +139,10 @@ static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Marks the directions that are independent of later ones: Cholesky from the newest to the oldest */
+/*
+   Finds the directions that are independent of later ones, by a Cholesky factorization from the newest to the oldest
+   direction
+*/
 static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
 {
   const PetscReal dependent = 1e-10;
@@ -158,7 +168,7 @@ static PetscErrorCode BasisFindIndependent(const IPBasis *b, PetscBool keep[])
   PetscFunctionReturn(0);
 }
 
-/* Factors the Gram matrix of other directions than before, without those that depend on others */
+/* Factors the Gram matrix after the directions have changed. Directions that depend on later ones are removed first. */
 static PetscErrorCode BasisFactor(IPBasis *b)
 {
   PetscBool   *keep;
@@ -179,8 +189,10 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Computes the n x n rotation T such that T^T E T is diagonal with falling entries and T^T P^T K P T = I for the
-   first n directions. E (columns of length max) is overwritten. */
+/*
+   Computes the n x n matrix T such that T^T E T is diagonal with decreasing entries and T^T P^T K P T = I, for the
+   first n directions. E (columns of length max) is overwritten.
+*/
 static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[], PetscReal T[])
 {
   PetscReal   *G, *values, *work, size;
@@ -196,15 +208,17 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
   PetscCall(PetscBLASIntCast((PetscInt)size, &lwork));
   PetscCall(PetscMalloc1(lwork, &work));
   PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, work, &lwork, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv said %d of %d directions", (int)info, (int)nb);
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv returned %d for %d directions", (int)info, (int)nb);
   for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(T + j * n, E + (n - 1 - j) * b->max, n));
   PetscCall(PetscFree(work));
   PetscCall(PetscFree2(G, values));
   PetscFunctionReturn(0);
 }
 
-/* Replaces the first k of n vectors by their combinations with the columns of T (length n). Works on blocks of rows
-   to save memory. */
+/*
+   Replaces the first k of n vectors by their combinations with the columns of T (length n). The vectors are processed
+   in blocks of entries to save memory.
+*/
 static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], Vec v[])
 {
   const PetscInt  chunk = 128;
@@ -230,7 +244,7 @@ static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], 
   PetscFunctionReturn(0);
 }
 
-/* Updates the Gram matrix after the first n directions were replaced by k orthonormal ones */
+/* Updates the Gram matrix after the first n directions were replaced by k orthonormal combinations */
 static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
   PetscReal *old;
@@ -251,8 +265,10 @@ static PetscErrorCode BasisCombineGram(IPBasis *b, PetscInt n, PetscInt k, const
   PetscFunctionReturn(0);
 }
 
-/* Keeps the `last` newest directions. The others are replaced by the `best` combinations with the largest ratio p^T
-   E p / p^T K p. E (columns of length max) is overwritten. */
+/*
+   Keeps the `last` newest directions, and replaces the others by their `best` combinations with the largest ratios p^T
+   E p / p^T K p. E (columns of length max) is overwritten.
+*/
 PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscReal E[])
 {
   const PetscInt n = b->n - last;
@@ -273,7 +289,7 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Recomputes Q = K P and the Gram matrix for a new K */
+/* Computes Q = K P and the Gram matrix for a new K */
 PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
@@ -286,7 +302,7 @@ PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* Copies entries of v at the given local rows; cut: then sets them to zero in v */
+/* Copies the entries of v in n local rows to entries[]. cut: sets them to zero in v. */
 static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], PetscReal entries[], PetscBool cut)
 {
   PetscScalar *a;
@@ -303,8 +319,10 @@ static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], Pet
   PetscFunctionReturn(0);
 }
 
-/* Sets direction j to zero at the given rows: p -= E a, q -= K E a, where a are its entries there. Returns a, and
-   the entries of the old q and of K E a at these rows. */
+/*
+   Sets direction j to zero in the given rows: p -= E a, q -= K E a, where E a is its part there. Returns the entries a
+   of p, those of the old q, and those of K E a in these rows.
+*/
 static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const PetscInt rows[], PetscReal a[],
   PetscReal q[], PetscReal Ka[], Vec work[2])
 {
@@ -319,7 +337,9 @@ static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const 
   PetscFunctionReturn(0);
 }
 
-/* Corrects the Gram matrix for p - E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, from the entries at n local rows */
+/*
+   Corrects the Gram matrix after p -= E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, from the entries in n local rows
+*/
 static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a[], const PetscReal q[],
   const PetscReal Ka[])
 {
@@ -342,7 +362,7 @@ static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a
   PetscFunctionReturn(0);
 }
 
-/* Finds the local rows of W in which some direction is not zero. *all: the number of these rows on all ranks */
+/* Finds the local rows of W in which some direction is not zero. *all: number of these rows on all ranks. */
 static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscInt **rows, PetscInt *all)
 {
   const PetscInt *w;
@@ -371,7 +391,7 @@ static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Sets the directions to zero on W and updates Q and the Gram matrix */
+/* Sets the directions to zero on W, and updates Q and the Gram matrix */
 PetscErrorCode IPBasisRestrict(IPBasis *b, Mat K, IS W)
 {
   PetscInt   n, all, *rows;

@@ -1,12 +1,10 @@
 /*
-   Companions make K_WW definite. K_WW is singular if W contains a whole body that is not held, or a mechanism. Each
-   unknown with a vanishing pivot gets a companion: an extra unknown that is connected to it by a spring and to nothing
-   else. The springs make the matrix definite. Since companions are free to follow their unknowns, they hold nothing.
-   Their displacements s are coordinates y like those of directions:
-
+   Companion unknowns make K_WW definite. K_WW is singular if W contains a whole body that is not held, or a mechanism.
+   Each unknown with a vanishing pivot then gets a companion: an additional unknown that is connected to it by a spring
+   and to nothing else. The springs make the matrix definite. They exert no forces, since the companions are free to
+   follow their unknowns. The displacements s of the companions are treated as coordinates y of directions:
      1/2 v^T K v = min over s of 1/2 w^T (K_WW + E D E^T) w - s^T D E^T w + 1/2 s^T D s + terms of the directions,
-
-   so Q_W = -E D and P^T K P = D.
+   so that Q_W = -E D and P^T K P = D for them.
 */
 #include "subspaceimpl.h"
 
@@ -18,8 +16,10 @@ PetscErrorCode IPCompanionsDestroy(IPCompanions *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular up to rounding. Uses a solve with its factors: compares the energy of a load on all unknowns
-   with the energies of loads on single unknowns. */
+/*
+   Finds whether K is singular up to rounding, from one solve with its factors: the energy of a load on all unknowns is
+   compared with the energies of loads on single unknowns
+*/
 PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool *needed)
 {
   const PetscReal most = 1e7;
@@ -51,7 +51,10 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Pivots of K scaled to a unit diagonal, in the order of K's rows. Almost vanishing pivots are raised by `raise`. */
+/*
+   Computes the pivots of K scaled to a unit diagonal, in the order of K's rows. Pivots that almost vanish are increased
+   by `raise`.
+*/
 static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pivots)
 {
   const PetscReal nothing = 1e-8;
@@ -86,8 +89,10 @@ static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pi
   PetscFunctionReturn(0);
 }
 
-/* Chooses companions from K's pivots and adds their springs to K; a spring is as stiff as the diagonal entry. No
-   companions if the diagonal is not positive */
+/*
+   Chooses companions from K's pivots, and adds their springs to K. Each spring is as stiff as the diagonal entry of its
+   unknown. There are no companions if a diagonal entry is not positive.
+*/
 PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *c)
 {
   const PetscReal    raise = 2.0; /* larger than any pivot of the scaled matrix, which is at most 1 */

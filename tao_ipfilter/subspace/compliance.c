@@ -1,5 +1,7 @@
-/* Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed on demand. All
-   data are on the first rank. */
+/*
+   Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when they are
+   needed first. All data are on the first rank.
+*/
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
 
@@ -12,8 +14,10 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* Whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D L^T,
-   without an error. */
+/*
+   Finds whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D
+   L^T, without an error.
+*/
 static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
 {
   PetscInt negative;
@@ -24,8 +28,10 @@ static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
   PetscFunctionReturn(0);
 }
 
-/* Cholesky factorization of K_WW by MUMPS, or by PETSc in SBAIJ format, which counts pivots. *definite: false if
-   K_WW is not positive definite */
+/*
+   Computes the Cholesky factorization of K_WW by MUMPS, or without MUMPS by PETSc in SBAIJ format, which counts pivots.
+   *definite: false if K_WW is not positive definite.
+*/
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
@@ -55,7 +61,7 @@ static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Sets up a sequential K_WW, still without constraint rows. *definite: false if it is not positive definite */
+/* Sets up for a sequential K_WW, without constraint rows. *definite: false if K_WW is not positive definite. */
 PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 {
   PetscFunctionBegin;
@@ -65,7 +71,7 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Sets the constraint rows, a sequential J_W, which is kept. NULL: there are none */
+/* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none */
 PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J)
 {
   PetscFunctionBegin;
@@ -82,14 +88,14 @@ PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J)
   PetscFunctionReturn(0);
 }
 
-/* X = K_WW^-1 B, of k columns */
+/* Computes X = K_WW^-1 B for k columns */
 PetscErrorCode IPComplianceSolve(IPCompliance *c, PetscInt k, const PetscReal b[], PetscReal x[])
 {
   Mat B, X;
 
   PetscFunctionBegin;
   if (!k) PetscFunctionReturn(0);
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, k, (PetscScalar *)b, &B)); /* only read */
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, k, (PetscScalar *)b, &B)); /* B is only read */
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, c->n, k, x, &X));
   PetscCall(MatMatSolve(c->F, B, X));
   PetscCall(MatDestroy(&B));
@@ -97,7 +103,7 @@ PetscErrorCode IPComplianceSolve(IPCompliance *c, PetscInt k, const PetscReal b[
   PetscFunctionReturn(0);
 }
 
-/* Y = J_W X, of k columns */
+/* Computes Y = J_W X for k columns */
 PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscInt k, const PetscReal x[], PetscReal y[])
 {
   Vec vx, vy;
@@ -117,7 +123,7 @@ PetscErrorCode IPComplianceMultiply(IPCompliance *c, PetscInt k, const PetscReal
   PetscFunctionReturn(0);
 }
 
-/* y = J_W^T x */
+/* Computes y = J_W^T x */
 PetscErrorCode IPComplianceSpread(IPCompliance *c, const PetscReal x[], PetscReal y[])
 {
   Vec vx, vy;
@@ -131,7 +137,7 @@ PetscErrorCode IPComplianceSpread(IPCompliance *c, const PetscReal x[], PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Computes the columns of the given rows and appends them */
+/* Computes the columns of C for the given rows, and appends them */
 static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   PetscReal *b, *x;
@@ -154,7 +160,7 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Computes those columns of the given rows that are missing */
+/* Computes those columns of C that are missing for the given rows */
 PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
   const PetscInt chunk = 64;

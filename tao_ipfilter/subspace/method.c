@@ -1,15 +1,11 @@
 /*
    The filtered subspace method for min f(x), c_I(x) >= 0 with quadratic f, linear c_I, and constraints that involve few
    unknowns W. The search space is V = span{e_i : i in W} + span(P). One iteration:
-
-   1. Solve the contact problem exactly on V (reduced.c).
-
-   2. Compute the residual r = J^T lambda - grad f from the caller's gradient. It is zero on W.
-
-   3. Apply the preconditioner B of K once. Set B r to zero on W, make it K-orthonormal to P and append it (basis.c).
-
-   With a fixed active set this equals CG preconditioned by the `fbf` cycle of PCAMGF. A change of the active set loses
-   nothing. P is reused in later solves with the same K, for any constraints and loads.
+     1. Solve the contact problem exactly in V (reduced.c).
+     2. Compute the residual r = J^T lambda - grad f from the caller's gradient. It is zero on W.
+     3. Apply the preconditioner B of K once. Set B r to zero on W, make it K-orthonormal to P and append it (basis.c).
+   With a fixed active set this is CG preconditioned by the cycle fbf of PCAMGF. If the active set changes, all
+   directions remain useful. Later solves with the same K reuse P, for any constraints and loads.
 */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/rows.h"
@@ -23,8 +19,10 @@
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Whether the Krylov method's preconditioner is one for K alone: AMG without filter, or a factorization that serves
-   all solves */
+/*
+   Finds whether the Krylov method's preconditioner can be one for K alone: PCAMGF, whose filter is switched off (*amg),
+   or a factorization, which is computed once for all solves (*factored)
+*/
 static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
 {
   PC pc;
@@ -36,8 +34,10 @@ static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *facto
   PetscFunctionReturn(0);
 }
 
-/* Whether the method may be used for this problem. With `auto`: only if it certainly applies, and no option asks for
-   Newton systems, e.g. a tolerance of the Krylov method */
+/*
+   Finds whether the method may be used for this problem. With -tao_ipfilter_subspace auto it is used only if the
+   problem certainly has the required form and no option concerns Newton systems, e.g. a tolerance of the Krylov method.
+*/
 static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
@@ -58,9 +58,11 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
-/* Chooses W: the unknowns of the constraints, their neighbours, and W of earlier solves with the same K. So W and its
-   factors need not change when the contact area moves. Without the neighbours if there are too many of them, or if K
-   may be indefinite there */
+/*
+   Chooses W: the unknowns of the constraints, their neighbours, and W of earlier solves with the same K. With the
+   neighbours, W and its factors need not change when the contact area moves. They are left out if there are too many of
+   them, or if K may be indefinite there.
+*/
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
@@ -98,8 +100,10 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Sets W. *few: whether there are constraints, and they involve few enough unknowns. auto: few compared with all
-   unknowns */
+/*
+   Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
+   -tao_ipfilter_subspace auto and without norm terms.
+*/
 static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -132,7 +136,7 @@ static PetscErrorCode FilteredEvaluate(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Estimated rounding error of f at tao->solution, where f may be a difference of much larger terms */
+/* Estimates the rounding error of f at tao->solution, where f may be a difference of much larger terms */
 static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
@@ -149,8 +153,10 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Estimated rounding error of c_I, whose terms may be much larger than their sum. It matters if the start is already
-   the solution: then all closed rows are almost zero before and after a step. */
+/*
+   Estimates the rounding error of c_I, whose terms may be much larger than their sum. The error matters if the start is
+   already the solution, since the values of all closed rows are then almost zero before and after a step.
+*/
 static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
 {
   const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
@@ -163,7 +169,9 @@ static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Whether the problem is quadratic along v: f changes by 1/2 v^T (grad f + grad f at the centre), and c_I by J v */
+/*
+   Finds whether the problem is quadratic along v: f changes by 1/2 v^T (grad f + grad f at the centre), and c_I by J v
+*/
 static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
@@ -190,8 +198,10 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscFunctionReturn(0);
 }
 
-/* Moves to x = centre + v and sets the multipliers there. If the problem turns out not to be quadratic, moves back
-   and *moved is false. */
+/*
+   Moves to x = centre + v and sets the multipliers to `force` / M. If the problem proves not to be quadratic, moves
+   back; *moved is then false.
+*/
 static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -228,7 +238,10 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Solves the reduced problem, with all unknowns in W if Newton's method fails with fewer, and moves to its solution */
+/*
+   Solves the reduced problem and moves to its solution. If Newton's method for norm terms fails, W is extended to all
+   unknowns and the problem is solved again.
+*/
 static PetscErrorCode FilteredSolveReduced(Tao tao, IPSubspaceState *kept, PetscBool *solved)
 {
   IPReduced *reduced = &kept->reduced;
@@ -249,7 +262,7 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPSubspaceState *kept, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Adds a direction from the residual; compresses the basis first if it is full */
+/* Adds a direction computed from the residual r. If the basis is full, it is compressed first. */
 static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
@@ -262,8 +275,8 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r
 }
 
 /*
-   r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly: r is not small on W, or
-   the constraints are violated. The cause is rounding, or a problem that is not quadratic.
+   Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
+   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic.
 */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
@@ -284,9 +297,10 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 }
 
 /*
-   Estimates now and then how many more applications of the preconditioner are needed: the digits of the KKT error that
-   are still to be gained, at the rate so far. Before the first digit is gained the rate is meaningless, because the
-   active set changes; the estimate is then twice the number so far.
+   Estimates, every eight applications of the preconditioner, how many more are needed, and lets
+   IPSubspaceStateReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
+   KKT error that are still to be gained by the digits gained per application so far. Before the first digit is gained,
+   the active set changes and this rate is meaningless; the estimate is then twice the number of applications so far.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
@@ -306,9 +320,9 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
 }
 
 /*
-   One iteration: adds a direction. If the last reduced problem was not solved exactly, it is solved again from its last
-   point. With norm terms, which are solved to a tolerance, the residual may lie along existing directions. *done: false
-   if no progress is possible
+   Makes one iteration: adds a direction and solves the reduced problem. If the last reduced problem was not solved
+   exactly, it is solved again from the present point without a new direction. With norm terms, which are solved to a
+   tolerance, the residual may lie in the span of existing directions. *done: false if no progress is possible.
 */
 static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
@@ -321,7 +335,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   tao->ksp_its         = 0;
-  ip->rec->nacceptable = ip->rec->ntiny = 0; /* many small steps are normal here */
+  ip->rec->nacceptable = ip->rec->ntiny = 0; /* many small steps are normal for this method */
   PetscCall(IPFilteredAllows(tao, done));
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPSubspaceStateGet(tao, &kept));
@@ -341,8 +355,10 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* The first point: for a quadratic program the solution of the first reduced problem; otherwise the start and its
-   multipliers */
+/*
+   Computes the first point: for a quadratic program the solution of the first reduced problem, otherwise the start with
+   its multipliers
+*/
 static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -360,7 +376,7 @@ static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *f
   PetscFunctionReturn(0);
 }
 
-/* Destroys the data that are kept for later solves */
+/* Destroys the data that later solves would reuse */
 static PetscErrorCode FilteredForget(Tao tao)
 {
   IPSubspaceState *kept;
@@ -372,7 +388,7 @@ static PetscErrorCode FilteredForget(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Starts the method if the constraints involve few unknowns */
+/* Begins the method if the constraints involve few unknowns */
 static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -399,8 +415,10 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   PetscFunctionReturn(0);
 }
 
-/* Ends the method at the end of a solve or if it makes no progress. Directions are kept, and constraints that
-   TaoIPFilterSolveActive() may use: without norm terms. */
+/*
+   Ends the method, at the end of a solve or if it makes no progress. Directions remain for later solves. Without norm
+   terms the constraints remain as well, for TaoIPFilterSolveActive().
+*/
 static PetscErrorCode FilteredEnd(Tao tao)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -417,7 +435,7 @@ static PetscErrorCode FilteredEnd(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* One step: of Newton's method if the objective is not quadratic, else one iteration */
+/* Takes one step: a Newton step if the objective is not quadratic, otherwise one iteration */
 static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* Monitor of the filtered subspace method: one line per iteration. */
+/* Prints one line per iteration of the filtered subspace method */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/record.h"

@@ -1,14 +1,12 @@
 /*
-   Newton's method on the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
+   Newton's method with the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
    such as the strain energy of bodies at finite strain. At each iterate the model
-
-     min 1/2 d^T H d + grad f^T d,   c_I + J d >= 0
-
-   is solved on V as in method.c, until its residual is a given fraction of that of the iterate. d minimizes the model
-   on V with multipliers M lambda, so that grad f^T d = -d^T H d - lambda^T M c_I. Therefore d is a descent direction of
-   f + nu sum m max(-c_I, 0) for nu above the multipliers, however few directions V has. Since c_I is linear, steps of
-   any length up to 1 keep a feasible point feasible. V is kept from step to step; for a new H only the products H P are
-   recomputed.
+     min 1/2 d^T H d + grad f^T d,  c_I + J d >= 0
+   is solved in V as in method.c, until its residual is a given fraction of that of the iterate.
+   The step d minimizes the model in V, with multipliers M lambda. Hence grad f^T d = -d^T H d - lambda^T M c_I, and d
+   is a descent direction of f + nu sum m max(-c_I, 0) for any nu above the multipliers, however few directions V has.
+   Since c_I is linear, a feasible point remains feasible for step lengths up to 1. V is used again in the next step;
+   for a new H only the products H P are computed again.
 */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -19,7 +17,10 @@
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Residual of the model r = J^T force - grad f - H d, set to zero on W where it is rounding; norm: its norm */
+/*
+   Computes the residual of the model, r = J^T force - grad f - H d, and its norm. r is set to zero on W, where it is
+   rounding error.
+*/
 static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, PetscReal *norm)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -56,7 +57,7 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* The model's minimizer d on V, and the forces of the constraints there */
+/* Computes the model's minimizer d in V, and the forces of the constraints there */
 static PetscErrorCode NewtonMinimizeModel(Tao tao, const IPBasis *basis, Vec d, Vec force, PetscBool *solved)
 {
   PetscFunctionBegin;
@@ -65,8 +66,10 @@ static PetscErrorCode NewtonMinimizeModel(Tao tao, const IPBasis *basis, Vec d, 
   PetscFunctionReturn(0);
 }
 
-/* Adds a direction, and makes room for it if the basis is full. added: false if the iteration limit of the Krylov
-   method is reached */
+/*
+   Adds a direction computed from the residual r. If the basis is full, it is compressed first. *added: false if the
+   iteration limit of the Krylov method is reached.
+*/
 static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
@@ -80,8 +83,10 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, 
   PetscFunctionReturn(0);
 }
 
-/* Solves the model until its residual is below target. It may stop earlier, if no direction can be added and the
-   residual is at least halved. *solved: false if the model has no minimum */
+/*
+   Solves the model until its residual is below `target`. If no direction can be added, a residual that is half of the
+   iterate's is sufficient. *solved: false if neither is reached, or the model has no minimum.
+*/
 static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal target, Vec d, Vec force,
   PetscBool *solved)
 {
@@ -106,7 +111,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* violation = sum m max(-c, 0) */
+/* Computes violation = sum m max(-c, 0) */
 static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -123,7 +128,7 @@ static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
   PetscFunctionReturn(0);
 }
 
-/* Penalty weight nu, larger than all multipliers of the model */
+/* Computes the penalty weight nu, which exceeds all multipliers of the model */
 static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
 {
   const PetscReal beyond = 2.0;
@@ -138,7 +143,7 @@ static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
   PetscFunctionReturn(0);
 }
 
-/* Estimated rounding error of f */
+/* Estimates the rounding error of f */
 static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
 {
   PetscReal mean;
@@ -151,7 +156,7 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Violation of the model's constraints at d, which is not zero if norm terms are solved to a tolerance */
+/* Computes the violation of the model's constraints at d. It is not zero if norm terms are solved to a tolerance. */
 static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -165,8 +170,10 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionReturn(0);
 }
 
-/* Error in the laws of norm terms at the model's solution: sum of b |v| + tau v, which is 0 if the laws hold. sum: the
-   sum of b |v| */
+/*
+   Computes the error in the laws of norm terms at the model's solution x: the sum of b |v| + tau v over the terms,
+   which is zero if the laws hold. sum: the sum of b |v|.
+*/
 static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal *slack)
 {
   IPTerms    *terms = ((TAO_IPFILTER *)tao->data)->terms;
@@ -186,8 +193,9 @@ static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal 
 
 /*
    Line search: halves the step until the penalized objective falls. The objective includes the norm terms, with the
-   weights of the model's multipliers. The model's own violation at d and its own error in the laws of norm terms are
-   subtracted in proportion to the step. *ok: false if the objective does not fall, or the model is not convex along d
+   bounds that follow from the model's multipliers. The model's own violation at d and its own error in the laws of norm
+   terms are subtracted in proportion to the step length. *ok: false if the objective does not fall, or the model is not
+   convex along d.
 */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
@@ -226,7 +234,7 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   PetscFunctionReturn(0);
 }
 
-/* Takes the step found by the line search, and the same fraction of the multipliers' change */
+/* Takes the step that the line search found, and the same fraction of the change of the multipliers */
 static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -246,8 +254,10 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Tolerance for the model's residual: a fraction of the present residual. The fraction is smaller near the solution,
-   where Newton's method then converges fast. The tolerance is never smaller than convergence requires. */
+/*
+   Returns the tolerance of the model's residual: a fraction of the present residual. The fraction is smaller near the
+   solution, so that Newton's method converges fast there. The tolerance is not smaller than convergence requires.
+*/
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
 {
   const PetscReal largest = 0.1, smallest = 1e-3;
@@ -275,8 +285,10 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Computes the Newton step d. The Hessian is shifted until the model is convex; *found: false if no moderate shift
-   suffices. At the first point the model has been set up already. */
+/*
+   Computes the Newton step d. The Hessian is shifted until the model is convex. *found: false if no moderate shift is
+   sufficient. At the first point the model has already been set up.
+*/
 static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *found)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -301,7 +313,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
   PetscFunctionReturn(0);
 }
 
-/* One Newton step. *done: false if the model or the line search fails, or steps make no more progress */
+/* Takes one Newton step. *done: false if the model or the line search fails, or the steps make no more progress. */
 PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;

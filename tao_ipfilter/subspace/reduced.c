@@ -1,28 +1,32 @@
 /*
-   The contact problem on the subspace span{e_i : i in W} + span(P):
-
-     min 1/2 v^T K v + g^T v,   J v + c >= 0,   v = E w + P y.
-
-   Its data have the size of the constraints. They are gathered on the first rank, which solves it. K_WW is factored
-   once as long as W and K stay, with companions where it is singular. Each norm term adds two rows.
+   The reduced problem: the contact problem in the subspace span{e_i : i in W} + span(P),
+     min 1/2 v^T K v + g^T v,  J v + c >= 0,  v = E w + P y,
+   where E has the columns e_i, i in W. Its data have the size of the constraints. They are gathered on the first rank,
+   which solves the problem. K_WW is factored once as long as W and K are unchanged, with companions (companions.c) if
+   it is singular. Each norm term adds two rows.
 */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/terms.h"
 #include <petscblaslapack.h>
 
-/* Collects selected rows of A on the first rank, with the columns of W. half: A stores its upper triangle only */
+/*
+   Selection of rows of a matrix A that are gathered on the first rank, restricted to the columns of W. half: A stores
+   its upper triangle only.
+*/
 typedef struct {
   PetscInt        nrows, M;
-  const PetscInt *rows, *place; /* local rows of A, and their row numbers in the result, which has M rows */
+  const PetscInt *rows, *place; /* local rows of A, and the numbers of these rows in the result, which has M rows */
   PetscInt        nw;
   const PetscInt *w;
   PetscBool       half;
-  PetscBool       symmetric; /* zeros are stored, too: ordering codes need a symmetric pattern, and only one of two
+  PetscBool       symmetric; /* zeros are stored as well: ordering codes need a symmetric pattern, and one of two
                                 transposed entries may be zero */
 } ReducedGather;
 
-/* Adds the entries of one row to S. If S is NULL, counts them by rows of S instead. If A stores its upper triangle
-   only, the lower one is added; diagonal blocks are stored whole. */
+/*
+   Inserts the entries of one row into S, or, if S is NULL, counts them in the rows of S. If A stores its upper triangle
+   only, the transposed entries are inserted too; diagonal blocks are stored completely.
+*/
 static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt column[],
   PetscScalar entry[], PetscInt counts[], Mat S)
 {
@@ -50,7 +54,7 @@ static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r
   PetscFunctionReturn(0);
 }
 
-/* The local matrix of the first rank, which holds all rows; NULL on the other ranks */
+/* Gets the local matrix of the first rank, which has all rows; NULL on the other ranks */
 static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
 {
   Mat diagonal;
@@ -91,7 +95,7 @@ static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Gathers K_WW; own: local part of W; w: all of W */
+/* Gathers K_WW. own: local part of W; w: all of W. */
 static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
 {
   ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
@@ -128,7 +132,7 @@ static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], 
   PetscFunctionReturn(0);
 }
 
-/* Stacks the rows of two matrices */
+/* Stacks the rows of two sequential matrices */
 static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
 {
   const Mat parts[2] = {upper, lower};
@@ -158,7 +162,7 @@ static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
   PetscFunctionReturn(0);
 }
 
-/* Gathers J_W, with T_W below it if there are norm terms */
+/* Gathers J_W, followed by T_W if there are norm terms */
 static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
   PetscBool first, Mat *S)
 {
@@ -178,7 +182,7 @@ static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Destroys what belongs to the constraints; the space stays */
+/* Destroys the data of the constraints, but not the space */
 PetscErrorCode IPReducedRelease(IPReduced *r)
 {
   IPReducedSystem *s = &r->system;
@@ -213,7 +217,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* Broadcasts the first rank's result; an error there is raised on all ranks */
+/* Broadcasts the first rank's verdict. An error on the first rank is raised on all ranks. */
 static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {
   PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
@@ -227,7 +231,7 @@ static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error,
   PetscFunctionReturn(0);
 }
 
-/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite */
+/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite. */
 static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
@@ -249,7 +253,7 @@ static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Gathers the entries of v into the array a of length n on the first rank */
+/* Gathers the entries of v in the array a of length n on the first rank */
 static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, PetscInt n, PetscReal a[])
 {
   const PetscScalar *values;
@@ -263,7 +267,7 @@ static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, Pets
   PetscFunctionReturn(0);
 }
 
-/* The other way round; what is not in a stays */
+/* Distributes the array a of the first rank to the entries of v; other entries of v are unchanged */
 static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscReal a[], Vec on_first, Vec v)
 {
   PetscScalar *values;
@@ -285,8 +289,10 @@ static PetscReal ReducedDot(PetscInt n, const PetscReal a[], const PetscReal b[]
   return sum;
 }
 
-/* Adds n coordinates to y. The columns of Q are their forces on W. T receives their energies with the earlier
-   coordinates and with each other, in columns of length kmax. */
+/*
+   Adds n coordinates to y. Q: their forces on W, one column each. T receives their energies with the earlier
+   coordinates and with one another, in columns of length kmax.
+*/
 static PetscErrorCode ReducedAppendColumns(IPReduced *r, PetscInt n, const PetscReal Q[])
 {
   IPReducedSystem *s     = &r->system;
@@ -331,7 +337,7 @@ static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* The space: K_WW of a new K or W */
+/* Sets up the space for a new K or W: gathers and factors K_WW */
 static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool *definite)
 {
   PetscMPIInt      rank;
@@ -368,7 +374,7 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscFunctionReturn(0);
 }
 
-/* Sets the constraints and norm terms for the present space and its directions */
+/* Sets up the constraints and norm terms for the present space and its directions */
 static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, const IPTerms *terms, Vec c,
   PetscBool *definite)
 {
@@ -410,7 +416,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   PetscFunctionReturn(0);
 }
 
-/* Whether the space is that of this K */
+/* Finds whether the space was set up for this K */
 PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
 {
   PetscObjectState state;
@@ -421,8 +427,10 @@ PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Sets the constraints. The factors of K_WW are kept while K and W are the same, and K_WW^-1 Q_W while the directions
-   are the same. *definite: false if K_WW is not positive definite */
+/*
+   Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
+   directions are unchanged. *definite: false if K_WW is not positive definite.
+*/
 PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
   Vec c, const IPBasis *basis, PetscBool *definite)
 {
@@ -440,8 +448,10 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   PetscFunctionReturn(0);
 }
 
-/* Sets limits, coefficients and immovable directions of the norm terms. scale: scale factors of the rows of c_I;
-   NULL: 1 */
+/*
+   Sets the limits, coefficients and immovable directions of the norm terms. scale: scales of the rows of c_I; NULL: all
+   are 1.
+*/
 PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 {
   const Vec  given[2] = {terms->limit, terms->coefficient};
@@ -476,7 +486,10 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Initial active set: the rows whose guess is positive; force: initial forces of the norm terms */
+/*
+   Sets the initial active set to the rows whose `guess` is positive, and the initial forces of constraints and norm
+   terms
+*/
 PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
 {
   IPReducedSystem *s    = &r->system;
@@ -498,15 +511,17 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   PetscFunctionReturn(0);
 }
 
-/* t of coordinate j of y */
+/* Computes the load t of coordinate j of y */
 static void ReducedLoad(IPReduced *r, PetscInt j, const PetscReal pg[])
 {
   r->system.t[j] = ReducedDot(r->n, &r->Z[(size_t)j * (size_t)r->n], r->g);
   if (j >= r->companions.n) r->system.t[j] -= pg[j - r->companions.n];
 }
 
-/* Sets the point that v is relative to: its gradient g, P^T g, constraints c and, if there are norm terms, their
-   values. With norm terms the present forces are subtracted from g. */
+/*
+   Sets the point to which v is relative: its gradient g, P^T g, constraint values c and, with norm terms, their values.
+   With norm terms the present forces are subtracted from g.
+*/
 PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
@@ -533,7 +548,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
-/* Adds the directions of the basis that are missing here. pg: P^T g of all directions */
+/* Adds the directions of the basis that the reduced problem does not have yet. pg: P^T g of all directions. */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
   IPReducedSystem *s      = &r->system;
@@ -561,8 +576,10 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* E = Q_W^T K_WW^-1 Q_W on all ranks, in columns of the basis' maximal length: the part of each direction's energy
-   that the unknowns W relieve */
+/*
+   Computes E = Q_W^T K_WW^-1 Q_W on all ranks, in columns of the basis's maximal length. E_jj is the part of a
+   direction's energy that is released if the unknowns W move freely.
+*/
 PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, PetscReal E[])
 {
   const IPReducedSystem *s      = &r->system;
@@ -580,7 +597,7 @@ PetscErrorCode IPReducedCoupling(const IPReduced *r, const IPBasis *basis, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Replaces the directions by those that the basis has now. The active set is kept. */
+/* Replaces the directions by the present ones of the basis. The active set remains. */
 PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
 {
   PetscFunctionBegin;
@@ -592,7 +609,7 @@ PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y). */
+/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y) */
 static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 {
   const IPReducedSystem *s     = &r->system;
@@ -625,8 +642,11 @@ static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* Solves the problem. y: on all ranks. v: its entries W are set to w. force: lambda. terms: forces of the norm terms.
-   Sets r->nactive, r->nsteps, and r->met: whether the laws hold to the requested tolerance */
+/*
+   Solves the reduced problem. y: coefficients of the directions, on all ranks; v: its entries in W are set to w; force:
+   lambda; terms: forces of the norm terms, or NULL. Sets r->nactive, r->nsteps, and r->met, whether the laws hold to
+   the requested tolerance.
+*/
 PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;
@@ -656,7 +676,10 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   PetscFunctionReturn(0);
 }
 
-/* t, h for the forces f on W and the motions c of the rows, then y and lambda for the present active set */
+/*
+   Solves for y and lambda with the present active set, for the forces r->g on W and the required motions s->gap of the
+   rows
+*/
 static PetscErrorCode ReducedSolveActiveFirst(IPReduced *r, PetscBool *solved)
 {
   IPReducedSystem *s = &r->system;
@@ -671,7 +694,10 @@ static PetscErrorCode ReducedSolveActiveFirst(IPReduced *r, PetscBool *solved)
   PetscFunctionReturn(0);
 }
 
-/* Row scales d of the constraints: the problem is that with d J and multipliers lambda / d. NULL: 1 */
+/*
+   Sets the row scales d of the constraints. The problem is then that with the rows d J and the multipliers lambda / d.
+   NULL: all scales are 1.
+*/
 PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
 {
   PetscFunctionBegin;
@@ -681,8 +707,11 @@ PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
   PetscFunctionReturn(0);
 }
 
-/* Solves K v - J^T lambda = f on the subspace, J v = c in the rows that were active at the last solution, lambda = 0 in
-   the others. f counts on W only. *solved: false without constraints, or with norm terms */
+/*
+   Solves K v - J^T lambda = f in the subspace, with J v = c in the rows that were active at the last solution and
+   lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints, or if
+   there are norm terms.
+*/
 PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved)
 {

@@ -1,5 +1,7 @@
-/* Data of the filtered subspace method that are kept between solves, of one Tao or of several: the preconditioner
-   and the directions of K. */
+/*
+   Data of the filtered subspace method that later solves of one Tao or of several reuse: the preconditioner and the
+   directions of K
+*/
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/condensed.h"
@@ -9,7 +11,7 @@
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
-/* Destroys the kept data. PCAMGF chooses between AMG and factorization again at its next set-up. */
+/* Destroys the data. PCAMGF chooses between AMG and factorization again at its next set-up. */
 PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
 {
   PetscFunctionBegin;
@@ -32,7 +34,7 @@ static PetscErrorCode KeptDestroy(void *argument)
   PetscFunctionReturn(0);
 }
 
-/* Gets the kept data; creates them if needed */
+/* Gets the data of the Tao, and creates them at the first call */
 PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
 {
   IPFiltered *f = IPFilteredOf(tao);
@@ -48,7 +50,9 @@ PetscErrorCode IPSubspaceStateGet(Tao tao, IPSubspaceState **kept)
   PetscFunctionReturn(0);
 }
 
-/* Whether the preconditioner reads full rows. A factorization and PCBLOCKAMG read the upper triangle */
+/*
+   Finds whether the preconditioner reads full rows of K. A factorization and PCBLOCKAMG read the upper triangle only.
+*/
 static PetscErrorCode KeptReadsRows(PC pc, PetscBool *rows)
 {
   PetscBool amgf, factored, block;
@@ -65,7 +69,10 @@ static PetscErrorCode KeptReadsRows(PC pc, PetscBool *rows)
   PetscFunctionReturn(0);
 }
 
-/* whole: K with both triangles, if the preconditioner reads rows and K stores its upper triangle only */
+/*
+   Gets K with both triangles if the preconditioner reads full rows and K stores its upper triangle only; otherwise a
+   reference to K
+*/
 static PetscErrorCode KeptGetWhole(PC pc, Mat K, Mat *whole)
 {
   MatNullSpace modes;
@@ -85,14 +92,16 @@ static PetscErrorCode KeptGetWhole(PC pc, Mat K, Mat *whole)
   PetscFunctionReturn(0);
 }
 
-/* Tells PCAMGF how many applications to expect with K: left in this solve, and in later solves with the same K an
-   estimate from this one. Does nothing before the first solve. */
+/*
+   Tells PCAMGF how many applications to expect with K: `left` in this solve, and an estimate for later solves with the
+   same K. Has no effect before the first solve.
+*/
 static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal later    = 0.7,
-                  factored = 10.0; /* later: applications in a later solve divided by those in this one; factored:
-                                      applications in a solve with a factorization */
+                  factored = 10.0; /* later: number of applications in a later solve relative to this one; factored:
+                                      number of applications in a solve with a factorization */
   const PetscReal n        = ip->rec->napplications + left,
                   solves   = kept->changing ? 0.0 : PetscMax(ip->given->solves_to_come - 1, 0);
 
@@ -102,7 +111,7 @@ static PetscErrorCode KeptExpect(Tao tao, IPSubspaceState *kept, PetscReal left)
   PetscFunctionReturn(0);
 }
 
-/* Reports the chosen solver once per solve, not at every Newton step */
+/* Prints the choice of the linear solver once per solve, not at every Newton step */
 static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -118,8 +127,10 @@ static PetscErrorCode KeptSayChoice(Tao tao, PC pc)
   PetscFunctionReturn(0);
 }
 
-/* Sets up B, the preconditioner of the Krylov method without filter. A has the values of K at that time; it is
-   borrowed, so no memory is added. */
+/*
+   Sets up B, the preconditioner of the Krylov method without filter, from the matrix A. Afterwards the PC refers to K,
+   so that A can be destroyed.
+*/
 static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, PetscBool *possible)
 {
   PC             pc = kept->pc, amg;
@@ -145,7 +156,7 @@ static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, 
   PetscFunctionReturn(0);
 }
 
-/* Sets up the preconditioner B of the Hessian K without constraints */
+/* Sets up the preconditioner B for the Hessian K without constraints */
 static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
 {
   const PetscReal usual = 35.0;
@@ -161,7 +172,7 @@ static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Changes from AMG to a factorization if `left` more applications make it cheaper. Directions are kept. */
+/* Changes from AMG to a factorization if `left` more applications make that cheaper. The directions remain valid. */
 PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscReal left, PetscBool *possible)
 {
   PetscBool amgf, before, after;
@@ -179,7 +190,10 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Weights D_t of the norm terms' rows: the stiffness that resists a term if it can carry a force; else 0 */
+/*
+   Computes the weights D_t of the norm terms' rows: rho, the stiffness that resists the term, if the term can carry a
+   force; otherwise 0
+*/
 static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
 {
   IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
@@ -207,7 +221,7 @@ static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* A = K + J^T D J + T^T D_t T; D_t: NULL without norm terms */
+/* Computes A = K + J^T D J + T^T D_t T. Dt: D_t; NULL without norm terms. */
 PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
 {
   TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
@@ -216,7 +230,7 @@ PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
 
   PetscFunctionBegin;
   PetscCall(IPCondenseMatrix(tao, D));
-  ip->rec->nsystems  = systems; /* restores the count: these are not Newton systems */
+  ip->rec->nsystems  = systems; /* restores the counts, since this is not a Newton system */
   ip->rec->nfiltered = filtered;
   *A                 = ip->cond->A;
   ip->cond->A        = NULL;
@@ -230,8 +244,10 @@ PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* Sets up B for K + J^T D J + T^T D_t T, for bodies that only constraints and norm terms hold. D: stiffness of the
-   bodies */
+/*
+   Sets up B for K + J^T D J + T^T D_t T. Needed if bodies are held by constraints and norm terms only. D is the
+   stiffness of the bodies.
+*/
 PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -255,14 +271,14 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
 }
 
 /*
-   Largest number of directions to keep. Default: 15 % of the memory of AMG and stiffness, and at least a small fixed
-   number. More directions would make a projection more expensive than the AMG. Newton's method keeps fewer, as each
-   needs a product with every new K.
+   Computes the largest number of directions to keep. The default is what fits into 15 % of the memory of AMG and
+   stiffness matrix, within fixed limits. With more directions a projection would cost more than the AMG. Newton's
+   method keeps fewer, since each direction needs a product with every new K.
 */
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
   const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
-                  direction = 2.0 * sizeof(PetscScalar); /* bytes per unknown */
+                  direction = 2.0 * sizeof(PetscScalar); /* bytes per unknown: AMG and stiffness matrix; a direction */
   const PetscReal fewest = 80.0, limit = 160.0;
   const PetscInt  newton = 48;
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -277,8 +293,10 @@ static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
   PetscFunctionReturn(0);
 }
 
-/* Updates the kept data for K, the constraints' unknowns and the fixed variables. *possible: false if the
-   preconditioner cannot be updated */
+/*
+   Updates the data for the present K, constraints and fixed variables. *possible: false if the preconditioner cannot be
+   set up.
+*/
 PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
@@ -325,8 +343,10 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
   PetscFunctionReturn(0);
 }
 
-/* Makes the kept preconditioner the one of the Krylov method, so that TaoGetKSP() shows the one in use. A
-   preconditioner of another type is not replaced. */
+/*
+   Sets the reused data. Their preconditioner becomes that of the Krylov method, so that TaoGetKSP() shows the one in
+   use. A preconditioner of another type or prefix is not replaced.
+*/
 static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
   IPFiltered      *f = IPFilteredOf(tao);
@@ -359,7 +379,7 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* Composes the implementations with the Tao, or removes them */
+/* Composes the implementations with the Tao, or removes them if `attach` is false */
 PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 {
   PetscObject o = (PetscObject)tao;
@@ -460,8 +480,10 @@ PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* Adds a direction from the forces K v off W that the solution v on the subspace leaves. *extended: false if there is
-   no room, or the preconditioner is not positive definite */
+/*
+   Adds a direction computed from the forces `left`, which the solution in the subspace leaves unbalanced outside W.
+   *extended: false if there is no room, or the preconditioner is not positive definite.
+*/
 static PetscErrorCode KeptExtend(IPSubspaceState *kept, Mat K, Vec left, PetscBool *extended)
 {
   PetscReal  *pg;
@@ -489,7 +511,7 @@ static PetscErrorCode KeptExtend(IPSubspaceState *kept, Mat K, Vec left, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* left = -K v off W; part: its norm, relative to that of K v on W */
+/* Computes left = -K v outside W. *part: norm of `left` relative to that of K v. */
 static PetscErrorCode KeptForceLeft(const IPSubspaceState *kept, Mat K, Vec v, Vec left, PetscReal *part)
 {
   PetscReal all, off;

@@ -1,7 +1,7 @@
 /*
    The search space within one solve, used by method.c and newton.c: V = span{e_i : i in W} + span(P), and the contact
-   problem on V about a centre. A new direction is the preconditioner B of K applied to the residual that the problem on
-   V leaves.
+   problem in V relative to a centre. A new direction is the preconditioner B of K applied to the residual that the
+   solution in V leaves.
 */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -23,7 +23,9 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscFunctionReturn(0);
 }
 
-/* Initial slacks and multipliers: those given by the caller, else those of a penalty as stiff as the objective */
+/*
+   Sets the initial slacks and multipliers: those given by the caller, or those of a penalty as stiff as the objective
+*/
 static PetscErrorCode FilteredStartPairs(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -43,7 +45,7 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Initial active set: rows with multiplier larger than slack */
+/* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -62,8 +64,10 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Centres the reduced problem at `centre` with this gradient and these constraints, for all directions. x: the point
-   itself, needed by norm terms only */
+/*
+   Centres the reduced problem at `centre`, with the gradient and the constraint values there, for all directions. x:
+   the point itself, which only norm terms need.
+*/
 PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre, Vec gradient, Vec c)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -85,7 +89,10 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
-/* Whether W may be extended to all unknowns, so that no directions are needed. Their factorization must be cheap. */
+/*
+   Finds whether W may be extended to all unknowns, so that no directions are needed. A factorization of the whole K
+   must be cheap.
+*/
 static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
 {
   const PetscInt   most = 10000;
@@ -99,7 +106,7 @@ static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
   PetscFunctionReturn(0);
 }
 
-/* Solves the reduced problem: v relative to the centre, force: of the constraints */
+/* Solves the reduced problem. v: solution relative to the centre; force: forces of the constraints. */
 PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -118,7 +125,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionReturn(0);
 }
 
-/* Sets multipliers force / M, and slacks equal to the constraints */
+/* Sets the multipliers to `force` / M, and the slacks to the constraint values */
 PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -135,14 +142,14 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscCall(VecGetArray(slack->z, &z));
   for (PetscInt i = 0; i < n; i++) {
     s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
-    z[i] = PetscMax(PetscRealPart(z[i]), 0.0); /* a negative force is a residual: lambda - z */
+    z[i] = PetscMax(PetscRealPart(z[i]), 0.0); /* a negative force enters the residual lambda - z */
   }
   PetscCall(VecRestoreArray(slack->z, &z));
   PetscCall(VecRestoreArray(slack->t, &s));
   PetscFunctionReturn(0);
 }
 
-/* d = B r for a residual r that is zero on W. *definite: false if r^T B r is not positive */
+/* Computes d = B r for a residual r that is zero on W. *definite: false if r^T B r is not positive. */
 static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -163,9 +170,9 @@ static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *d
 }
 
 /*
-   Reduces the number of directions. The newest are kept. The others are compressed to the combinations that are coupled
-   to W most, because these help with other constraints and gaps. The reduced problem must then be centred at its
-   solution to stay exact.
+   Reduces the number of directions. The newest remain. The others are replaced by those combinations that are coupled
+   to W most, since these are most useful for other constraints and gaps. The reduced problem must then be centred at
+   its solution to remain exact.
 */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
@@ -184,9 +191,11 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Whether K is singular up to rounding, or negative, along a preconditioned residual d. K with the constraints may
-   still be positive, for example for bodies under pressure that only contact holds. Newton's method without norm terms
-   shifts a negative K instead. */
+/*
+   Finds whether K is singular up to rounding, or negative, along a preconditioned residual d. Together with the
+   constraints K may still be positive, for example for bodies under pressure that are held by contact only. Newton's
+   method without norm terms shifts a negative K instead; *singular is then false.
+*/
 static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
@@ -207,8 +216,10 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, Pe
   PetscFunctionReturn(0);
 }
 
-/* d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per solve,
-   and whenever B fails. */
+/*
+   Computes d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per
+   solve, and whenever B fails.
+*/
 static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
@@ -225,7 +236,7 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r
   PetscFunctionReturn(0);
 }
 
-/* Whether the KKT error was halved within the last `patience` steps */
+/* Counts a step and returns whether the KKT error was halved within the last `patience` steps */
 PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
 {
   f->nfutile++;
@@ -236,7 +247,7 @@ PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience
   return (PetscBool)(f->nfutile <= patience);
 }
 
-/* Whether the iteration limit of the Krylov method allows another direction */
+/* Finds whether the iteration limit of the Krylov method allows another direction */
 PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 {
   PetscInt limit;
@@ -247,7 +258,7 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
   PetscFunctionReturn(0);
 }
 
-/* Adds a direction from the residual r, zero on W; there must be room */
+/* Adds a direction computed from the residual r, which is zero on W. The basis must not be full. */
 PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
@@ -286,7 +297,7 @@ static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the reduced problem with a Hessian K */
+/* Sets up the reduced problem for a Hessian K */
 static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -302,10 +313,11 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 }
 
 /*
-   Sets up the reduced problem with K + J^T D J + T^T D_t T. D is not zero in closed rows, D_t not in terms that stick;
-   there they are stiffer than the bodies. Reason: a tangent K_WW may be indefinite although contact holds its unknowns.
-   These springs start from the present point, and do not change a solution in which the same rows stay closed and
-   stick. They act on W only, so that the directions and their products with K are kept.
+   Sets up the reduced problem for K + J^T D J + T^T D_t T. D is not zero in closed rows, and D_t not in terms that
+   stick; there they are stiffer than the bodies. This is needed because a tangent K_WW may be indefinite although
+   contact holds its unknowns. These springs act relative to the present point, and do not change a solution in which
+   the same rows are closed and stick. They act on W only, so that the directions and their products with K remain
+   valid.
 */
 static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
@@ -343,8 +355,10 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Sets up for the present Hessian, with the rows active that slacks and multipliers indicate. At the beginning of a
-   solve it also sets up its data. *possible: false if K_WW is not positive definite */
+/*
+   Sets up the method for the present Hessian. The initially active rows follow from slacks and multipliers. *possible:
+   false if K_WW is not positive definite.
+*/
 PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -359,7 +373,7 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
   PetscFunctionReturn(0);
 }
 
-/* W: all unknowns but those that are fixed */
+/* Sets W to all unknowns that are not fixed */
 PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
 {
   const IS fixed = ((TAO_IPFILTER *)tao->data)->fixed;
@@ -372,9 +386,11 @@ PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
   PetscFunctionReturn(0);
 }
 
-/* Extends W to all unknowns. For thin or nearly incompressible bodies the reduced problem with few directions may be
-   far from the whole one, and its laws of norm terms much harder to satisfy. *possible: false if K is not positive
-   definite */
+/*
+   Extends W to all unknowns. For thin or nearly incompressible bodies the reduced problem with few directions may
+   differ much from the full one, and its laws of norm terms may be much harder to satisfy. *possible: false if K is not
+   positive definite.
+*/
 PetscErrorCode IPFilteredWiden(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   IPFiltered *f = IPFilteredOf(tao);

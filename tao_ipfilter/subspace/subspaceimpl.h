@@ -1,6 +1,6 @@
 /*
-   tao_ipfilter/subspace: the filtered subspace method: directions, the reduced problem, its active set, and the
-   interface to the laws of norm terms. Files are in the order in which they depend on each other.
+   tao_ipfilter/subspace: the filtered subspace method, with its directions, the reduced problem, its active set, and
+   the interface to the laws of norm terms. The files are listed such that each depends only on those before it.
 */
 #ifndef IPFILTER_SUBSPACEIMPL_H
 #define IPFILTER_SUBSPACEIMPL_H
@@ -8,25 +8,27 @@
 #include "tao_ipfilter/step/stepimpl.h"
 #include "tao_ipfilter/solver/method.h"
 
-/* Directions P of the filtered subspace, oldest first; zero on the constraints' unknowns W */
+/* Directions P of the filtered subspace, the oldest first. They are zero on the constraints' unknowns W. */
 typedef struct {
   PetscInt   n, max;
-  Vec       *p, *q;         /* p_j, and K p_j; NULL where not yet needed */
-  PetscReal *gram, *factor; /* P^T K P, columns of length max, and its Cholesky factor, the lower triangle */
-  PetscInt   generation;    /* increases when directions change; not when one is appended */
+  Vec       *p, *q;         /* the direction p_j, and K p_j; NULL if not created yet */
+  PetscReal *gram, *factor; /* P^T K P, in columns of length max; the lower triangle of its Cholesky factor */
+  PetscInt   generation;    /* number that increases when directions change, but not when one is appended */
 } IPBasis;
 
-/* C = J_W K_WW^-1 J_W^T, on the first rank */
+/* Compliance C = J_W K_WW^-1 J_W^T of the constraints, on the first rank */
 typedef struct {
   PetscInt   m, n;
-  Mat        F, J; /* K_WW factored; J_W */
+  Mat        F, J; /* factors of K_WW; J_W */
   PetscInt   ncolumns, maxcolumns;
-  PetscInt  *column; /* column of C that belongs to a row; negative: not computed yet */
-  PetscReal *C;      /* the columns */
+  PetscInt  *column; /* for each row the number of its column in C; negative: not computed yet */
+  PetscReal *C;      /* computed columns of C */
 } IPCompliance;
 
-/* companions.c: unknowns of W that have a companion, by position in W, and the stiffness of their springs. On the
-   first rank; n on all ranks */
+/*
+   companions.c: the unknowns of W that have a companion, by their position in W, and the stiffness of their springs.
+   Only n is set on ranks other than the first.
+*/
 typedef struct {
   PetscInt   n, *row;
   PetscReal *spring;
@@ -37,99 +39,108 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
   return c->C + (size_t)c->column[row] * (size_t)c->m;
 }
 
-/* The contact problem with w eliminated, as in active_set.c and laws.c: constraints, then two rows per norm term */
+/*
+   The contact problem after elimination of w, as in active_set.c and laws.c. Its rows are the constraints, followed by
+   two rows per norm term.
+*/
 typedef struct {
-  PetscInt   m, k, kmax;       /* number of rows; number of coordinates y (companions and directions), and its
-                                  maximum */
-  PetscReal *JZ, *T, *h, *t;   /* JZ: columns of length m; T: of length kmax */
-  PetscReal *G;                /* the diagonal of P^T K P */
-  PetscReal *lambda, *gap, *y; /* forces and motions of the rows */
-  PetscReal *base;             /* forces that h and t already contain: without them bodies that only constraints hold
-                                  would move far; zero without norm terms */
-  PetscReal  length;           /* magnitude of the terms of a gap, for tolerances */
+  PetscInt   m, k, kmax;       /* number of rows; number of coordinates y (companions and directions); largest number
+                                  of coordinates */
+  PetscReal *JZ, *T, *h, *t;   /* JZ, with columns of length m; T, with columns of length kmax; right-hand sides h
+                                  and t */
+  PetscReal *G;                /* diagonal of P^T K P */
+  PetscReal *lambda, *gap, *y; /* forces of the rows; their motions; coordinates */
+  PetscReal *base;             /* forces that h and t already contain, since without them bodies held by constraints
+                                  only would move far; zero without norm terms */
+  PetscReal  length;           /* size of the terms of a gap, for tolerances */
 } IPReducedSystem;
 
-/* The constraints that are active, and the factors that belong to them */
+/* The active constraints, and the factors for them */
 typedef struct {
-  PetscInt   m, n, k; /* number of constraints; number of active ones with a compliance that is not zero; number of
+  PetscInt   m, n, k; /* number of constraints; number of active constraints with nonzero compliance; number of
                          directions in V */
   PetscBool *active, factored;
   PetscInt  *rows;
   PetscReal *L, *V, *H, *r;
 } IPActiveSet;
 
-/* Data for the laws of constraints and norm terms, on the first rank */
+/* Data that the laws of constraints and norm terms receive, on the first rank */
 typedef struct {
-  PetscReal *limit, *coefficient; /* of the terms; a negative coefficient: the bound is the limit alone */
-  PetscReal *dead;                /* unit directions along which terms cannot move, two entries a term; zero: none */
+  PetscReal *limit, *coefficient; /* per term: limit and coefficient of its bound; a negative coefficient: the bound
+                                     is the limit */
+  PetscReal *dead;                /* two entries per term: unit direction along which the term cannot move; zero:
+                                     none */
   PetscBool *closed;              /* constraints that are closed initially */
 } IPLawsData;
 
-/* Interface to solve the problem on the subspace with norm terms: m constraints and n terms with the rows R.
-   register.c names the implementation. */
+/*
+   Interface of a solver for the reduced problem with norm terms, which has m constraints, n terms, and the rows R.
+   register.c stores the implementation.
+*/
 typedef struct _p_IPLaws *IPLaws;
 typedef struct _n_IPLawsOps {
   PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *, PetscBool *definite);
   PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
-  PetscErrorCode (*restart)(IPLaws); /* called when the set of closed rows was chosen again */
-  PetscErrorCode (*forget)(IPLaws);  /* called when directions were replaced */
+  PetscErrorCode (*restart)(IPLaws); /* called after the initially closed rows were changed */
+  PetscErrorCode (*forget)(IPLaws);  /* called after the directions were replaced */
   PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscBool simply, PetscInt *steps, PetscInt *nactive,
     PetscBool *met, PetscBool *solved);
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
-/* The contact problem on the subspace; n and m are zero on all but the first rank. The space (K_WW and Z) is kept
-   between solves, the constraints are not */
+/*
+   The reduced problem; n and m are zero on ranks other than the first. Later solves reuse the space (K_WW and Z), but
+   not the constraints.
+*/
 typedef struct {
   PetscBool        first;
-  PetscObjectId    K_id; /* K and W that the space belongs to */
+  PetscObjectId    K_id; /* K for which the space was set up */
   PetscObjectState K_state;
   IS               W;
-  Mat              KWW;          /* with the companions' springs */
-  PetscInt         generation;   /* that of the basis when Z was computed */
-  PetscInt         n, m, nterms; /* sizes of W, constraints, norm terms */
+  Mat              KWW;          /* K_WW, including the companions' springs */
+  PetscInt         generation;   /* generation of the basis when Z was computed */
+  PetscInt         n, m, nterms; /* sizes: of W, number of constraints, number of norm terms */
   VecScatter       to_W, to_rows, to_terms;
   Vec              on_W, on_rows, on_terms;
-  Vec              scale;   /* of the rows, after a solve; NULL: 1 */
+  Vec              scale;   /* scales of the rows, set after a solve; NULL: all are 1 */
   const IPLawsOps *lawsops; /* NULL: no implementation is registered */
-  IPLaws           laws;    /* NULL without norm terms, and on all but the first rank */
+  IPLaws           laws;    /* NULL without norm terms, and on ranks other than the first */
   IPCompliance     compliance;
   IPCompanions     companions; /* their displacements are the first coordinates of y */
   IPReducedSystem  system;
   IPActiveSet      set;
-  PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient and K_WW^-1 g at the centre; work */
+  PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient at the centre; K_WW^-1 g; work */
   PetscInt         nsteps, nactive;
-  PetscBool        simply; /* with norm terms: give up if Newton's method fails, because W can be extended */
-  PetscBool        met;    /* the last solution satisfies the laws to the requested tolerance */
+  PetscBool        simply; /* with norm terms: stop if Newton's method fails, since W can be extended */
+  PetscBool        met;    /* whether the last solution satisfies the laws to the requested tolerance */
 } IPReduced;
 
-/* Data that the filtered subspace method keeps between solves */
+/* Data of the filtered subspace method that later solves reuse */
 typedef struct {
-  PC               pc;            /* the Krylov method's preconditioner, set up with K alone */
-  PetscBool        held;          /* whether it was set up with K + J^T D J instead, for bodies that only constraints
-                                     hold */
-  PetscBool        negative;      /* held only while K stays: K was negative along a direction */
-  PetscBool        changing;      /* K has changed since it was first seen */
-  PetscBool        whole;         /* W is all unknowns, as norm terms need it */
-  PetscInt         napplications; /* applications of the preconditioner in the last solve */
+  PC               pc;            /* the Krylov method's preconditioner, set up for K alone */
+  PetscBool        held;          /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
+                                     are held by constraints only */
+  PetscBool        negative;      /* K was negative along a direction, so that `held` ends when K changes */
+  PetscBool        changing;      /* K has changed since the first solve with it */
+  PetscBool        whole;         /* W contains all unknowns, since norm terms needed that */
+  PetscInt         napplications; /* number of applications of the preconditioner in the last solve */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
   IPReduced        reduced;
 } IPSubspaceState;
 
-/* State of the filtered subspace method within a solve */
+/* State of the filtered subspace method during a solve */
 typedef struct {
-  PetscBool      newton;  /* by Newton's method, as the objective is not quadratic */
-  PetscContainer kept;    /* an IPSubspaceState */
-  IS             W;       /* the unknowns whose unit vectors are all in V: those of the constraints, and their
-                             neighbours */
-  IPReduced     *reduced; /* that of kept; NULL: not set up */
-  Vec            centre, gradient, c; /* the point that the reduced problem counts from; grad f, c_I */
-  PetscReal      f;                   /* and f there */
-  PetscReal     *pg, *y;              /* P^T grad f there; coefficients of the directions */
-  PetscInt       ncentred;            /* steps in a row without a new direction */
-  PetscInt       nfutile;             /* steps since the KKT error was last halved */
+  PetscBool      newton;  /* whether Newton's method is used, since the objective is not quadratic */
+  PetscContainer kept;    /* contains an IPSubspaceState */
+  IS             W;       /* unknowns whose unit vectors are in V: those of the constraints, and their neighbours */
+  IPReduced     *reduced; /* the reduced problem in `kept`; NULL: not set up */
+  Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
+  PetscReal      f;                   /* f at that point */
+  PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
+  PetscInt       ncentred;            /* number of consecutive steps without a new direction */
+  PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
   PetscReal      halved;              /* KKT error when it was last halved */
   PetscReal      begin;               /* KKT error after the first reduced problem */
 } IPFiltered;
