@@ -37,7 +37,7 @@ Exit code:\n\
   6  results could not be written\n\
   7  no memory, or a fault of the program or of a library\n\n";
 
-#define _POSIX_C_SOURCE 200809L /* dup(), dprintf() */
+#define _POSIX_C_SOURCE 200809L /* declares dup() and dprintf() */
 #include <petscamgf.h>
 #include <options.h>
 #include <scene.h>
@@ -59,22 +59,26 @@ Exit code:\n\
 typedef struct {
   char scene[PETSC_MAX_PATH_LEN], output[PETSC_MAX_PATH_LEN], summary[PETSC_MAX_PATH_LEN],
     checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
-  PetscInt  checkpoint_every; /* load steps between two checkpoints; 0: only when a signal ends the run */
+  PetscInt  checkpoint_every; /* number of load steps from one checkpoint to the next; 0: a checkpoint is written
+                                 only if a signal ends the run */
   PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
 } AppOptions;
 
-/* State of main() for error handling */
+/* State of main() for the handling of errors */
 typedef struct {
-  MPI_Comm  meeting;   /* where ranks with an error wait for each other */
-  int       said;      /* file descriptor for errors, also while stderr is silenced during output */
-  PetscBool traceback; /* the user asked for PETSc's own traceback */
-  PetscBool silent;    /* another rank prints the error */
-  int       end;       /* the exit code of the program */
-  PetscBool alone;     /* the error occurred on this rank only; no other rank knows of it */
+  MPI_Comm  meeting;   /* communicator on which ranks with an error wait for one another */
+  int       said;      /* file descriptor for messages; stderr may be silenced while output is written */
+  PetscBool traceback; /* the user asked for PETSc's traceback */
+  PetscBool silent;    /* another rank prints the message */
+  int       end;       /* exit code of the program */
+  PetscBool alone;     /* the error occurred on this rank only, and no other rank knows of it */
   char      sentence[512];
 } AppError;
 
-/* Most kinds of errors are caused by the input. The kinds listed here are caused by the machine or by the program */
+/*
+   Returns the kind of end of a run to which a PETSc error code belongs. Most errors are caused by the input. The codes
+   listed here are caused by the machine or by the program.
+*/
 static RunEnd AppClassifyError(PetscErrorCode n)
 {
   static const PetscErrorCode faults[] = {PETSC_ERR_MEM, PETSC_ERR_PLIB, PETSC_ERR_LIB, PETSC_ERR_SIG, PETSC_ERR_MEMC,
@@ -87,8 +91,10 @@ static RunEnd AppClassifyError(PetscErrorCode n)
   return RUN_REFUSED;
 }
 
-/* A collective error unwinds on every rank and is printed once: one sentence, or PETSc's traceback. An error on one
-   rank alone must end the other ranks */
+/*
+   Handles an error of PETSc. A collective error returns through all callers on every rank and is printed once, as one
+   sentence or as PETSc's traceback. An error that occurs on one rank only ends the other ranks.
+*/
 static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
   PetscErrorType type, const char *message, void *ctx)
 {
@@ -114,8 +120,10 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
            : n;
 }
 
-/* When MPI ends, HDF5 closes its files. If it could not write one, it prints pages and crashes. This hides both and
-   keeps the exit code */
+/*
+   Silences HDF5 while MPI ends. HDF5 then closes its files; if it could not write one, it prints pages of errors and
+   crashes. The exit code of the program remains `end`.
+*/
 static int app_end;
 
 static void AppLeaveAtOnce(int sig)
@@ -134,13 +142,13 @@ static void AppLeaveFiles(int end)
 }
 
 /*
-   Ends the program after an error has unwound. With a collective error every rank comes here. If one rank comes
-   alone, the others may wait for it forever, so it ends them after ten seconds, as PETSc's traceback does. Objects
-   are not destroyed; PetscFinalize() would complain about them.
+   Ends the program after an error has returned through all callers. With a collective error every rank comes here. If a
+   rank waits in vain for the others for ten seconds, they may never come; it then ends them, as PETSc's traceback does.
+   Objects are not destroyed. MPI_Finalize() is called in place of PetscFinalize(), which would complain about them.
 */
 static void AppLeave(const AppError *error)
 {
-  const double start = MPI_Wtime(), patience = error->alone ? 0.0 : 10.0; /* [s] */
+  const double start = MPI_Wtime(), patience = error->alone ? 0.0 : 10.0; /* time to wait for other ranks [s] */
   MPI_Request  request;
   PetscMPIInt  rank;
   int          all = 0;
@@ -162,7 +170,7 @@ static void AppLeave(const AppError *error)
   _Exit(error->end);
 }
 
-/* contact --help, contact -version, contact -scene_keys: print a text and do not run */
+/* Returns whether the command is contact --help, -version or -scene_keys, which print a text and do not run a scene */
 static PetscBool AppAsksForText(int argc, char **argv)
 {
   return (PetscBool)(argc == 2 && (!strcmp(argv[1], "--help") || !strcmp(argv[1], "--version") ||
@@ -195,7 +203,10 @@ static PetscErrorCode AppSayText(const char word[])
   PetscFunctionReturn(0);
 }
 
-/* An HTML page needs fields and a summary. Unless the user names files for them, they are named after the page */
+/*
+   Completes the options for -report. An HTML page needs fields and a summary. If the user has not named files for them,
+   their names are derived from that of the page.
+*/
 static PetscErrorCode AppCompleteReport(AppOptions *app)
 {
   char  base[PETSC_MAX_PATH_LEN];
@@ -215,7 +226,7 @@ static PetscErrorCode AppCompleteReport(AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* Reads the program's options; -help without a scene has already printed the help */
+/* Reads the program's options. With -help and without a scene, the help has been printed already. */
 static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
   PetscBool helped;
@@ -255,7 +266,7 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionReturn(0);
 }
 
-/* Refuses words that are neither an option nor its value; PETSc would ignore them */
+/* Rejects words that are neither an option nor the value of an option; PETSc would ignore them */
 static PetscErrorCode AppCheckWords(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -271,8 +282,7 @@ static PetscErrorCode AppCheckWords(int argc, char **argv)
   PetscFunctionReturn(0);
 }
 
-/* Prints one line per Newton step, unless the user has set the monitor's option. Only that option switches on the
-   plugin's monitor */
+/* Sets the option that prints one line per Newton step, unless the user has set it. There is no function for this. */
 static PetscErrorCode AppShowProgress(void)
 {
   PetscBool given;
@@ -370,7 +380,10 @@ static PetscErrorCode AppWriteCheckpoint(const AppOptions *app, Scene scene, Sim
   PetscFunctionReturn(0);
 }
 
-/* The first load step: 0, or the one with which a restarted run continues. same: on the same mesh as the checkpoint */
+/*
+   Reads the checkpoint of a restarted run. *step: first load step to solve, 0 without restart; *same: whether the mesh
+   is that of the checkpoint.
+*/
 static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation sim, PetscInt *step, PetscBool *same)
 {
   Checkpoint checkpoint;
@@ -390,7 +403,7 @@ static PetscErrorCode AppRestart(const AppOptions *app, Scene scene, Simulation 
   PetscFunctionReturn(0);
 }
 
-/* Solves load steps until one fails; converged: none did */
+/* Solves load steps until one fails. *converged: none failed. */
 static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simulation sim, PetscInt first,
   Output output, CheckpointWriter writer, PetscBool *converged)
 {
@@ -411,7 +424,7 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
   PetscFunctionReturn(0);
 }
 
-/* Solves all load steps on one mesh. again: -accuracy asks for another run, with the settings that it has changed */
+/* Solves all load steps on one mesh. *again: -accuracy needs another run, with the settings that it has changed. */
 static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks,
   StepForecast *forecast, RunEnd *end, PetscBool *again)
 {
@@ -449,7 +462,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   PetscFunctionReturn(0);
 }
 
-/* Checks that all files can be written, before any time is spent */
+/* Checks that all files can be written, before the run begins */
 static PetscErrorCode AppCheckFiles(const AppOptions *app, Scene scene)
 {
   char file[PETSC_MAX_PATH_LEN];
@@ -498,8 +511,10 @@ static PetscErrorCode AppCheckScene(Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* We report misspelt options and unused options of a scene ourselves. PETSc since 3.19 would warn of every option that
-   this run did not need */
+/*
+   Switches off PETSc's report of unused options. This program reports misspelt options and unused keys of a scene
+   itself. PETSc since 3.19 would warn of every option that this run did not need.
+*/
 static PetscErrorCode AppLeaveUnusedOptions(void)
 {
   PetscBool given;
@@ -510,7 +525,7 @@ static PetscErrorCode AppLeaveUnusedOptions(void)
   PetscFunctionReturn(0);
 }
 
-/* Collects what the page needs while MPI is still up. Only the first rank makes the page */
+/* Collects what the HTML page needs while MPI is still available. Only the first rank makes the page. */
 static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **argv, ReportPage *page)
 {
   PetscMPIInt rank;
@@ -530,7 +545,7 @@ static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **ar
   PetscFunctionReturn(0);
 }
 
-/* Makes the HTML page after the run, whose exit code stays. If the page cannot be made, this prints why */
+/* Makes the HTML page after the run. If that fails, a message says why; the exit code of the run is unchanged. */
 static void AppMakePage(const ReportPage *page)
 {
   char sentence[512];
@@ -574,10 +589,12 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscFunctionReturn(0);
 }
 
-/* Large arrays of the AMG and of matrices are freed and allocated again. In a heap they leave holes: two_block on mesh
-   2 would need 4.9 kB per unknown instead of 4.0. This maps them, and returns free memory at the end of the heap.
-   SuperLU_DIST, which PETSc may link, turns both off when it is loaded, by mallopt(M_MMAP_MAX, 0) and
-   mallopt(M_TRIM_THRESHOLD, -1) */
+/*
+   Limits the fragmentation of the heap. Large arrays of the AMG and of matrices are freed and allocated again; in a
+   heap they would leave holes. (two_block on mesh 2 would need 4.9 kB per unknown instead of 4.0.) Large arrays are
+   therefore mapped, and free memory at the end of the heap is returned to the system. SuperLU_DIST, which PETSc may
+   link, turns both off when it is loaded, by mallopt(M_MMAP_MAX, 0) and mallopt(M_TRIM_THRESHOLD, -1).
+*/
 static void AppLimitHeap(void)
 {
 #if defined(__GLIBC__)
@@ -587,8 +604,10 @@ static void AppLimitHeap(void)
 #endif
 }
 
-/* Handles a crash of the program or of a library: prints one sentence and ends the other ranks. PETSc's handler
-   would print a page and use its own exit code */
+/*
+   Handles a crash of the program or of a library: prints one sentence and ends the other ranks. PETSc's handler would
+   print a page, and use its own exit code.
+*/
 static PetscErrorCode AppCrash(int sig, void *ctx)
 {
   const PetscBool fault =
@@ -605,8 +624,10 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
   _Exit(RUN_BROKEN);
 }
 
-/* Initializes PETSc. If the reader of a pipe stops reading (contact -help | head), the program ends silently;
-   PETSc's signal handler would print a page */
+/*
+   Initializes PETSc without its signal handler. If the reader of a pipe stops reading (contact -help | head), the
+   program then ends silently; PETSc's handler would print a page.
+*/
 static PetscErrorCode AppInitialize(int *argc, char ***argv)
 {
   static const char option[] = "-no_signal_handler";
@@ -620,12 +641,12 @@ static PetscErrorCode AppInitialize(int *argc, char ***argv)
 
 int main(int argc, char **argv)
 {
-  static ReportPage page; /* none */
+  static ReportPage page; /* all members are empty: no page is made */
 
-  RunEnd         end   = RUN_CONVERGED;
-  AppError       error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
-  const char    *word  = AppAsksForText(argc, argv) ? argv[1] : NULL; /* PETSc would take this argument for one of its
-                                                                        own options */
+  RunEnd   end   = RUN_CONVERGED;
+  AppError error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};
+  /* PETSc would take this argument for one of its own options */
+  const char    *word = AppAsksForText(argc, argv) ? argv[1] : NULL;
   PetscErrorCode ierr;
 
   AppLimitHeap();

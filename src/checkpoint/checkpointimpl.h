@@ -1,6 +1,4 @@
-/*
-   Private header of checkpoints: what reading and writing have in common.
-*/
+/* Private header of checkpoints: declarations that reading and writing share */
 #ifndef CHECKPOINTIMPL_H
 #define CHECKPOINTIMPL_H
 
@@ -9,19 +7,24 @@
 #include <elasticity.h>
 #include "src/output/outputimpl.h"
 
-/* fields.c: a field with all that is known of it; one that is not there is an error */
+/* fields.c: gets a field with its size; a missing field is an error */
 PETSC_INTERN PetscErrorCode CheckpointFindField(Checkpoint, const char name[], const CheckpointField **);
 
-/* plastic.c: the plastic strains at the quadrature points, and where these are; read in any parts by the ranks */
+/*
+   plastic.c: names of the fields with the places of the quadrature points, and with their plastic strains and plastic
+   deformations; ranks may read any parts of these
+*/
 #define CHECKPOINT_PLASTIC_PLACES      "plastic_places"
 #define CHECKPOINT_PLASTIC             "plastic_history"
 #define CHECKPOINT_PLASTIC_DEFORMATION "plastic_deformation"
-/* 0: no law yields; 1: plastic strains are kept; 2: and plastic deformations */
+/* 0: no law is plastic; 1: plastic strains are stored; 2: plastic deformations as well */
 PETSC_INTERN int            CheckpointPlasticParts(Scene);
 PETSC_INTERN PetscErrorCode CheckpointAddPlastic(Scene, Elasticity, Checkpoint);
 PETSC_INTERN PetscErrorCode CheckpointGetPlastic(Scene, MPI_Comm, Elasticity, Checkpoint);
 
-/* read.c, write.c: numbers of a checkpoint, stored as attributes of its file; ends with a NULL name */
+/*
+   read.c, write.c: numbers of a checkpoint, which are stored as attributes of its file; the list ends with a NULL name
+*/
 typedef struct {
   const char *name;
   size_t      offset;

@@ -1,4 +1,4 @@
-/* Fields of a checkpoint. */
+/* The fields of a checkpoint */
 #include "checkpointimpl.h"
 #include <string.h>
 
@@ -11,8 +11,10 @@ const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
   [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
 };
 
-/* Gets the name of a field of a contact pair in a checkpoint. kind: one of CheckpointPairFields; length: of the name;
-   name: of the field; kept: whether checkpoints contain this field for this pair. */
+/*
+   Gets the name of a field of a contact pair in a checkpoint. kind: one of CheckpointPairFields; length: size of
+   `name`; name: name of the field; kept: whether checkpoints contain this field for this pair.
+*/
 PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointPairKind kind, size_t length,
   char name[], PetscBool *kept)
 {
@@ -24,9 +26,11 @@ PetscErrorCode CheckpointNamePairField(const SceneContactPair *pair, CheckpointP
   PetscFunctionReturn(0);
 }
 
-/* Adds a field to a checkpoint, with zeros at the vertices that this rank owns. name: of the field; components: values
-   per vertex; nvertices: vertices of this rank, or other records; values: array of the field's values, to be filled by
-   the caller; owned by the checkpoint. */
+/*
+   Adds a field to a checkpoint, with zeros as values. name: name of the field; components: values per vertex;
+   nvertices: number of vertices that this rank owns, or of other records; values: array of the field's values, to be
+   filled by the caller, owned by the checkpoint.
+*/
 PetscErrorCode CheckpointAddField(Checkpoint checkpoint, const char name[], PetscInt components, PetscInt nvertices,
   PetscReal **values)
 {
@@ -54,8 +58,7 @@ PetscErrorCode CheckpointFindField(Checkpoint checkpoint, const char name[], con
   PetscFunctionReturn(0);
 }
 
-/* Gets the values of a field of a checkpoint. name: name of the field; a missing field is an error; values: borrowed.
-   */
+/* Gets the values of a field of a checkpoint. name: name of the field, which must exist; values: borrowed. */
 PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], const PetscReal **values)
 {
   const CheckpointField *found;
@@ -66,8 +69,10 @@ PetscErrorCode CheckpointGetField(Checkpoint checkpoint, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/* Checks that the numbers of a checkpoint are consistent and finite. comm: where the error is raised; every rank has
-   the same numbers. Error: PETSC_ERR_FILE_UNEXPECTED. */
+/*
+   Checks that the numbers of a checkpoint are consistent and finite. comm: communicator on which the error is raised;
+   every rank has the same numbers. Error: PETSC_ERR_FILE_UNEXPECTED.
+*/
 PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
 {
   const struct {

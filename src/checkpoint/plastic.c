@@ -1,22 +1,25 @@
 /*
-   Plastic strains at quadrature points. They are found by their places: each rank looks for its points among those of
-   the file, whichever rank wrote or has read them. On another mesh the points are others, and no strain is carried
-   over.
+   Plastic strains at quadrature points. A point is identified by its place: each rank looks for its points among all
+   points of the file, whichever rank wrote or read them. On another mesh the points have other places, and no strain is
+   transferred.
 */
 #include "checkpointimpl.h"
 #include <stdlib.h>
 
-/* A place in steps so small that no two points of a mesh share one, and the body */
+/*
+   Key of a point: its place in multiples of a step that is so small that no two points of a mesh share a key, and its
+   body
+*/
 typedef struct {
   PetscInt64 at[4];
   PetscInt   point;
 } PlasticKey;
 
-/* The points of this rank */
+/* The quadrature points of this rank */
 typedef struct {
   PetscInt    n;
-  PlasticKey *keys; /* ascending */
-  PetscReal   step; /* [length] */
+  PlasticKey *keys; /* in ascending order */
+  PetscReal   step; /* step to which places are rounded [length] */
   PetscBool  *found;
 } PlasticIndex;
 
@@ -30,7 +33,11 @@ static int PlasticCompare(const void *a, const void *b)
   return 0;
 }
 
-/* shift: bits say along which axes the place is rounded from a quarter of a step above, or from below */
+/*
+   Sets the key of a place. Bit d of `shift` says whether coordinate d is rounded after an addition (1) or a subtraction
+   (0) of `quarter` steps. With all eight shifts a place is found although rounding errors moved it across a rounding
+   limit.
+*/
 static void PlasticSetKey(const PetscReal place[4], PetscReal step, int shift, PetscReal quarter, PlasticKey *key)
 {
   for (int d = 0; d < 3; ++d)
@@ -38,7 +45,7 @@ static void PlasticSetKey(const PetscReal place[4], PetscReal step, int shift, P
   key->at[3] = (PetscInt64)place[3];
 }
 
-/* What a history consists of; the deformation is kept only if a law has one */
+/* The parts of a point's history. The plastic deformation is stored only if a law has one. */
 static const struct {
   const char *name;
   PetscInt    at, n;
@@ -98,7 +105,7 @@ static PetscErrorCode PlasticIndexCreate(MPI_Comm comm, PetscInt n, const PetscR
   PetscFunctionReturn(0);
 }
 
-/* Takes a part of the history of this rank's points from records of the file, and marks them as found */
+/* Copies one part of the history from records of the file to this rank's points, and marks these as found */
 static void PlasticTake(PlasticIndex *index, int part, PetscInt n, const PetscReal places[], const PetscReal from[],
   PetscReal history[])
 {
@@ -118,7 +125,10 @@ static void PlasticTake(PlasticIndex *index, int part, PetscInt n, const PetscRe
   }
 }
 
-/* The records of each rank in turn to all */
+/*
+   Copies one part of the history from all records of the file to the points of all ranks. Each rank in turn broadcasts
+   the records that it has read.
+*/
 static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpoint, PlasticIndex *index,
   PetscReal history[])
 {

@@ -28,10 +28,10 @@ typedef struct {
   IS                 cells, body;
   const PetscScalar *x;
   const PetscInt    *c, *b;
-  PetscInt          *first, *nnodes; /* for each cell: index of its first node, and number of nodes */
+  PetscInt          *first, *nnodes; /* per cell: index of its first node in c; number of its nodes */
 } RestartMesh;
 
-/* The file's cell that contains each vertex of this rank */
+/* State of the reading of a checkpoint */
 typedef struct {
   MPI_Comm     comm;
   const char  *file;
@@ -39,12 +39,13 @@ typedef struct {
   Scene        scene;
   Output       output; /* the mesh of the continued run */
   RestartMesh  mesh;
-  MeshLocator  locator; /* NULL: the vertices are those of the file in the same order */
-  PetscScalar *x;       /* the vertices of this rank */
+  MeshLocator  locator; /* finds the file's cell that contains each vertex of this rank; NULL: the vertices are those
+                           of the file in the same order */
+  PetscScalar *x;       /* coordinates of the vertices of this rank [length] */
   PetscInt    *body;
 } Restart;
 
-/* Loads a dataset; nlocal: rows of this rank, or PETSC_DECIDE */
+/* Loads a dataset. nlocal: number of rows on this rank, or PETSC_DECIDE. */
 static PetscErrorCode RestartLoad(Restart *r, const char name[], PetscInt nlocal, PetscInt components, Vec *v)
 {
   PetscFunctionBegin;
@@ -73,7 +74,7 @@ static PetscErrorCode RestartLoadAll(Restart *r, const char name[], PetscInt com
   PetscFunctionReturn(0);
 }
 
-/* Collective: checks that all values are finite numbers */
+/* Checks that all values are finite. Collective. */
 static PetscErrorCode RestartCheckNumbers(Restart *r, const char name[], Vec v)
 {
   PetscReal sum;
@@ -99,7 +100,7 @@ static PetscErrorCode RestartLoadIndices(Restart *r, const char name[], IS *all)
   PetscFunctionReturn(0);
 }
 
-/* Compares the scene's text with that in the file, and finds the first difference */
+/* Compares the scene's text with that in the file, and raises an error with the first difference */
 static PetscErrorCode RestartCompare(Restart *r)
 {
   IS              is;
@@ -121,7 +122,7 @@ static PetscErrorCode RestartCompare(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Reads the numbers, and checks that the load at that time is the same */
+/* Reads the numbers, and checks that the load factors at the checkpoint's time are the same in the scene */
 static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 {
   PetscFunctionBegin;
@@ -155,7 +156,7 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* same: whether every rank's vertices are at the same position in the file */
+/* Finds whether every rank's vertices are those of the file at the same positions */
 static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
 {
   const PetscInt     n = r->output->nowned;
@@ -178,7 +179,7 @@ static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Node `a` of a cell, for hexahedra in tensor order; the file has VTK's order */
+/* Returns node `a` of a cell. Nodes of hexahedra are numbered in tensor order; the file has the order of VTK. */
 static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt a)
 {
   static const PetscInt vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
@@ -186,8 +187,11 @@ static PetscInt RestartCellNode(const RestartMesh *mesh, PetscInt cell, PetscInt
   return mesh->c[mesh->first[cell] + (mesh->nnodes[cell] == 8 ? vtk[a] : a)];
 }
 
-/* Finds the first node and the number of nodes of each cell: 8, or in mixed files given by the kind stored before
-   them. Error if a cell is incomplete or a node is not a vertex of the file */
+/*
+   Finds the first node and the number of nodes of each cell: 8, or, in files with several kinds of cells, the number
+   that follows from the kind stored before the nodes. Raises an error if a cell is incomplete or a node is not a vertex
+   of the file.
+*/
 static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nindices)
 {
   RestartMesh *mesh = &r->mesh;
@@ -239,7 +243,7 @@ static PetscErrorCode RestartLoadMesh(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Finds for each vertex the file's cell of the same body that contains it */
+/* Finds for each vertex of this rank the file's cell of the same body that contains it */
 static PetscErrorCode RestartLocate(Restart *r)
 {
   const MeshPlace *places;
@@ -264,15 +268,17 @@ static PetscErrorCode RestartLocate(Restart *r)
   PetscFunctionReturn(0);
 }
 
-/* Interpolation weight of node a. Forces are moved to the nearest vertex instead, because interpolation would change
-   their sum */
+/*
+   Returns the interpolation weight of node `a`. A field of forces is not interpolated, since that would change the sum
+   of the forces: only the force of a node at the same place is taken.
+*/
 static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
 {
   if (!force) return place->N[a];
   return place->N[a] > 1 - PETSC_SQRT_MACHINE_EPSILON ? 1 : 0;
 }
 
-/* Reads a field directly, or interpolates it in the file's cells */
+/* Reads a field. On another mesh it is interpolated in the file's cells. */
 static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt components, PetscBool force,
   Checkpoint checkpoint)
 {
@@ -309,7 +315,7 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
   PetscFunctionReturn(0);
 }
 
-/* Records that each rank takes a part of */
+/* Reads a field of records that are not vertices. Each rank gets a part of them. */
 static PetscErrorCode RestartReadRecords(Restart *r, const char name[], PetscInt components, Checkpoint checkpoint)
 {
   Vec                stored;
@@ -364,12 +370,15 @@ static PetscErrorCode RestartReadFields(Restart *r, Checkpoint checkpoint)
   PetscFunctionReturn(0);
 }
 
-/* Checks on the first rank that the file is complete HDF5; the library would print a page of errors. The end of the
-   file is stored at byte 40 of a version 0 superblock */
+/*
+   Checks on the first rank that the file is complete HDF5, since the HDF5 library would print a page of errors. The
+   length of the file is stored at byte 40 of a version 0 superblock.
+*/
 static PetscErrorCode RestartCheckFile(const Restart *r)
 {
   unsigned char head[48]  = {0};
-  PetscInt64    length[2] = {0, 0}; /* actual and expected length of the file; negative: not HDF5 */
+  PetscInt64    length[2] = {0, 0}; /* actual length of the file, negative if it is not HDF5; length that the file
+                                       should have */
   PetscMPIInt   rank;
   FILE         *stream = NULL;
 
@@ -408,7 +417,7 @@ static PetscErrorCode RestartReadFile(Restart *r, Checkpoint checkpoint, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Gets the vertices of this rank, and their bodies */
+/* Gets the vertices of this rank and their bodies */
 static PetscErrorCode RestartCreate(DM dm, Restart *r)
 {
   Vec                vertices;

@@ -1,11 +1,11 @@
-/* The state of a simulation for a restart: displacements and contact history. */
+/* The state of a simulation that a restart needs: displacements and contact history */
 #include "checkpointimpl.h"
 #include "src/measure/measureimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* Adds a field from a global vector; NULL: zeros */
+/* Adds a field with the values of a global vector; NULL: zeros */
 static PetscErrorCode CheckpointAddVec(Checkpoint checkpoint, const char name[], PetscInt nvertices, Vec v)
 {
   const PetscScalar *a;
@@ -35,7 +35,7 @@ static PetscErrorCode CheckpointGetVec(Checkpoint checkpoint, const char name[],
   PetscFunctionReturn(0);
 }
 
-/* Replaces *force by a new vector with the layout of u */
+/* Replaces *force by a new vector with the layout of u, and reads its values */
 static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[], Vec u, Vec *force)
 {
   PetscFunctionBegin;
@@ -45,7 +45,10 @@ static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[
   PetscFunctionReturn(0);
 }
 
-/* At path.u and path.time, which are set before, as plastic strains are. Forces have the temperatures of that time */
+/*
+   Restores velocities and accelerations, and computes the forces at rest. path.u, path.time and the plastic strains
+   must have been restored, since these forces depend on them and on the temperatures at that time.
+*/
 static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
 {
   const Constraints constraints = SimulationConstraints(sim);

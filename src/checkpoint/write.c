@@ -1,4 +1,4 @@
-/* Writes a run's state to disk; the file is either complete or absent. */
+/* Writes the state of a run to disk. The file is replaced only when the new one is complete. */
 #include "checkpointimpl.h"
 #include <string.h>
 
@@ -6,18 +6,18 @@ struct _n_CheckpointWriter {
   Scene      scene;
   DM         dm;
   char      *file;
-  Output     mesh; /* NULL before the first state */
+  Output     mesh; /* mesh of the output; NULL before the first state */
   FileCommit commit;
 };
 
-/* Contents of the file: a state, its scene and mesh */
+/* Contents of the file: a state, its scene and its mesh */
 typedef struct {
   Checkpoint checkpoint;
   Scene      scene;
   Output     mesh;
 } CheckpointContents;
 
-/* Writes a text, one character per number, on the first rank; an attribute could not be as long */
+/* Writes a text as a dataset with one number per character, on the first rank; an attribute could not be that long */
 static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], const char text[], PetscViewer viewer)
 {
   IS          is;
@@ -38,7 +38,7 @@ static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/* Writes how the run was started, as text for people */
+/* Writes the scene and the options with which the run was started, as text for the user */
 static PetscErrorCode CheckpointWriteWords(const CheckpointContents *contents, PetscViewer viewer)
 {
   char *scene, *options;

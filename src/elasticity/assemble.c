@@ -1,11 +1,11 @@
 /*
-   Assembly of the tangent. Bodies with a constant tangent are assembled once; later assemblies zero the rows of the
-   other bodies and add only those again. No second copy of values is kept.
+   Assembles the tangent. Bodies with a constant tangent are assembled once. Later assemblies set the rows of the other
+   bodies to zero and add only their cells again. This needs no second copy of the values.
 */
 #include "elasticityimpl.h"
-#include <petsc/private/petscimpl.h> /* PetscObjectStateGet() */
+#include <petsc/private/petscimpl.h> /* declares PetscObjectStateGet() */
 
-/* Zeroes rows and columns of prescribed displacements in a cell's stiffness; the diagonal stays */
+/* Sets the rows and columns of prescribed displacements in a cell's stiffness to zero, except for the diagonal */
 static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, const PetscInt nodes[], PetscScalar K[])
 {
   const PetscInt width = 3 * n;
@@ -23,7 +23,7 @@ static void CellMaskPrescribed(const unsigned char prescribed[], PetscInt n, con
   }
 }
 
-/* holds: whether the matrix still has the values of the last assembly */
+/* Finds whether the matrix still has the values of the last assembly */
 static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscBool *holds)
 {
   PetscObjectId    id;
@@ -36,7 +36,7 @@ static PetscErrorCode ElasticityHoldsAssembled(Elasticity e, Mat tangent, PetscB
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the rows of the bodies that are assembled again; their columns are in the same rows */
+/* Sets the rows of the bodies that are assembled again to zero. Their columns have entries in these rows only. */
 static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt global[], Mat tangent)
 {
   PetscInt   n = 0, first, last, *rows;
@@ -63,7 +63,10 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
   PetscFunctionReturn(0);
 }
 
-/* Adds the cells of all bodies, or only of those that are assembled again */
+/*
+   Adds the stiffness of all cells, or, unless `all`, only of cells of the bodies that are assembled again. If a cell is
+   inverted, its stiffness at zero displacement is used.
+*/
 static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, const PetscInt global[], Mat tangent)
 {
   Vec                local;

@@ -1,4 +1,4 @@
-/* Bodies with a constant tangent: whether all have one, and which are kept when a tangent is assembled again */
+/* Bodies with a constant tangent: finds whether all bodies have one, and which bodies need not be assembled again */
 #include "elasticityimpl.h"
 
 /*@
@@ -26,7 +26,9 @@ PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
   PetscFunctionReturn(0);
 }
 
-/* Sets marks[v] at the nodes of bodies that are assembled again, also if only another rank has their cells */
+/*
+   Sets marks[v] at the nodes of bodies that are assembled again, including nodes whose cells are on another rank only
+*/
 static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks[])
 {
   Vec                local, global;
@@ -54,8 +56,10 @@ static PetscErrorCode ElasticityMarkAssembledAgain(Elasticity e, PetscBool marks
   PetscFunctionReturn(0);
 }
 
-/* Finds the bodies that are kept: none of their rows may be zeroed for another body. Excluding one body may exclude
-   the next */
+/*
+   Finds the bodies that need not be assembled again. Their rows must not be set to zero for another body; a body that
+   shares nodes with a body that is assembled again is therefore excluded, and this may exclude the next body.
+*/
 PetscErrorCode ElasticitySetUpKept(Elasticity e)
 {
   PetscBool *marks;

@@ -21,7 +21,7 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* Sets the basis for cells with this many nodes, and the body's element */
+/* Sets the basis of cells with `nnodes` nodes, and the body's element */
 static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
 {
   const PetscInt order = MeshOrder(nnodes);
@@ -39,7 +39,10 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
   PetscFunctionReturn(0);
 }
 
-/* Sets nodes and body of every cell of this rank; the array grows if cells have more nodes than linear hexahedra */
+/*
+   Sets the nodes and the body of every cell of this rank. The array of nodes grows if cells have more nodes than linear
+   hexahedra.
+*/
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;

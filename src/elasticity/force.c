@@ -1,4 +1,4 @@
-/* Energy and internal force by loops over the cells, without a matrix */
+/* Computes energy and internal force by loops over the cells, without a matrix */
 #include "elasticityimpl.h"
 
 /*@

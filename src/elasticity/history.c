@@ -1,4 +1,4 @@
-/* Plastic strain at the quadrature points, kept from one state of equilibrium to the next */
+/* Plastic strains at the quadrature points. They change only when a state of equilibrium is committed. */
 #include "elasticityimpl.h"
 
 PetscErrorCode ElasticitySetUpHistory(Elasticity e)
@@ -17,9 +17,11 @@ PetscErrorCode ElasticitySetUpHistory(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Stores the plastic strains at a displacement as the start of the next load step. u: displacement, global,
-   3 components per node; a state of equilibrium [length]. Energy, force and stress at u do not change. If no law has a
-   history, nothing is done. */
+/*
+   Collective. Stores the plastic strains at a displacement, from which the next load step starts. u: displacement in a
+   state of equilibrium, global, 3 components per node [length]. Energy, force and stress at u do not change. If no law
+   has a history, nothing is done.
+*/
 PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
 {
   Vec                local;
@@ -44,7 +46,7 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Gets whether any quadrature point has a plastic strain. yielded: the same on every rank. */
+/* Collective. Finds whether any quadrature point has a plastic strain. yielded: the same on every rank. */
 PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
 {
   PetscFunctionBegin;
@@ -56,7 +58,7 @@ PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
   PetscFunctionReturn(0);
 }
 
-/* Gets a cell, and the volumes of its points; returns whether its law has a history */
+/* Gets a cell and the volumes w of its points, and returns true, if its law has a history. Returns false otherwise. */
 static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[], CellState *cell, PetscReal w[])
 {
   PetscReal G[3][CELL_MAX_NODES];
@@ -113,7 +115,7 @@ PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal la
   PetscFunctionReturn(0);
 }
 
-/* Elastic energy of a cell, and plastic work in it since the last state of equilibrium */
+/* Computes the elastic energy of a cell, and the plastic work in it since the last state of equilibrium */
 static void HistoryMeasureStep(CellState *cell, PetscReal *stored, PetscReal *work)
 {
   const BodyMaterial *m = cell->material;
@@ -133,15 +135,17 @@ static void HistoryMeasureStep(CellState *cell, PetscReal *stored, PetscReal *wo
   }
 }
 
-/* Collective. Computes the plastic work of a step in bodies without unlimited hardening, which have a collapse load. u:
-   trial displacement, global, 3 components per node [length]; stored: elastic energy of all bodies at u; 0 without such
-   bodies [force length]; work: plastic work of such bodies since the last state of equilibrium [force length]; body:
-   the one with the largest part of it. */
+/*
+   Collective. Computes the plastic work of a step in those bodies that have a collapse load, that is, whose hardening
+   is limited. u: trial displacement, global, 3 components per node [length]; stored: elastic energy of all bodies at u,
+   0 if there is no such body [force length]; work: plastic work of such bodies since the last state of equilibrium
+   [force length]; body: the body with the largest plastic work.
+*/
 PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, PetscReal *work, PetscInt *body)
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* plastic work of each body, then the elastic energy of all */
+  PetscReal         *sums; /* plastic work of each body, followed by the elastic energy of all bodies */
   PetscBool          flows = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -213,9 +217,11 @@ PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
   PetscFunctionReturn(0);
 }
 
-/* Collective. Gets the quadrature points of laws with a history, for checkpoints. npoints: their number on this rank;
-   places: 3 undeformed coordinates per point and its body, cell by cell [length]; free with PetscFree(); NULL on all
-   ranks if no law has a history; history: MATERIAL_HISTORY values per point, borrowed, writable. */
+/*
+   Collective. Gets the quadrature points of laws with a history, for checkpoints. npoints: their number on this rank;
+   places: per point its 3 undeformed coordinates [length] and its body, cell by cell, to be freed with PetscFree(),
+   NULL on all ranks if no law has a history; history: MATERIAL_HISTORY values per point, borrowed, writable.
+*/
 PetscErrorCode ElasticityGetHistory(Elasticity e, PetscInt *npoints, PetscReal *places[], PetscReal *history[])
 {
   Vec                local;

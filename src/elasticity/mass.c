@@ -1,7 +1,10 @@
-/* Mass of the bodies: a matrix, and its part of the tangent in dynamics */
+/* Mass of the bodies: a matrix, and its contribution to the tangent in dynamics */
 #include "elasticityimpl.h"
 
-/* Row sums; light nodes, unless all of a cell are, give theirs to the others in proportion */
+/*
+   Computes the lumped mass matrix M of a cell of unit density, the row sums of the consistent one. The mass of light
+   nodes is moved to the cell's other nodes in proportion to their masses, unless all nodes of the cell are light.
+*/
 static void CellMassLumped(Elasticity e, const CellState *cell, PetscScalar M[])
 {
   const PetscInt n = cell->n, width        = 3 * n;
@@ -19,7 +22,10 @@ static void CellMassLumped(Elasticity e, const CellState *cell, PetscScalar M[])
   }
 }
 
-/* int N_a N_b dV; of a tetrahedron of 4 nodes V/20 (1 + delta_ab) */
+/*
+   Computes the consistent mass matrix of a cell of unit density, int N_a N_b dV. For a tetrahedron of 4 nodes this is
+   V/20 (1 + delta_ab).
+*/
 static void CellMassConsistent(const CellState *cell, PetscScalar M[])
 {
   const CellBasis *basis = cell->body->basis;
@@ -37,14 +43,17 @@ static void CellMassConsistent(const CellState *cell, PetscScalar M[])
   }
 }
 
-/* Rigid bodies have a consistent mass in any case, so that their moments of inertia are exact. Tetrahedra of 10 nodes,
-   whose rule is not exact for products of their functions, are lumped */
+/*
+   Returns whether the cell's mass is consistent. Rigid bodies always have a consistent mass, so that their moments of
+   inertia are exact. The mass of tetrahedra of 10 nodes is lumped, since their quadrature rule is not exact for
+   products of shape functions.
+*/
 static PetscBool CellMassIsConsistent(Elasticity e, const CellState *cell)
 {
   return (PetscBool)((e->consistent || cell->body->rigid) && cell->n != 10);
 }
 
-/* Of unit density */
+/* Computes the mass matrix of a cell of unit density */
 static void CellMass(Elasticity e, const CellState *cell, PetscScalar M[])
 {
   for (PetscInt i = 0; i < 9 * cell->n * cell->n; ++i) M[i] = 0;
@@ -52,7 +61,10 @@ static void CellMass(Elasticity e, const CellState *cell, PetscScalar M[])
   else CellMassLumped(e, cell, M);
 }
 
-/* K = (1 + viscosity) K + inertia M; a rigid body, whose stiffness is a scale only, has its mass alone if it has one */
+/*
+   Computes K = (1 + viscosity) K + inertia M. For a rigid body with mass K is replaced by inertia M, since its
+   stiffness only sets a scale.
+*/
 void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
 {
   const Body *body = cell->body;
@@ -107,7 +119,10 @@ PetscErrorCode ElasticitySetMass(Elasticity e, const PetscReal density[], PetscB
   PetscFunctionReturn(0);
 }
 
-/* The pattern of the tangent if any mass is consistent. Lumped mass needs only the 3 x 3 blocks on the diagonal */
+/*
+   Creates the mass matrix: with the pattern of the tangent if any mass is consistent, otherwise with the 3 x 3 blocks
+   on the diagonal, which are sufficient for lumped mass
+*/
 static PetscErrorCode ElasticityCreateMassMatrix(Elasticity e, Mat *mass)
 {
   Vec       global;

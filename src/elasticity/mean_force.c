@@ -1,22 +1,27 @@
 /*
-   Mean force f of a step from U to U', whose work f (U' - U) is the change of a cell's energy, plastic work included,
-   and which has no moment about the mean of its places (Simo and Tarnow, The discrete energy-momentum method, 1992;
-   Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000):
-
-     f = int F_m (S_m + alpha dE) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F)
-
-   with the means F_m and S_m of both ends, and one alpha for the cell. Laws of small strain have F_m = I, S = P. The
-   mean of the forces at both ends would not do: where a metal begins to yield, its stress is concave in the strain, so
-   that the mean takes too little energy.
+   The mean force f of a step from U to U'. Its work f (U' - U) is the change of a cell's energy, including plastic
+   work, and it has no moment about the mean of the initial and the final places (Simo and Tarnow, The discrete
+   energy-momentum method, 1992; Gonzalez, Exact energy and momentum conserving algorithms for general models in
+   nonlinear elasticity, 2000):
+     f = int F_m (S_m + alpha dE) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F),
+   where F_m and S_m are the means of the values at U and U', and alpha is one number per cell. For laws of small strain
+   F_m = I and S = P.
+   The mean of the forces at U and U' would not do this work: where a metal begins to yield its stress is a concave
+   function of the strain, so that the mean is too small.
 */
 #include "elasticityimpl.h"
 
-/* At a point: weight, gradients, F_m; at both ends F - I, P; then S_m, and dE */
+/*
+   Data of a quadrature point: volume w, gradients G of the shape functions, F_m; at both ends of the step H = F - I and
+   P; S_m; dE
+*/
 typedef struct {
   PetscReal w, G[3][CELL_MAX_NODES], F[3][3], H[2][9], P[2][9], S[3][3], dE[3][3];
 } MeanPoint;
 
-/* Energy density and stress at an element's strains */
+/*
+   Computes energy density and stress P for an element's strains H at point q. Returns false if the point is inverted.
+*/
 static PetscBool MeanEvaluate(const BodyMaterial *m, PetscInt q, const PetscReal H[ELEMENT_STRAINS], PetscReal P[9],
   PetscReal *energy)
 {
@@ -36,7 +41,7 @@ static void MeanSetGradient(const PetscReal H[9], PetscReal F[3][3])
   for (int i = 0; i < 9; ++i) F[i / 3][i % 3] = H[i] + (i % 4 ? 0 : 1);
 }
 
-/* Sets F_m, S_m and dE. change: F' - F of the nodes */
+/* Computes F_m, S_m and dE of a point. finite: the law is one of finite strain; change: F' - F. */
 static void MeanSetPoint(PetscBool finite, const PetscReal change[9], MeanPoint *p)
 {
   PetscReal identity[9] = {0}, F[3][3], C[3][3];
@@ -66,7 +71,10 @@ static void MeanSetPoint(PetscBool finite, const PetscReal change[9], MeanPoint 
   }
 }
 
-/* alpha: 0 where what is missing is rounding */
+/*
+   Returns alpha such that the force does the work `gained`; 0 if the difference is rounding error. size: sum of the
+   energies at both ends.
+*/
 static PetscReal MeanGetFactor(PetscInt npoints, const MeanPoint points[], PetscReal gained, PetscReal size)
 {
   const PetscReal rounding = 1e3 * PETSC_MACHINE_EPSILON;
@@ -81,7 +89,7 @@ static PetscReal MeanGetFactor(PetscInt npoints, const MeanPoint points[], Petsc
   return PetscAbsReal(gained - work) > rounding * size ? (gained - work) / square : 0;
 }
 
-/* F += factor int F_m (S_m + alpha dE) : dN/dX - the mean of the forces at both ends */
+/* Adds the point's mean force minus the mean of its forces at both ends to F */
 static void MeanAddForce(PetscInt n, const MeanPoint *p, PetscReal alpha, PetscReal F[3][CELL_MAX_NODES])
 {
   PetscReal P[9];
@@ -93,7 +101,10 @@ static void MeanAddForce(PetscInt n, const MeanPoint *p, PetscReal alpha, PetscR
   CellForceAdd((int)n, p->w, (PetscReal(*)[CELL_MAX_NODES])p->G, P, F);
 }
 
-/* Of a cell: mean force less the mean of the forces at its displacements U[0] and U[1] */
+/*
+   Computes, for a cell, the mean force minus the mean of the forces at its displacements U[0] and U[1]. Returns false
+   if a point is inverted.
+*/
 static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
 {
   const CellBasis *basis = cell->body->basis;

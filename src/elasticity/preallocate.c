@@ -1,5 +1,6 @@
-/* Nonzero pattern of the tangent from the nodes' adjacency; DMCreateMatrix() would take as long as several
-   assemblies */
+/*
+   Nonzero pattern of the tangent, from the nodes' adjacency. DMCreateMatrix() would take as long as several assemblies.
+*/
 #include "elasticityimpl.h"
 
 /* Lists the cells around each local node, in compressed rows */
@@ -23,7 +24,7 @@ static PetscErrorCode ElasticityNodeCells(Elasticity e, PetscInt **offsets, Pets
   PetscFunctionReturn(0);
 }
 
-/* Lists the distinct nodes of the cells around each local node, itself included, in compressed rows */
+/* Lists the distinct nodes of the cells around each local node, including the node itself, in compressed rows */
 static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, PetscInt **neighbours)
 {
   PetscInt *first = NULL, *cells = NULL, *start, *list = NULL, *seen, n = 0;
@@ -33,7 +34,7 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
   PetscCall(PetscMalloc1(e->nnodes, &seen));
   PetscCall(PetscMalloc1(e->nnodes + 1, &start));
   for (PetscInt v = 0; v < e->nnodes; ++v) seen[v] = -1;
-  for (PetscInt pass = 0; pass < 2; ++pass) { /* first count, then fill */
+  for (PetscInt pass = 0; pass < 2; ++pass) { /* the first pass counts, the second fills */
     if (pass) PetscCall(PetscMalloc1(n, &list));
     n = 0;
     for (PetscInt v = 0; v < e->nnodes; ++v) {
@@ -60,9 +61,10 @@ static PetscErrorCode ElasticityNodeAdjacency(Elasticity e, PetscInt **offsets, 
 }
 
 /*
-   Counts the neighbours of each owned node: on this rank, on others, and both again among the nodes not below itself.
-   Exact for a node whose cells are all on this rank. For a node shared with other ranks the counts are added up:
-   neighbours on the interface count twice, and MatAssemblyEnd() frees the surplus.
+   Counts the neighbours of each owned node: those on this rank, those on other ranks, and both again for neighbours
+   whose number is not below that of the node. The counts are exact for a node whose cells are all on this rank. For a
+   node shared with other ranks the counts of all ranks are added; neighbours on the interface are then counted several
+   times, and MatAssemblyEnd() frees the surplus.
 */
 static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout, const PetscInt global[],
   const PetscInt start[], const PetscInt neighbours[], PetscInt nowned, PetscInt *owned[4])
@@ -99,7 +101,7 @@ static PetscErrorCode ElasticityCountNeighbours(Elasticity e, PetscLayout layout
   PetscFunctionReturn(0);
 }
 
-/* Inserts explicit zeros at all entries, row by row in ascending columns, so that assembly only adds values */
+/* Inserts explicit zeros at all entries, row by row with ascending columns, so that assembly only adds values */
 static PetscErrorCode ElasticityInsertPattern(Elasticity e, Mat A, const PetscInt global[], const PetscInt start[],
   const PetscInt neighbours[])
 {

@@ -1,8 +1,8 @@
-/* The tangent matrix and its near null space */
+/* Creates the tangent matrix and its near null space */
 #include "elasticityimpl.h"
 #include <mesh.h>
 
-/* 1 in free rows, 0 in prescribed ones */
+/* Computes a vector with 1 in free rows and 0 in prescribed ones */
 static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
 {
   Vec          local;
@@ -18,8 +18,10 @@ static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
   PetscFunctionReturn(0);
 }
 
-/* Zeroes the modes in prescribed rows and makes them orthonormal again; dependent modes are dropped. An AMG with
-   such modes needs fewer iterations the closer Poisson's ratio is to 1/2. */
+/*
+   Sets the rigid modes to zero in prescribed rows and makes them orthonormal again; modes that depend on others are
+   dropped. With such modes an AMG needs fewer iterations, the more so the closer Poisson's ratio is to 1/2.
+*/
 static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, MatNullSpace *restricted)
 {
   const PetscReal dependent = 1e-6;
@@ -38,7 +40,7 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
     PetscCall(VecDuplicate(rows, &kept[n]));
     PetscCall(VecPointwiseMult(kept[n], modes[i], rows));
     PetscCall(VecNorm(kept[n], NORM_2, &before));
-    for (PetscInt pass = 0; pass < 2; ++pass) { /* two passes are enough for orthogonality up to rounding */
+    for (PetscInt pass = 0; pass < 2; ++pass) { /* two passes give orthogonality up to rounding */
       PetscCall(VecMDot(kept[n], n, kept, dots));
       for (PetscInt j = 0; j < n; ++j) dots[j] = -dots[j];
       PetscCall(VecMAXPY(kept[n], n, dots, kept));
@@ -100,8 +102,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   PetscCall(MatSetType(A, e->mattype));
   PetscCall(ElasticityPreallocate(e, A));
   PetscCall(MatSetOption(A, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
-  PetscCall(
-    MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* rows are zeroed when some bodies are assembled again */
+  PetscCall(MatSetOption(A, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE)); /* rows of bodies are set to zero when these are
+                                                               assembled again */
   PetscCall(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
   PetscCall(MatSetOption(A, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   *tangent = A;

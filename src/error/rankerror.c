@@ -1,9 +1,11 @@
-/* Makes errors of one rank known on all */
+/* Reports the error of one rank on all ranks */
 #include <rankerror.h>
 #include <string.h>
 
-/* Error handler: keeps the innermost error, which describes the cause best. If memory is exhausted, PETSc 3.18
-   passes the line and the function as error number and message */
+/*
+   Handles an error: stores the innermost one, which describes the cause best. If memory is exhausted, PETSc 3.18 passes
+   the line and the function as error number and message.
+*/
 static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode n,
   PetscErrorType type, const char *message, void *ctx)
 {
@@ -18,13 +20,14 @@ static PetscErrorCode RankErrorKeep(MPI_Comm comm, int line, const char *functio
   return n;
 }
 
-/* Begins work that is not collective, whose failure on one rank must be reported on all ranks. error: keeps PETSc's
-   errors until RankErrorEnd(); nothing is printed. The ranks that have no such work call RankErrorEnd() at once, with
+/*
+   Begins work that is not collective, and whose failure on one rank must be reported on all ranks. error: stores
+   PETSc's errors until RankErrorEnd(); nothing is printed. Ranks without such work call RankErrorEnd() at once, with
    code 0.
 
-     PetscCall(RankErrorBegin(&error));
+     RankErrorBegin(&error);
      if (rank == 0) ierr = ReadFile(file);
-     PetscCall(RankErrorEnd(comm, ierr, &error));
+     RankErrorEnd(comm, ierr, &error);
      PetscCheck(!error.code, comm, error.code, "%s", error.message);
 */
 PetscErrorCode RankErrorBegin(RankError *error)
@@ -36,9 +39,11 @@ PetscErrorCode RankErrorBegin(RankError *error)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Ends work that is not collective, and tells every rank whether it failed on any. comm: communicator;
-   code: what the work returned on this rank; 0 for success, or where there was none; error: code and message of the
-   first rank that failed, the same on all ranks; code 0 if none did. */
+/*
+   Collective. Ends work that is not collective, and tells every rank whether it failed on some rank. comm:
+   communicator; code: error code of the work on this rank, 0 for success or if there was no work; error: code and
+   message of the first rank that failed, the same on all ranks; its code is 0 if no rank failed.
+*/
 PetscErrorCode RankErrorEnd(MPI_Comm comm, PetscErrorCode code, RankError *error)
 {
   PetscMPIInt rank, size, first;

@@ -1,6 +1,8 @@
-/* Renames a file that was written under another name: at once, or, if it must be on disk first, in a thread of the
-   first rank. Writing to disk may take longer than a small load step. The thread uses neither MPI nor PETSc. */
-#define _POSIX_C_SOURCE 200809L /* fsync(), pthread_sigmask() */
+/*
+   Renames a file that was written under another name. If the file must be on disk first, this is done in a thread of
+   the first rank, since writing to disk may take longer than a small load step. The thread uses neither MPI nor PETSc.
+*/
+#define _POSIX_C_SOURCE 200809L /* declares fsync() and pthread_sigmask() */
 #include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -13,11 +15,14 @@ struct _n_FileCommit {
   MPI_Comm  comm;
   char      part[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN], folder[PETSC_MAX_PATH_LEN];
   pthread_t thread;
-  PetscBool begun; /* whether the thread was started (first rank) */
-  int       error; /* errno of a failure */
+  PetscBool begun; /* whether the thread was started; first rank only */
+  int       error; /* errno of a failure; 0: none */
 };
 
-/* error: the first rank's errno. code: PETSC_ERR_FILE_OPEN before anything was written, else PETSC_ERR_FILE_WRITE */
+/*
+   Raises an error on all ranks if writing a file failed. error: errno on the first rank, 0 for success; code:
+   PETSC_ERR_FILE_OPEN if nothing has been written, otherwise PETSC_ERR_FILE_WRITE.
+*/
 PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, int error)
 {
   PetscFunctionBegin;
@@ -26,7 +31,7 @@ PetscErrorCode FileRaise(MPI_Comm comm, const char file[], PetscErrorCode code, 
   PetscFunctionReturn(0);
 }
 
-/* Waits until a file, or the names in its folder, are on disk */
+/* Waits until a file, or the list of files in a folder, is on disk. Returns errno. */
 static int CommitSync(const char file[])
 {
   const int descriptor = open(file, O_RDONLY);
@@ -48,7 +53,7 @@ static void *CommitSafely(void *ctx)
   return NULL;
 }
 
-/* Starts the thread with signals blocked; without a thread the work is done at once */
+/* Starts the thread, with signals blocked in it. If no thread can be started, its work is done at once. */
 static void CommitBeginThread(FileCommit commit)
 {
   sigset_t all, kept;
@@ -79,7 +84,7 @@ PetscErrorCode FileCommitBegin(MPI_Comm comm, const char part[], const char file
   PetscFunctionReturn(0);
 }
 
-/* Ends a commit; NULL: it has ended already */
+/* Waits for the end of a commit; NULL: it has ended already */
 PetscErrorCode FileCommitEnd(FileCommit *commit)
 {
   FileCommit ended = *commit;

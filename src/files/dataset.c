@@ -1,16 +1,17 @@
 /*
-   Writes one dataset of an HDF5 file, the ranks' records one after another. Its shape is that of VecView() and
-   ISView(), so that VecLoad() and ISLoad() can read it. These flush the whole file to disk after each dataset (a load
-   step has twenty) and write zeros first. Here a file is flushed once, when necessary.
+   Writes one dataset of an HDF5 file, with the records of the ranks one after another. Its shape is that of VecView()
+   and ISView(), so that VecLoad() and ISLoad() can read it. VecView() and ISView() flush the whole file to disk after
+   each dataset, of which a load step has twenty, and write zeros first. Here a file is flushed once, when necessary.
 */
 #include "filesimpl.h"
 
 #define DATASET_HDF5(call) PetscCheck((call) >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "HDF5 failed: %s", #call)
 
-/* Position of the records; contiguous, and not filled beforehand */
+/* Position of the records in a dataset, which is contiguous and not filled with zeros */
 typedef struct {
-  hid_t   type, dataset, here, there; /* data spaces in memory (here) and in the file (there) */
-  hsize_t n, first;                   /* number of records of this rank, and of ranks before it */
+  hid_t   type, dataset, here, there; /* type of a number; the dataset; data spaces in memory (here) and in the file
+                                         (there) */
+  hsize_t n, first;                   /* number of records of this rank; number of records of the ranks before it */
 } DatasetPlace;
 
 static PetscErrorCode DatasetSelect(DatasetPlace *place, int dimensions, const hsize_t shape[2])
@@ -84,7 +85,7 @@ PetscErrorCode DatasetCreate(MPI_Comm comm, const char name[], PetscInt n, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Writes and destroys the field; scalars have no second dimension */
+/* Writes and destroys the field. A field with one component is written without a second dimension. */
 PetscErrorCode DatasetWrite(Vec *field, PetscViewer viewer)
 {
   const PetscScalar *values;

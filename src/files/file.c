@@ -1,5 +1,5 @@
-/* Files that appear complete or not at all */
-#define _POSIX_C_SOURCE 200809L /* lstat(), truncate(), getpid() */
+/* Writes files such that they appear complete or not at all */
+#define _POSIX_C_SOURCE 200809L /* declares lstat(), truncate() and getpid() */
 #include "filesimpl.h"
 #include <errno.h>
 #include <string.h>
@@ -9,11 +9,13 @@
 /* Name under which a file is written, determined on the first rank */
 typedef struct {
   char      name[PETSC_MAX_PATH_LEN];
-  PetscBool renamed; /* renamed to the file's name when complete */
+  PetscBool renamed; /* whether the name is changed to that of the file when the file is complete */
 } FilePart;
 
-/* Gets the name for writing: one that contains the process id, since another process may write the same file. Links
-   and devices are written directly, because a new file must not replace them */
+/*
+   Gets the name under which a file is written. It contains the process id, since another process may write the same
+   file. Links and devices are written directly, because a new file must not replace them.
+*/
 static PetscErrorCode FileGetPart(MPI_Comm comm, const char file[], FilePart *part)
 {
   struct stat status;
@@ -110,7 +112,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
   SilenceOutputEnd(&mute);
   PetscCall(PetscPopErrorHandler());
-  /* if the disk is full, a rank may fail in the middle of a collective write; it must not wait for the others */
+  /* If the disk is full, a rank may fail in the middle of a collective write. It must not wait for the other ranks. */
   if (ierr && part.renamed) (void)remove(part.name);
   PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, message);
   if (commit && part.renamed) PetscCall(FileCommitBegin(comm, part.name, file, commit));
@@ -118,7 +120,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscFunctionReturn(0);
 }
 
-/* Fills the stream; error: errno of a failure */
+/* Fills and closes the stream. *error: errno of a failure, unchanged otherwise. */
 static PetscErrorCode FileFill(FILE *stream, PetscErrorCode (*fill)(FILE *, const void *), const void *ctx, int *error)
 {
   PetscFunctionBegin;

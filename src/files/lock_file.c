@@ -1,12 +1,17 @@
-/* Only one run at a time may write the files of a base name: its first rank locks the mesh file while it runs. It is
-   a record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked. */
-#define _POSIX_C_SOURCE 200809L /* fcntl() */
+/*
+   Ensures that only one run at a time writes the files of a base name: its first rank locks the mesh file while it
+   runs. The lock is a record lock, which HDF5 and readers ignore. On file systems without locks nothing is locked.
+*/
+#define _POSIX_C_SOURCE 200809L /* declares fcntl() */
 #include "filesimpl.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <unistd.h>
 
-/* Locks an existing file; descriptor negative: it does not exist. Returns 1 if another process has locked it */
+/*
+   Locks an existing file. *descriptor is negative if the file does not exist. Returns 1 if another process has locked
+   it.
+*/
 static int LockFileOpen(const char file[], int *descriptor)
 {
   struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -21,7 +26,7 @@ void LockFileEnd(int *descriptor)
   *descriptor = -1;
 }
 
-/* The descriptor is negative on other ranks */
+/* Locks the file. On ranks other than the first the descriptor is negative. */
 PetscErrorCode LockFileBegin(MPI_Comm comm, const char file[], int *descriptor)
 {
   PetscMPIInt rank;

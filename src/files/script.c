@@ -1,5 +1,5 @@
-/* Runs one of the program's own Python scripts. */
-#define _POSIX_C_SOURCE 200809L /* posix_spawn(), readlink() */
+/* Runs one of the program's own Python scripts */
+#define _POSIX_C_SOURCE 200809L /* declares posix_spawn() and readlink() */
 #include "filesimpl.h"
 #include <fcntl.h>
 #include <spawn.h>
@@ -9,8 +9,10 @@
 
 extern char **environ;
 
-/* Finds a script of share/ beside the program: in the sources, or where `make install` put it. Where it is not found
-   the sentence says so */
+/*
+   Finds a script of share/ relative to the program, in the sources or where `make install` has put it. If it is not
+   found, returns false, and `sentence` explains it.
+*/
 PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t room)
 {
   static const char *const places[] = {"/../share/amgf/", "/../share/"};
@@ -29,8 +31,10 @@ PetscBool ScriptFind(const char name[], char script[], size_t length, char sente
   return PETSC_FALSE;
 }
 
-/* Runs the script and returns 0 if it ended well. The last line that it prints on the error stream goes into the
-   sentence, as far as there is room */
+/*
+   Runs the script and returns 0 if it ended without error. `sentence` gets the last line that the script prints on the
+   error stream, as far as there is room.
+*/
 int ScriptRun(const char *const words[], char sentence[], size_t length)
 {
   posix_spawn_file_actions_t actions;

@@ -1,5 +1,5 @@
-/* Suppresses the output of libraries while a file is written: HDF5 prints a page for each error, MPI-IO a line. */
-#define _POSIX_C_SOURCE 200809L /* dup(), dup2() */
+/* Suppresses the output of libraries while a file is written. HDF5 prints a page for each error, and MPI-IO a line. */
+#define _POSIX_C_SOURCE 200809L /* declares dup() and dup2() */
 #include "filesimpl.h"
 #include <fcntl.h>
 #include <unistd.h>

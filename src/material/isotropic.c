@@ -1,4 +1,4 @@
-/* Isotropic materials: Young's modulus and Poisson's ratio */
+/* Constants of isotropic materials: Young's modulus and Poisson's ratio */
 #include "materialimpl.h"
 
 const MaterialConstant MaterialConstantsFinite[] = {MATERIAL_YOUNG, MATERIAL_POISSON, MATERIAL_DENSITY, {NULL}};

@@ -14,16 +14,16 @@
 */
 #include "materialimpl.h"
 
-/* Result of a step; an excess over yield within rounding counts as elastic */
+/* Result of a step. If the trial stress exceeds the yield stress by rounding error only, the step is elastic. */
 typedef struct {
-  PetscReal strain[6], alpha; /* plastic strain; equivalent plastic strain a */
-  PetscReal n[6], increment;  /* flow direction n; increment da, 0: elastic */
-  PetscReal q, slope;         /* trial stress q; dsigma_y/da at the end */
+  PetscReal strain[6], alpha; /* at the end of the step: plastic strain p; equivalent plastic strain a */
+  PetscReal n[6], increment;  /* flow direction n; increment da of a, 0 for an elastic step */
+  PetscReal q, slope;         /* trial stress q [force/length^2]; dsigma_y/da at the end of the step */
 } J2State;
 
 static const PetscReal rounding = 1e-13;
 
-/* Integral from 0 to a of a table's yield stress; its value and slope at a */
+/* Returns the integral of a table's yield stress from 0 to a, and gets its value and its slope at a */
 static PetscReal J2Table(const MaterialHardening *h, PetscReal alpha, PetscReal *stress, PetscReal *slope)
 {
   PetscReal integral = 0;
@@ -39,7 +39,7 @@ static PetscReal J2Table(const MaterialHardening *h, PetscReal alpha, PetscReal 
   return integral + 0.5 * (h->stresses.value[i] + *stress) * (alpha - h->strains.value[i]);
 }
 
-/* sigma_y(a) and its slope; returns its integral from 0 to a */
+/* Returns the integral of the yield stress sigma_y from 0 to a, and gets its value and its slope at a */
 static PetscReal J2YieldStress(const MaterialHardening *h, PetscReal alpha, PetscReal *stress, PetscReal *slope)
 {
   PetscReal integral = h->yield * alpha;
@@ -60,8 +60,10 @@ static PetscReal J2YieldStress(const MaterialHardening *h, PetscReal alpha, Pets
   return integral;
 }
 
-/* Solves q - stiffness da - sigma_y(a_n + da) = 0 by Newton's method within a bracket: the function decreases, but
-   with a table it is neither convex nor concave */
+/*
+   Returns da that solves q - stiffness da - sigma_y(a_n + da) = 0, by Newton's method within a bracket. The function
+   decreases but, with a table, is neither convex nor concave. *slope: dsigma_y/da at the solution.
+*/
 static PetscReal J2Increment(const MaterialHardening *h, PetscReal alpha, PetscReal q, PetscReal stiffness,
   PetscReal *slope)
 {
@@ -100,7 +102,7 @@ static void J2Deviator(const PetscReal H[9], PetscReal e[6])
   e[5] = 0.5 * (H[2] + H[6]);
 }
 
-/* Deviator e of the strain of a displacement gradient, and radial return from the history */
+/* Computes the deviator e of the strain of a displacement gradient, and the radial return from the history */
 static void J2Return(const MaterialModuli *m, const PetscReal H[9], PetscReal e[6], J2State *s)
 {
   const MaterialHardening *h = m->hardening;
@@ -173,7 +175,10 @@ static PetscBool MaterialStress_J2(const MaterialModuli *m, const PetscReal H[9]
   return PETSC_TRUE;
 }
 
-/* A: elastic tangent minus 2 mu (b I_dev + c n (x) n), b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y') - b */
+/*
+   Computes A, the elastic tangent minus 2 mu (b I_dev + c n (x) n), with b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y')
+   - b
+*/
 static PetscBool MaterialTangent_J2(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
@@ -252,9 +257,11 @@ static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char
   return PETSC_TRUE;
 }
 
-/* Checks that hardening constants are valid. hardening: the constants; with a table, yield is its first stress; length:
-   of why; key: of the constant that is wrong, as scenes call it; why: what is wrong with it, a part of a sentence that
-   follows the key. */
+/*
+   Checks that hardening constants are valid. hardening: the constants; with a table, `yield` is its first stress;
+   length: size of `why`; key: name in scenes of the constant that is wrong; why: explanation, the part of a sentence
+   that follows the key. Returns false if a constant is wrong.
+*/
 PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, char why[], size_t length)
 {
   const struct {

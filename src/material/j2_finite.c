@@ -13,9 +13,9 @@
 */
 #include "materialimpl.h"
 
-#define J2_INVERSE 7 /* where in the history Fp^(-1) - I begins */
+#define J2_INVERSE 7 /* index in the history at which Fp^(-1) - I begins */
 
-/* Fp_n^(-1) - I; zero without history */
+/* Returns Fp_n^(-1) - I; zero if there is no history */
 static const PetscReal *J2Inverse(const MaterialModuli *m)
 {
   static const PetscReal zero[9] = {0};
@@ -23,7 +23,7 @@ static const PetscReal *J2Inverse(const MaterialModuli *m)
   return m->history ? m->history + J2_INVERSE : zero;
 }
 
-/* M (I + N) + N, which is (I + M)(I + N) - I; or, transposed, M (I + N)^T */
+/* Computes M (I + N) + N, which is (I + M)(I + N) - I. If `transposed`, computes M (I + N)^T. */
 static void J2Multiply(const PetscReal M[9], const PetscReal N[9], PetscBool transposed, PetscReal product[9])
 {
   for (int i = 0; i < 3; ++i) {
@@ -36,14 +36,16 @@ static void J2Multiply(const PetscReal M[9], const PetscReal N[9], PetscBool tra
   }
 }
 
-/* The elastic trial state of a step: H = Fe* - I; theta = det F - 1 and its derivative C by Fe*; the logarithmic
-   strain E*; and strain = dev E* + p_n */
+/*
+   The elastic trial state of a step: H = Fe* - I; theta = det F - 1 and its derivative C by Fe*; the logarithmic strain
+   E*; strain = dev E* + p_n
+*/
 typedef struct {
   PetscReal   H[9], theta, C[9], strain[9];
   Logarithmic log;
 } J2Trial;
 
-/* False if the material is inverted */
+/* Computes the trial state. Returns false if the material is inverted. */
 static PetscBool J2SetTrial(const MaterialModuli *m, const PetscReal H[9], J2Trial *t)
 {
   static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
@@ -64,7 +66,7 @@ static PetscReal MaterialEnergy_J2Finite(const MaterialModuli *m, const PetscRea
   return J2SetTrial(m, H, &t) ? MaterialLawJ2.energy(m, t.strain) + 0.5 * m->bulk * t.theta * t.theta : PETSC_INFINITY;
 }
 
-/* dW/dFe* */
+/* Computes P = dW/dFe* */
 static void J2TrialStress(const MaterialModuli *m, J2Trial *t, PetscReal P[9])
 {
   PetscReal T[9];
@@ -74,7 +76,7 @@ static void J2TrialStress(const MaterialModuli *m, J2Trial *t, PetscReal P[9])
   for (int i = 0; i < 9; ++i) P[i] += m->bulk * t->theta * t->C[i];
 }
 
-/* P = dW/dFe* Fp_n^(-T) */
+/* Computes P = dW/dFe* Fp_n^(-T) */
 static PetscBool MaterialStress_J2Finite(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
   PetscReal trial[9];
@@ -86,20 +88,24 @@ static PetscBool MaterialStress_J2Finite(const MaterialModuli *m, const PetscRea
   return PETSC_TRUE;
 }
 
-/* d2W/dFe* dFe* */
+/* Computes A = d2W/dFe* dFe* */
 static void J2TrialTangent(const MaterialModuli *m, J2Trial *t, PetscReal A[81])
 {
   PetscReal T[9], D[81];
 
   (void)MaterialLawJ2.stress(m, t->strain, T);
   (void)MaterialLawJ2.tangent(m, t->strain, D);
-  for (int i = 0; i < 9; ++i) D[36 * (i / 3) + 4 * (i % 3)] -= m->bulk; /* of the deviator */
+  /* Subtract the bulk modulus: the energy of j2 is that of the deviator only. */
+  for (int i = 0; i < 9; ++i) D[36 * (i / 3) + 4 * (i % 3)] -= m->bulk;
   LogarithmicTangent(&t->log, t->H, T, D, A);
   for (int i = 0; i < 81; ++i) A[i] += m->bulk * t->C[i / 9] * t->C[i % 9];
   MaterialLawNeoHookean.curvature(m->bulk * t->theta, t->H, A);
 }
 
-/* A_ijkl = A*_iakb Fp_n^(-1)_ja Fp_n^(-1)_lb: rows of A*, then its columns */
+/*
+   Computes A_ijkl = A*_iakb Fp_n^(-1)_ja Fp_n^(-1)_lb from A* of the trial state: first for the rows, then for the
+   columns of A*
+*/
 static PetscBool MaterialTangent_J2Finite(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   const PetscReal *inverse = J2Inverse(m);
@@ -119,7 +125,7 @@ static PetscBool MaterialTangent_J2Finite(const MaterialModuli *m, const PetscRe
   return PETSC_TRUE;
 }
 
-/* dW/dFe* Fe*^T/J, as det Fp_n = 1 */
+/* Computes the Cauchy stress dW/dFe* Fe*^T/J, since det Fp_n = 1 */
 static PetscBool MaterialCauchy_J2Finite(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -136,7 +142,7 @@ static PetscBool MaterialCauchy_J2Finite(const MaterialModuli *m, const PetscRea
   return PETSC_TRUE;
 }
 
-/* exp(-E*) exp(Ee) - I */
+/* Computes exp(-E*) exp(Ee) - I */
 static void J2Change(Logarithmic *s, const PetscReal Ee[9], PetscReal change[9])
 {
   PetscReal c[3], V[3][3], less[9], more[9];
@@ -149,7 +155,7 @@ static void J2Change(Logarithmic *s, const PetscReal Ee[9], PetscReal change[9])
   J2Multiply(less, more, PETSC_FALSE, change);
 }
 
-/* history may be that of the moduli */
+/* Computes the history at the end of the step. `history` may be the history that the moduli refer to. */
 static PetscBool MaterialAdvance_J2Finite(const MaterialModuli *m, const PetscReal H[9],
   PetscReal history[MATERIAL_HISTORY])
 {
@@ -167,7 +173,7 @@ static PetscBool MaterialAdvance_J2Finite(const MaterialModuli *m, const PetscRe
   return PETSC_TRUE;
 }
 
-/* Fe - I */
+/* Replaces H by Fe - I */
 static void MaterialElastic_J2Finite(const PetscReal history[MATERIAL_HISTORY], PetscReal H[9])
 {
   PetscReal elastic[9];

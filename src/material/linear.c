@@ -51,7 +51,7 @@ static PetscBool MaterialTangent_Linear(const MaterialModuli *m, const PetscReal
   return PETSC_TRUE;
 }
 
-/* theta = tr e */
+/* Returns the dilatation theta = tr e, and computes its derivative C */
 static PetscReal MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9])
 {
   for (int i = 0; i < 9; ++i) C[i] = i % 4 ? 0 : 1;

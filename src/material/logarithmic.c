@@ -1,15 +1,14 @@
 /*
-   Logarithmic strain E = 1/2 ln C, C = F^T F, and the stress and tangent of an energy that is a function of E. In
-   eigenvectors of C, whose eigenvalues are 1 + c_a, with f(c) = 1/2 ln(1 + c) and its divided differences (Miehe,
-   Comparison of two algorithms for the computation of fourth-order isotropic tensor functions, 1998):
-
-     dE_ab = f[a,b] dC_ab,   d2E_ab(X, Y) = sum_k f[a,k,b] (X_ak Y_kb + Y_ak X_kb)
-
-   Divided differences are continuous where eigenvalues coalesce, so that no case is special.
+   Logarithmic strain E = 1/2 ln C with C = F^T F, and the stress and the tangent of an energy that is a function of E.
+   In the basis of eigenvectors of C, whose eigenvalues are 1 + c_a, with f(c) = 1/2 ln(1 + c) and its divided
+   differences (Miehe, Comparison of two algorithms for the computation of fourth-order isotropic tensor functions,
+   1998):
+     dE_ab = f[a,b] dC_ab,   d2E_ab(X, Y) = sum_k f[a,k,b] (X_ak Y_kb + Y_ak X_kb).
+   Divided differences are continuous where eigenvalues coincide, so that this needs no special case.
 */
 #include "materialimpl.h"
 
-/* One rotation of Jacobi, which makes the entry (p, q) of A zero; V: columns that become eigenvectors */
+/* Makes the entry (p, q) of A zero by a Jacobi rotation. The columns of V become the eigenvectors. */
 static void LogarithmicRotate(PetscReal A[3][3], PetscReal V[3][3], int p, int q)
 {
   const int       r    = 3 - p - q;
@@ -68,14 +67,14 @@ PetscBool LogarithmicStrain(const PetscReal H[9], Logarithmic *s)
   }
   LogarithmicEigen(M, s->c, s->V);
   for (int a = 0; a < 3; ++a) {
-    if (!(s->c[a] > -1)) return PETSC_FALSE; /* by rounding */
+    if (!(s->c[a] > -1)) return PETSC_FALSE; /* this may happen by rounding if F is almost singular */
     logs[a] = 0.5 * log1p(s->c[a]);
   }
   LogarithmicCompose(logs, s->V, s->E);
   return PETSC_TRUE;
 }
 
-/* f[a,b] */
+/* Returns the divided difference f[a,b] */
 static PetscReal LogarithmicFirst(PetscReal a, PetscReal b)
 {
   const PetscReal t = (b - a) / (1 + a);
@@ -83,7 +82,7 @@ static PetscReal LogarithmicFirst(PetscReal a, PetscReal b)
   return 0.5 * (t == 0 ? 1 : log1p(t) / t) / (1 + a);
 }
 
-/* f[a,b,c], by Taylor's series about the mean where all three are close */
+/* Returns the divided difference f[a,b,c], by a Taylor series about the mean if all three are close to one another */
 static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
 {
   const PetscReal low = PetscMin(a, PetscMin(b, c)), high = PetscMax(a, PetscMax(b, c)), mean = (a + b + c) / 3;
@@ -94,7 +93,7 @@ static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
     return (LogarithmicFirst(middle, high) - LogarithmicFirst(low, middle)) / (high - low);
   pairs   = (a - mean) * (b - mean) + (b - mean) * (c - mean) + (c - mean) * (a - mean);
   product = (a - mean) * (b - mean) * (c - mean);
-  for (int k = 2; k < 18; ++k) { /* h[0]: the sum of all products of k - 2 distances from the mean */
+  for (int k = 2; k < 18; ++k) { /* h[0]: sum of all products of k - 2 distances from the mean */
     const PetscReal next = product * h[2] - pairs * h[1];
 
     sum += power / k * h[0];
@@ -106,7 +105,7 @@ static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
   return sum;
 }
 
-/* Index 0, 1, 2 or 3 of R by the rows of M: R_..j.. = sum_a M_aj R_..a.. */
+/* Transforms index 0, 1, 2 or 3 of R by the rows of M: R_..j.. = sum_a M_aj R_..a.. */
 static void TensorTransform(PetscReal R[81], int index, PetscReal (*M)[3])
 {
   static const int strides[4] = {27, 9, 3, 1};
@@ -120,7 +119,10 @@ static void TensorTransform(PetscReal R[81], int index, PetscReal (*M)[3])
   }
 }
 
-/* T in eigenvectors of C, and from it half the second Piola-Kirchhoff stress S there */
+/*
+   Computes T in the basis of eigenvectors of C (turned), and from it half of the second Piola-Kirchhoff stress S in
+   that basis
+*/
 static void LogarithmicTurnStress(Logarithmic *s, const PetscReal T[9], PetscReal turned[3][3], PetscReal half[3][3])
 {
   for (int a = 0; a < 3; ++a) {
@@ -132,7 +134,7 @@ static void LogarithmicTurnStress(Logarithmic *s, const PetscReal T[9], PetscRea
   }
 }
 
-/* S = dW/dE : 2 dE/dC */
+/* Computes S = dW/dE : 2 dE/dC in global axes, from half of S in eigenvectors */
 static void LogarithmicSecondStress(Logarithmic *s, PetscReal half[3][3], PetscReal S[3][3])
 {
   for (int i = 0; i < 3; ++i) {
@@ -155,7 +157,7 @@ void LogarithmicStress(Logarithmic *s, const PetscReal H[9], const PetscReal T[9
   }
 }
 
-/* D becomes d2W/dC dC in eigenvectors of C */
+/* Replaces D = d2W/dE dE by d2W/dC dC in the basis of eigenvectors of C */
 static void LogarithmicCurvature(Logarithmic *s, PetscReal turned[3][3], PetscReal D[81])
 {
   for (int index = 0; index < 4; ++index) TensorTransform(D, index, s->V);
@@ -192,7 +194,7 @@ void LogarithmicTangent(Logarithmic *s, const PetscReal H[9], const PetscReal T[
     }
   }
   for (int index = 0; index < 4; ++index) TensorTransform(D, index, index % 2 ? along : back);
-  for (int p = 0; p < 9; ++p) { /* p = i j, q = k l of A; j i, l k of D */
+  for (int p = 0; p < 9; ++p) { /* p = i j and q = k l are indices of A; D has the indices j i and l k */
     for (int q = 0; q < 9; ++q)
       A[9 * p + q] = 4 * D[9 * (3 * (p % 3) + p / 3) + 3 * (q % 3) + q / 3] + (p / 3 == q / 3 ? S[p % 3][q % 3] : 0);
   }

@@ -7,8 +7,10 @@ const char *const MaterialTypes[] = {MATERIAL_LAWS(MATERIAL_NAME) "MaterialType"
 #define MATERIAL_ENTRY(name, law, text) &MaterialLaw##law,
 static const MaterialLaw *const laws[] = {MATERIAL_LAWS(MATERIAL_ENTRY)};
 
-/* Gets the moduli of a material's law. moduli: the moduli [force/length^2]; isochoric: moduli of the law without its
-   volumetric energy kappa/2 theta^2; NULL if not wanted [force/length^2]. */
+/*
+   Gets the moduli of a material's law. moduli: the moduli [force/length^2]; isochoric: moduli of the law without its
+   volumetric energy kappa/2 theta^2 [force/length^2], or NULL.
+*/
 PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *moduli, MaterialModuli *isochoric)
 {
   const MaterialLaw *law;
@@ -26,8 +28,10 @@ PetscErrorCode MaterialGetModuli(const Material *material, MaterialModuli *modul
   PetscFunctionReturn(0);
 }
 
-/* Sets an equivalent Young's modulus of a material whose law has other constants, as a measure of its stiffness.
-   material: the material; unchanged if its law has a Young's modulus. */
+/*
+   Sets an equivalent Young's modulus of a material whose law has other constants, as a measure of its stiffness.
+   material: the material; unchanged if its law has a Young's modulus.
+*/
 PetscErrorCode MaterialSetScale(Material *material)
 {
   const MaterialLaw *law;
@@ -38,8 +42,10 @@ PetscErrorCode MaterialSetScale(Material *material)
   PetscFunctionReturn(0);
 }
 
-/* Gets the linear thermal expansion of a material along the axes of space. A: the tensor of expansion, symmetric:
-   strain over temperature [1/temperature]. */
+/*
+   Gets the linear thermal expansion of a material in global axes. A: symmetric tensor of expansion, strain per
+   temperature [1/temperature].
+*/
 PetscErrorCode MaterialGetExpansion(const Material *material, PetscReal A[9])
 {
   PetscReal R[3][3];
@@ -66,8 +72,10 @@ PetscBool MaterialYields(const Material *material)
   return (PetscBool)(laws[material->type]->advance != NULL);
 }
 
-/* Gets the functions that evaluate a material's energy density, stress and tangent at a point. law: the law, owned by
-   the library. */
+/*
+   Gets the functions that evaluate a material's energy density, stress and tangent at a point. law: the law, owned by
+   the library.
+*/
 PetscErrorCode MaterialGetLaw(const Material *material, const MaterialLaw **law)
 {
   PetscFunctionBegin;

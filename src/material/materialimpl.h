@@ -1,6 +1,4 @@
-/*
-   Private header of material: one law per file; material.c has their table.
-*/
+/* Private header of material: one law per file; material.c has their table */
 #ifndef MATERIALIMPL_H
 #define MATERIALIMPL_H
 
@@ -11,7 +9,10 @@
 MATERIAL_LAWS(MATERIAL_LAW)
 #undef MATERIAL_LAW
 
-/* isotropic.c: constants Young's modulus, Poisson's ratio and thermal expansion; moduli from these */
+/*
+   isotropic.c: the constants Young's modulus, Poisson's ratio, thermal expansion and density, and the moduli that
+   follow from them
+*/
 #define MATERIAL_YOUNG \
   { \
     "young", 1, offsetof(Material, young), PETSC_TRUE, "Young's modulus", "E", 0, PETSC_INFINITY \
@@ -27,7 +28,7 @@ MATERIAL_LAWS(MATERIAL_LAW)
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
 
-/* Constants of a MaterialHardening */
+/* The constants of a MaterialHardening */
 #define MATERIAL_HARDENING_NUMBER(name, member) \
   { \
     name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, NULL, 0, 0 \
@@ -41,22 +42,28 @@ PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, Ma
     "yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0 \
   }
 
-/* logarithmic.c: E = 1/2 ln C of the displacement gradient H */
+/* logarithmic.c: the logarithmic strain E = 1/2 ln C for the displacement gradient H */
 typedef struct {
-  PetscReal c[3], V[3][3]; /* eigenvalues of C - I; columns: their eigenvectors */
+  PetscReal c[3], V[3][3]; /* eigenvalues of C - I; their eigenvectors, in columns */
   PetscReal E[9];
 } Logarithmic;
-/* Eigenvalues c and, in columns, eigenvectors V of a symmetric matrix; the matrix that has them */
+/*
+   LogarithmicEigen() computes the eigenvalues c and, in columns, the eigenvectors V of a symmetric matrix.
+   LogarithmicCompose() computes the matrix with these eigenvalues and eigenvectors.
+*/
 PETSC_INTERN void LogarithmicEigen(const PetscReal M[9], PetscReal c[3], PetscReal V[3][3]);
 PETSC_INTERN void LogarithmicCompose(const PetscReal c[3], PetscReal V[3][3], PetscReal M[9]);
-/* False if F is singular */
+/* Computes the logarithmic strain. Returns false if F is singular. */
 PETSC_INTERN PetscBool LogarithmicStrain(const PetscReal H[9], Logarithmic *);
-/* P = dW/dF of an energy with T = dW/dE; and A = dP/dF with also D = d2W/dE dE, which it overwrites */
+/*
+   LogarithmicStress() computes P = dW/dF of an energy with T = dW/dE. LogarithmicTangent() computes A = dP/dF from T
+   and from D = d2W/dE dE, which it overwrites.
+*/
 PETSC_INTERN void LogarithmicStress(Logarithmic *, const PetscReal H[9], const PetscReal T[9], PetscReal P[9]);
 PETSC_INTERN void LogarithmicTangent(Logarithmic *, const PetscReal H[9], const PetscReal T[9], PetscReal D[81],
   PetscReal A[81]);
 
-/* orthotropic.c: rows of R are the material's axes; false if they are not independent */
+/* orthotropic.c: computes the material's axes, the rows of R; returns false if the given axes are parallel */
 PETSC_INTERN PetscBool OrthotropicAxes(const Material *, PetscReal R[3][3]);
 
 #endif

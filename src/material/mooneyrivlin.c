@@ -1,25 +1,24 @@
 /*
    Compressible Mooney-Rivlin: W = c10 (J^(-2/3) I1 - 3) + c01 (J^(-4/3) I2 - 3) + kappa/2 (J - 1)^2, I1 = |F|^2, I2 =
    |cof F|^2.
-
-   As det cof F = J^2, the second term is the first one's function at G = cof F in place of F: neo-Hookean without
-   volume, whose functions take G - I. Derivatives follow by the chain rule with the tensor cross product (A x B)_ij =
-   e_ikm e_jln A_kl B_mn: dG = F x dF, so that P = Q x F and dP = (dQ/dG : (F x dF)) x F + Q x dF with Q = dW/dG.
-
+   Since det cof F = J^2, the second term is the function of the first term evaluated at G = cof F instead of F. It is
+   the neo-Hookean law without its volumetric energy, whose functions take G - I. Derivatives follow by the chain rule
+   with the tensor cross product (A x B)_ij = e_ikm e_jln A_kl B_mn: dG = F x dF, so that P = Q x F and dP = (dQ/dG : (F
+   x dF)) x F + Q x dF with Q = dW/dG.
    References: Mooney, A theory of large elastic deformation, 1940. Rivlin, Large elastic deformations of isotropic
    materials IV, 1948. Bonet, Gil and Ortigosa, On a tensor cross product based formulation of large strain solid
    mechanics, 2016.
 */
 #include "materialimpl.h"
 
-/* Moduli of the two neo-Hookean laws, of F and of cof F */
+/* Gets the moduli of the two neo-Hookean laws, that of F and that of cof F */
 static void MooneyRivlinSplit(const MaterialModuli *m, MaterialModuli *first, MaterialModuli *second)
 {
   *first  = (MaterialModuli){.mu = m->mu * (1 - m->share), .bulk = m->bulk};
   *second = (MaterialModuli){.mu = m->mu * m->share};
 }
 
-/* A x B; with B = I + H: of A and H, and tr A I - A^T */
+/* Computes the tensor cross product C = A x B */
 static void MooneyRivlinCross(const PetscReal A[9], const PetscReal B[9], PetscReal C[9])
 {
   for (int i = 0; i < 3; ++i) {
@@ -34,7 +33,7 @@ static void MooneyRivlinCross(const PetscReal A[9], const PetscReal B[9], PetscR
   }
 }
 
-/* cof F - I = tr H I - H^T + H x H/2 */
+/* Computes D = cof F - I = tr H I - H^T + H x H/2 */
 static void MooneyRivlinCofactor(const PetscReal H[9], PetscReal D[9])
 {
   const PetscReal trace = H[0] + H[4] + H[8];
@@ -57,7 +56,7 @@ static PetscReal MaterialEnergy_MooneyRivlin(const MaterialModuli *m, const Pets
   return energy + MaterialLawNeoHookean.energy(&second, D);
 }
 
-/* F = I + H, Q = dW/dG */
+/* Computes F = I + H, D = cof F - I and Q = dW/dG */
 static PetscBool MooneyRivlinDual(const MaterialModuli *second, const PetscReal H[9], PetscReal F[9], PetscReal D[9],
   PetscReal Q[9])
 {
@@ -78,7 +77,7 @@ static PetscBool MaterialStress_MooneyRivlin(const MaterialModuli *m, const Pets
   return PETSC_TRUE;
 }
 
-/* Column by column, of dF = e_k (x) e_l */
+/* Computes the tangent column by column, for dF = e_k (x) e_l */
 static PetscBool MaterialTangent_MooneyRivlin(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   MaterialModuli first, second;
@@ -102,7 +101,7 @@ static PetscBool MaterialTangent_MooneyRivlin(const MaterialModuli *m, const Pet
   return PETSC_TRUE;
 }
 
-/* sigma = P F^T / J */
+/* Computes sigma = P F^T / J */
 static PetscBool MaterialCauchy_MooneyRivlin(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};

@@ -1,19 +1,21 @@
 /*
-   Compressible neo-Hookean: W = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2, I1 = tr(F^T F), kappa = lambda + 2 mu/3. It
+   Compressible neo-Hookean: W = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2, I1 = tr(F^T F), kappa = lambda + 2 mu/3. W
    is computed from quantities that vanish without deformation (H, theta = J - 1, I1 - 3), so that small strains are
    accurate.
 */
 #include "materialimpl.h"
 
 typedef struct {
-  PetscReal D[9];  /* cof F - I, cof F = J F^(-T) */
+  PetscReal D[9];  /* cof F - I, with cof F = J F^(-T) */
   PetscReal theta; /* J - 1 */
   PetscReal i1;    /* I1 - 3 */
-  PetscReal power; /* J^(-2/3); set where J > 0 */
-  PetscReal less;  /* J^(-2/3) - 1; set where J > 0 */
+  PetscReal power; /* J^(-2/3); set only if J > 0 */
+  PetscReal less;  /* J^(-2/3) - 1; set only if J > 0 */
 } Kinematics;
 
-/* cof F = I + (tr H) I - H^T + cof H, J = 1 + tr H + tr cof H + det H; returns whether J > 0 (or not a number) */
+/*
+   Computes cof F = I + (tr H) I - H^T + cof H and J = 1 + tr H + tr cof H + det H. Returns true if J > 0 or J is NaN.
+*/
 static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k)
 {
   const PetscReal trace = H[0] + H[4] + H[8];
@@ -36,14 +38,14 @@ static inline PetscBool NeoHookeanKinematics(const PetscReal H[9], Kinematics *k
   if (k->theta <= -1) return PETSC_FALSE;
   c        = PetscCbrtReal(1 + k->theta);
   k->power = 1 / (c * c);
-  k->less  = -k->theta * (c + 1) / (c * c + c + 1) * k->power; /* 1 - c^2 = -(c^3 - 1) (c + 1)/(c^2 + c + 1) */
+  k->less  = -k->theta * (c + 1) / (c * c + c + 1) * k->power; /* uses 1 - c^2 = -(c^3 - 1) (c + 1)/(c^2 + c + 1) */
   return PETSC_TRUE;
 }
 
 /*
-   J^(-2/3) I1 - 3, which is of second order in the strain. With C = I1/3 (I + D), tr D = 0: det(I + D) = 1 + q, q = det
-   D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Near q = -1 this loses accuracy, and the first form, which does
-   not cancel there, is used.
+   Returns J^(-2/3) I1 - 3, which is of second order in the strain. Let C = I1/3 (I + D) with tr D = 0. Then det(I + D)
+   = 1 + q with q = det D - D:D/2, so that J^(-2/3) I1 = 3 (1 + q)^(-1/3). Near q = -1 this loses accuracy; the first
+   form, which does not cancel there, is then used.
 */
 static PetscReal NeoHookeanIsochoric(const PetscReal H[9], const Kinematics *k)
 {
@@ -70,8 +72,10 @@ static PetscReal MaterialEnergy_NeoHookean(const MaterialModuli *m, const PetscR
   return 0.5 * m->mu * NeoHookeanIsochoric(H, &k) + 0.5 * m->bulk * k.theta * k.theta;
 }
 
-/* P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D - (I1 -
-   3)/3 cof F */
+/*
+   Computes P = mu J^(-2/3) (F - I1/3 F^(-T)) + kappa (J - 1) cof F, where J (F - I1/3 F^(-T)) = J H + (J - 1) I - D -
+   (I1 - 3)/3 cof F
+*/
 static inline void NeoHookeanStress(const MaterialModuli *m, const PetscReal H[9], const Kinematics *k, PetscReal P[9])
 {
   const PetscReal J = 1 + k->theta, shear = m->mu * k->power, g = m->bulk * k->theta - shear * k->i1 / (3 * J);
@@ -92,7 +96,7 @@ static PetscBool MaterialStress_NeoHookean(const MaterialModuli *m, const PetscR
   return PETSC_TRUE;
 }
 
-/* With G = F^(-T), from dJ = J G:dF, dI1 = 2 F:dF and dG_iJ = -G_iL G_kJ dF_kL */
+/* Computes the tangent, with G = F^(-T), from dJ = J G:dF, dI1 = 2 F:dF and dG_iJ = -G_iL G_kJ dF_kL */
 static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   Kinematics k;
@@ -119,7 +123,7 @@ static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const Petsc
   return PETSC_TRUE;
 }
 
-/* sigma = P F^T / J */
+/* Computes sigma = P F^T / J */
 static PetscBool MaterialCauchy_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -136,7 +140,7 @@ static PetscBool MaterialCauchy_NeoHookean(const MaterialModuli *m, const PetscR
   return PETSC_TRUE;
 }
 
-/* theta = J - 1 */
+/* Returns the dilatation theta = J - 1, and computes its derivative C */
 static PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9])
 {
   Kinematics k;
@@ -146,7 +150,10 @@ static PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C
   return k.theta;
 }
 
-/* d2J/dF_ij dF_kl = e_ikm e_jln F_mn: zero unless i, k, m and j, l, n are permutations */
+/*
+   Adds pressure x d2J/dF_ij dF_kl to A, where d2J/dF_ij dF_kl = e_ikm e_jln F_mn is zero unless i, k, m and j, l, n are
+   permutations
+*/
 static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
 {
   for (int i = 0; i < 3; ++i) {

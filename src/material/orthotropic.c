@@ -1,7 +1,7 @@
 /*
-   Orthotropic linear elasticity: W = e:C:e/2, with three planes of symmetry whose normals are the material's axes. The
-   moduli contain C for strains xx yy zz 2xy 2yz 2zx in global axes. The volumetric part kappa/2 (tr e)^2 is the largest
-   for which the rest of the energy is not negative: kappa = 1/(1:S:1) with S = C^(-1), Reuss's bulk modulus.
+   Orthotropic linear elasticity: W = e:C:e/2 with three planes of symmetry, whose normals are the material's axes. The
+   moduli contain C for the strains xx yy zz 2xy 2yz 2zx in global axes. The volumetric part kappa/2 (tr e)^2 is the
+   largest for which the rest of the energy is not negative: kappa = 1/(1:S:1) with S = C^(-1), Reuss's bulk modulus.
 */
 #include "materialimpl.h"
 
@@ -61,7 +61,7 @@ static void MaterialCurvature_Orthotropic(PetscReal pressure, const PetscReal H[
   (void)pressure, (void)H, (void)A;
 }
 
-/* Rows of R are the material's axes; false if they are not independent */
+/* Computes the material's axes, the rows of R. Returns false if the given axes are parallel. */
 PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
 {
   static const PetscReal space[2][3] = {{1, 0, 0}, {0, 1, 0}};
@@ -86,8 +86,10 @@ PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
   return PETSC_TRUE;
 }
 
-/* C: inverse of the compliance of normal strains along the material's axes; sum: of all its entries. False if it is
-   not positive definite */
+/*
+   Computes C, the inverse of the compliance of normal strains along the material's axes, and `sum`, the sum of all
+   entries of that compliance. Returns false if C is not positive definite.
+*/
 static PetscBool OrthotropicInvert(const Material *material, PetscReal C[3][3], PetscReal *sum)
 {
   const PetscReal *E = material->youngs, *nu = material->poissons;
@@ -109,8 +111,10 @@ static PetscBool OrthotropicInvert(const Material *material, PetscReal C[3][3], 
   return (PetscBool)(E[0] > 0 && E[1] > 0 && E[2] > 0 && S[0][0] * S[1][1] > S[0][1] * S[0][1] && det > 0);
 }
 
-/* Entry T_sp of the rotation of stresses: sigma_s (global) = sum_p T_sp sigma_p (material axes), sigma_ij = R_ai
-   R_bj sigma_ab; strains rotate by the transpose */
+/*
+   Returns the entry T_sp of the rotation of stresses: sigma_s (global axes) = sum_p T_sp sigma_p (material axes), from
+   sigma_ij = R_ai R_bj sigma_ab. Strains are rotated by the transpose.
+*/
 static PetscReal OrthotropicTurn(PetscReal R[3][3], int s, int p)
 {
   const int i = pair[s][0], j = pair[s][1], a = pair[p][0], b = pair[p][1];
@@ -118,8 +122,10 @@ static PetscReal OrthotropicTurn(PetscReal R[3][3], int s, int p)
   return a == b ? R[a][i] * R[a][j] : R[a][i] * R[b][j] + R[b][i] * R[a][j];
 }
 
-/* C in global axes from C in material axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd; kappa = 1/(1:S:1). False if there
-   is no such material */
+/*
+   Computes C in global axes, C_ijkl = R_ai R_bj R_ck R_dl C_abcd, and kappa = 1/(1:S:1). Returns false if the constants
+   do not define a material.
+*/
 static PetscBool OrthotropicModuli(const Material *material, MaterialModuli *m)
 {
   PetscReal R[3][3], N[3][3], local[6][6] = {{0}}, sum;

@@ -1,6 +1,6 @@
 /*
-   Rigid bodies: all displacements are prescribed; energy and stress are zero. The tangent provides the matrix rows, of
-   which only the diagonal is kept; its size comes from the assigned Young's modulus.
+   Rigid bodies: all displacements are prescribed; energy and stress are zero. The tangent only provides rows of the
+   matrix, of which the diagonal remains; its size is that of the assigned Young's modulus.
 */
 #include "materialimpl.h"
 

@@ -1,10 +1,10 @@
 /*
-   Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2. For large rotations at moderate
-   strain. It softens in compression and is unstable below a stretch of about 0.58.
+   Saint Venant-Kirchhoff: W = lambda/2 (tr E)^2 + mu E:E, E = (H + H^T + H^T H)/2, for large rotations with moderate
+   strain. The law softens in compression and is unstable below a stretch of about 0.58.
 */
 #include "materialimpl.h"
 
-/* Computes E; returns det F, which need not be accurate for small strains */
+/* Computes the strain E. Returns det F, which is not accurate for small strains. */
 static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
 {
   PetscReal F[9];
@@ -18,7 +18,7 @@ static PetscReal SaintVenantStrain(const PetscReal H[9], PetscReal E[9])
   return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* S = lambda tr E I + 2 mu E. Returns true if det F > 0, or if it is not a number */
+/* Computes S = lambda tr E I + 2 mu E and J = det F. Returns true if J > 0 or J is NaN. */
 static PetscBool SaintVenantStress(const MaterialModuli *m, const PetscReal H[9], PetscReal S[9], PetscReal *J)
 {
   PetscReal E[9];
@@ -39,7 +39,7 @@ static PetscReal MaterialEnergy_SaintVenant(const MaterialModuli *m, const Petsc
   return 0.5 * m->lambda * trace * trace + m->mu * square;
 }
 
-/* P = F S */
+/* Computes P = F S */
 static PetscBool MaterialStress_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
 {
   PetscReal S[9], J;
@@ -52,7 +52,7 @@ static PetscBool MaterialStress_SaintVenant(const MaterialModuli *m, const Petsc
   return PETSC_TRUE;
 }
 
-/* dP_ij = dF_il S_lj + F_il dS_lj, dE = (F^T dF + dF^T F)/2 */
+/* Computes the tangent from dP_ij = dF_il S_lj + F_il dS_lj with dE = (F^T dF + dF^T F)/2 */
 static PetscBool MaterialTangent_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   PetscReal S[9], F[9], B[9], J;
@@ -76,7 +76,7 @@ static PetscBool MaterialTangent_SaintVenant(const MaterialModuli *m, const Pets
   return PETSC_TRUE;
 }
 
-/* sigma = F S F^T / J */
+/* Computes sigma = F S F^T / J */
 static PetscBool MaterialCauchy_SaintVenant(const MaterialModuli *m, const PetscReal H[9], PetscReal sigma[6])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -92,7 +92,7 @@ static PetscBool MaterialCauchy_SaintVenant(const MaterialModuli *m, const Petsc
   return PETSC_TRUE;
 }
 
-/* theta = tr E */
+/* Returns theta = tr E, and computes its derivative C */
 static PetscReal MaterialDilatation_SaintVenant(const PetscReal H[9], PetscReal C[9])
 {
   PetscReal E[9];

@@ -1,26 +1,27 @@
 /*
-   Mean dilatation: E = int W_iso(H) + kappa/2 int Theta^2, where Theta is the projection of the dilatation theta(H)
-   to polynomials of a cell: the constant one in cells of order 1, its mean; linear ones of the place in those of
-   order 2. Theta = sum_k Theta_k p_k with p_k orthogonal over the cell, Theta_k = int p_k theta / int p_k^2, and g_k
-   = int p_k dtheta/du. For small strain that is B-bar; for laws with theta = J - 1 it is F-bar: W at F (1 +
-   Theta)^(1/3)/J^(1/3). Force and stiffness are the derivatives of E, so the stiffness is symmetric.
-
+   Element with mean dilatation: E = int W_iso(H) + kappa/2 int Theta^2. Theta is the projection of the dilatation
+   theta(H) onto polynomials on the cell. In cells of order 1 the polynomials are constants, and Theta is the mean of
+   theta. In cells of order 2 they are linear functions of the position.
+   Theta = sum_k Theta_k p_k with polynomials p_k that are orthogonal on the cell, Theta_k = int p_k theta / int p_k^2,
+   and g_k = int p_k dtheta/du. For small strain this is B-bar. For laws with theta = J - 1 it is F-bar: W is evaluated
+   at F (1 + Theta)^(1/3)/J^(1/3). Force and stiffness are derivatives of E, so that the stiffness is symmetric.
    References: Nagtegaal, Parks and Rice, On numerically accurate finite element solutions in the fully plastic range,
    1974. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980. Simo,
    Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation
-   elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002:
-   polynomials of the place, not of the cell's parameters.
+   elasto-plasticity, 1985. Boffi and Gastaldi, On the quadrilateral Q2-P1 element for the Stokes problem, 2002
+   (polynomials of the position instead of the cell's parameters).
 */
 #include "elementsimpl.h"
 
-#define POLYNOMIALS 4 /* at most */
+#define POLYNOMIALS 4 /* largest number of polynomials */
 
 typedef struct {
   int       npolynomials;
   PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], H[CELL_MAX_POINTS][9];
-  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* orthogonal over the cell; the first is 1 */
+  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* values of the polynomials at the points; they are orthogonal on the
+                                                cell, and the first is 1 */
   PetscReal g[POLYNOMIALS][3][CELL_MAX_NODES];
-  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta = sum_k mean_k p_k */
+  PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta_k */
 } Dilatation;
 
 static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
@@ -32,7 +33,7 @@ static inline void DilatationSetPoints(const int n, const CellBasis *basis, Pets
   }
 }
 
-/* Orthogonalizes 1, x, y and z over the cell */
+/* Makes the polynomials 1 and, in cells of order 2, x, y and z orthogonal on the cell */
 static void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
 {
   d->npolynomials = basis->nnodes == 27 ? POLYNOMIALS : 1;
@@ -80,7 +81,7 @@ static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, Pet
   CELL_CALL(DilatationProject, basis, m, d);
 }
 
-/* Theta at a quadrature point */
+/* Returns Theta at a quadrature point */
 static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
 {
   PetscReal theta = 0;
@@ -126,7 +127,10 @@ static inline PetscBool BbarForce(const int n, const CellBasis *basis, const Bod
   return PETSC_TRUE;
 }
 
-/* F = int dW_iso/du + kappa sum_k Theta_k g_k */
+/*
+   Computes the force F = int dW_iso/du + kappa sum_k Theta_k int p_k^2 d Theta_k/du = int dW_iso/du + kappa sum_k
+   Theta_k g_k
+*/
 static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
@@ -136,7 +140,10 @@ static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m
   return CELL_CALL(BbarForce, basis, m, &d, F);
 }
 
-/* The isochoric part, and kappa Theta times the dilatation's second derivative */
+/*
+   Computes the contributions of the points to the stiffness: the isochoric one, and kappa Theta times the second
+   derivative of the dilatation
+*/
 static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
   PetscScalar K[])
 {
@@ -154,7 +161,7 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
   return PETSC_TRUE;
 }
 
-/* K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
+/* Computes the stiffness K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
 static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
@@ -180,7 +187,10 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
   return PETSC_TRUE;
 }
 
-/* sigma = sigma_iso + kappa Theta I, as theta's derivative cof F gives the Cauchy stress cof F F^T / J = I */
+/*
+   Computes the mean Cauchy stress sigma = sigma_iso + kappa Theta I. The second term follows from theta's derivative
+   cof F, which corresponds to the Cauchy stress cof F F^T / J = I.
+*/
 static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
@@ -197,7 +207,7 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
   return PETSC_TRUE;
 }
 
-/* As for full integration, but with the projected dilatation */
+/* Computes volume, displacement gradient and dilatation at each point; the dilatation is the projected one */
 static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {

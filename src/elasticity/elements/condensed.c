@@ -1,10 +1,9 @@
 /*
-   Incompatible modes of a law with a history: E = min over a of int W(H + sum_m a_m M_m), W convex. Newton's method in
-   the cell finds a, whose force int P:M then vanishes; so E's derivative is that of the energy at fixed a, and
-
+   Incompatible modes of a law with a history: E = min over a of int W(H + sum_m a_m M_m), with convex W. Newton's
+   method in the cell finds a, for which the forces int P:M_m on the modes vanish. The derivative of E is therefore that
+   of the energy at fixed a, and
      K = K_uu - K_ua K_aa^(-1) K_au.
-
-   A cell that stays elastic takes one step.
+   A cell that remains elastic needs one Newton step.
 */
 #include "elementsimpl.h"
 
@@ -13,9 +12,10 @@
 typedef struct {
   PetscInt  npoints;
   PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], M[CELL_MAX_POINTS][MODES][9];
-  PetscReal h[CELL_MAX_POINTS][9], H[CELL_MAX_POINTS][9]; /* without and with the modes */
+  PetscReal h[CELL_MAX_POINTS][9], H[CELL_MAX_POINTS][9]; /* displacement gradients without and with the modes */
   PetscReal a[MODES];
-  PetscReal energy, force[MODES], L[MODES][MODES]; /* at H: int P:M, Cholesky's factor of K_aa */
+  PetscReal energy, force[MODES], L[MODES][MODES]; /* at H: energy; forces int P:M on the modes; Cholesky factor of
+                                                      K_aa */
 } Condensed;
 
 static void CondensedSetPoints(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES],
@@ -51,8 +51,10 @@ static PetscReal CondensedSum(const BodyMaterial *m, const Condensed *c)
   return sum;
 }
 
-/* Energy, force on the modes and factor of their stiffness, to which a little of its diagonal is added: with no
-   hardening it may be singular */
+/*
+   Computes the energy, the forces on the modes, and the factor of their stiffness K_aa. A small multiple of its
+   diagonal is added, since without hardening K_aa may be singular.
+*/
 static void CondensedEvaluate(const BodyMaterial *m, Condensed *c)
 {
   const PetscReal small = 1e-10;
@@ -86,7 +88,7 @@ static void CondensedEvaluate(const BodyMaterial *m, Condensed *c)
   IncompatibleFactor(c->L);
 }
 
-/* x = L^(-1) x, and then L^(-T) x */
+/* CondensedForward() computes x = L^(-1) x, and CondensedBackward() computes x = L^(-T) x */
 static void CondensedForward(const Condensed *c, PetscReal x[MODES])
 {
   for (int k = 0; k < MODES; ++k) {
@@ -103,7 +105,10 @@ static void CondensedBackward(const Condensed *c, PetscReal x[MODES])
   }
 }
 
-/* Newton's method with a line search on the energy. It ends where a step promises less than rounding */
+/*
+   Finds a by Newton's method with a line search on the energy. It ends when a step is predicted to reduce the energy by
+   less than rounding errors.
+*/
 static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {

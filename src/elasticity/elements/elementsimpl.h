@@ -1,6 +1,4 @@
-/*
-   Cells: shape functions, elements, and data of bodies.
-*/
+/* Private header of elements: shape functions, elements, and data of cells and bodies */
 #ifndef ELEMENTSIMPL_H
 #define ELEMENTSIMPL_H
 
@@ -11,9 +9,10 @@
 #include <petscsf.h>
 
 /*
-   basis.c: hexahedra with 8 or 27 nodes on [-1,1]^3; tetrahedra with 4 or 10 nodes, corners at the origin and the unit
-   vectors' ends. The node index of arrays is last, so that the compiler can vectorize; n is the number of nodes, which
-   CELL_CALL() makes a constant for 8.
+   basis.c: values of shape functions at the quadrature points. Hexahedra have 8 or 27 nodes on [-1,1]^3. Tetrahedra
+   have 4 or 10 nodes, with corners at the origin and at the ends of the unit vectors. The node is the last index of
+   arrays, so that the compiler can vectorize loops over nodes. The number of nodes n is an argument of inline
+   functions; CELL_CALL() makes it a constant for n = 8.
 */
 #define CELL_MAX_NODES  27
 #define CELL_MAX_POINTS 27
@@ -26,13 +25,16 @@ typedef struct {
   PetscReal dN[CELL_MAX_POINTS][3][CELL_MAX_NODES]; /* dN/dxi_k */
 } CellBasis;
 
-/* nnodes: 4, 8, 10 or 27 nodes of a cell; gausspoints per axis of a hexahedron: 2 or 3 */
+/* nnodes: number of nodes of a cell, 4, 8, 10 or 27; gausspoints: per axis of a hexahedron, 2 or 3 */
 PETSC_INTERN PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt gausspoints, CellBasis *);
 
 #define CELL_CALL(function, basis, ...) \
   ((basis)->nnodes == 8 ? function(8, basis, __VA_ARGS__) : function((int)(basis)->nnodes, basis, __VA_ARGS__))
 
-/* Gradients G[j][a] = dN_a/dX_j at point q of the cell with nodes X[d][a]; returns weight times det dX/dxi */
+/*
+   Computes the gradients G[j][a] = dN_a/dX_j at point q of the cell with nodes X[d][a]. Returns the volume of the
+   point, weight times det dX/dxi.
+*/
 static inline PetscReal CellGradients(const int n, const CellBasis *basis, PetscInt q, PetscReal X[3][CELL_MAX_NODES],
   PetscReal G[3][CELL_MAX_NODES])
 {
@@ -56,7 +58,7 @@ static inline PetscReal CellGradients(const int n, const CellBasis *basis, Petsc
   return basis->weight[q] * det;
 }
 
-/* H[3 i + j] = du_i/dX_j */
+/* Computes the displacement gradient H[3 i + j] = du_i/dX_j */
 static inline void CellDisplacementGradient(const int n, PetscReal U[3][CELL_MAX_NODES], PetscReal G[3][CELL_MAX_NODES],
   PetscReal H[9])
 {
@@ -70,7 +72,7 @@ static inline void CellDisplacementGradient(const int n, PetscReal U[3][CELL_MAX
   }
 }
 
-/* F[i][a] += w P_ij dN_a/dX_j */
+/* Adds w P_ij dN_a/dX_j to F[i][a] */
 static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MAX_NODES], const PetscReal P[9],
   PetscReal F[3][CELL_MAX_NODES])
 {
@@ -81,17 +83,22 @@ static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MA
   }
 }
 
-/* stiffness.c: stiffness of a cell from the tangents at its points, for all elements. K[(3 a + i) 3 n + 3 b + k] */
+/*
+   stiffness.c: stiffness of a cell from the tangents at its points, used by all elements. The entry for component i of
+   node a and component k of node b is K[(3 a + i) 3 n + 3 b + k].
+*/
 typedef struct {
-  PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b]: entry of component i at node a and
-                                                          component k >= i at node b */
+  PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b]: entry for component i of node a and
+                                                          component k >= i of node b */
 } CellSums;
 
-/* Stiffness of a law with constant tangent */
+/* Computes the stiffness of a cell for a law with constant tangent */
 PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *,
   PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
-/* Clear: zeroes the sums. Add: adds w dN_a/dX_j A_ijkl dN_b/dX_l, A symmetric, to of[i][k][n a + b]. Finish: the
-   stiffness from the sums over all points */
+/*
+   CellSumsClear() sets the sums to zero. CellStiffnessAdd() adds w dN_a/dX_j A_ijkl dN_b/dX_l, with symmetric A, to
+   of[i][k][n a + b]. CellStiffnessFinish() computes the stiffness from the sums over all points.
+*/
 PETSC_INTERN void CellSumsClear(PetscInt n, CellSums *);
 PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
   const PetscReal A[81], CellSums *);
@@ -103,11 +110,14 @@ PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, Petsc
 */
 typedef struct {
   const MaterialLaw *law;
-  MaterialModuli     moduli, isochoric; /* of the law; and of the law without its bulk modulus. With a history: of a
-                                           cell's points in turn */
+  MaterialModuli     moduli, isochoric; /* moduli of the law; moduli of the law without its bulk modulus. If the law
+                                           has a history, they refer to that of the cell's points. */
 } BodyMaterial;
 
-/* The moduli at point q of a cell: a copy of its own if the law has a history */
+/*
+   Returns the moduli at point q of a cell. If the law has a history, they are a copy in *own that refers to the history
+   of this point.
+*/
 static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, PetscInt q, MaterialModuli *own)
 {
   if (!cell->history) return cell;
@@ -116,7 +126,7 @@ static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, Petsc
   return own;
 }
 
-/* Leaves the elastic part of the displacement gradient at point q */
+/* Replaces the displacement gradient at point q by its elastic part */
 static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H[9])
 {
   if (cell->moduli.history) cell->law->elastic(cell->moduli.history + MATERIAL_HISTORY * q, H);
@@ -125,36 +135,39 @@ static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H
 #define ELEMENT_STRAINS 10
 
 /*
-   Functions of a cell with nodes X[d][a] and displacements U[d][a]. If a point is inverted the energy is
-   PETSC_INFINITY; the other functions then return PETSC_FALSE, and their results are undefined.
+   Functions of a cell with nodes X[d][a] and displacements U[d][a]. If a point is inverted, `energy` returns
+   PETSC_INFINITY, and the other functions return PETSC_FALSE with undefined results.
 */
 typedef struct {
-  PetscInt nnodes; /* number of nodes of the cells it supports; 0: any */
+  PetscInt nnodes; /* number of nodes of the cells that the element supports; 0: any */
   PetscReal (
     *energy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES]);
-  /* Derivative of the energy, F[d][a] */
+  /* computes the derivative F[d][a] of the energy */
   PetscBool (*force)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
-  /* Second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not used if the law's tangent is constant */
+  /* computes the second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not used if the law's tangent is
+     constant */
   PetscBool (*stiffness)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
-  /* Cauchy stress averaged over the reference cell, xx yy zz xy yz zx */
+  /* computes the Cauchy stress averaged over the reference cell: xx yy zz xy yz zx */
   PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
-  /* For each point: volume, displacement gradient (9) and dilatation as used in the cell's energy, plastic strain
-     included */
+  /* computes for each point the volume, and the displacement gradient (9 values) and dilatation that the cell's
+     energy uses, including plastic strain */
   void (*strains)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS]);
 } Element;
 
-/* modes.c: det J0 J0^(-1) of a cell, its incompatible modes at point q, which has volume w, and Cholesky's factor */
+/*
+   modes.c: computes det J0 J0^(-1) of a cell; the incompatible modes at point q, which has volume w; a Cholesky factor
+*/
 #define INCOMPATIBLE_MODES 12
 PETSC_INTERN void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3]);
 PETSC_INTERN void IncompatibleModes(const CellBasis *, PetscInt q, PetscReal w, PetscReal cofactor[3][3],
   PetscReal M[INCOMPATIBLE_MODES][9]);
 PETSC_INTERN void IncompatibleFactor(PetscReal L[INCOMPATIBLE_MODES][INCOMPATIBLE_MODES]);
 
-/* condensed.c: incompatible modes of a law that is not linear, members of an Element */
+/* condensed.c: functions of an Element with incompatible modes, for laws that are not linear */
 PETSC_INTERN PetscReal CondensedEnergy(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES]);
 PETSC_INTERN PetscBool CondensedForce(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
@@ -170,77 +183,91 @@ PETSC_INTERN void      CondensedStrains(const CellBasis *, const BodyMaterial *,
 ELEMENT_TYPES(ELEMENT_DECLARE)
 #undef ELEMENT_DECLARE
 
-/* element.c: the table of elements */
+/* element.c: gets an element from the table */
 PETSC_INTERN PetscErrorCode ElementGet(ElementType, PetscInt nnodes, const Element **);
 
-/* events.c: PETSc's log events of this folder */
+/* events.c: log events of elasticity */
 PETSC_INTERN PetscLogEvent  ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
 PETSC_INTERN PetscErrorCode ElasticityEventsRegister(void);
 
 typedef struct {
-  Material         given; /* as given by the caller */
+  Material         given; /* material that the caller has set */
   BodyMaterial     material;
   ElementType      type;
-  const Element   *element; /* the element and the basis of the body's cells; NULL on ranks without cells of it */
+  const Element   *element; /* element of the body's cells; NULL on ranks without such cells */
   const CellBasis *basis;
-  PetscBool        kept;       /* constant tangent, and no common vertex with a body that is assembled again */
-  PetscInt         assemblies; /* number of assemblies into any tangent */
+  PetscBool        kept;       /* whether the body has a constant tangent and shares no vertex with a body that is
+                                  assembled again */
+  PetscInt         assemblies; /* number of assemblies of this body into any tangent */
   PetscBool        expands;
   PetscReal        expansion[9]; /* thermal expansion tensor [1/temperature] */
   PetscReal        density;      /* [mass/length^3] */
   PetscBool        rigid;
 } Body;
 
-/* Identifies the last assembled tangent and its state; any other matrix is assembled completely */
+/* Identifies the tangent that was assembled last, and its state. Any other matrix is assembled completely. */
 typedef struct {
-  PetscObjectId    id; /* 0: none */
+  PetscObjectId    id; /* 0: no tangent has been assembled */
   PetscObjectState state;
 } AssembledTangent;
 
-/* A section through a body: the cells that it cuts take the nodes beyond it as displaced by shortening x axis */
+/*
+   A section through a body. In the cells that it cuts, nodes beyond the section are displaced additionally by
+   shortening x axis.
+*/
 typedef struct {
   PetscInt  body;
-  PetscReal axis[3];    /* unit vector */
+  PetscReal axis[3];    /* unit normal of the section */
   PetscReal shortening; /* [length] */
 } BodySection;
 
 struct _n_Elasticity {
   DM               dm;
   char             mattype[64];
-  PetscBool        mattype_given; /* set by an option */
-  CellBasis       *basis[4];      /* of order 1 and 2, hexahedra and tetrahedra; NULL: no such cells on this rank */
+  PetscBool        mattype_given; /* whether an option has set the type */
+  CellBasis       *basis[4];      /* bases of hexahedra of order 1 and 2, and of tetrahedra of order 1 and 2; NULL:
+                                     there are no such cells on this rank */
   PetscInt         nbodies;
   Body            *bodies;
   PetscInt         quadrature;     /* Gauss points per axis for order 1 */
-  PetscInt         ncells, nnodes; /* on this rank; nodes are numbered as in the local section */
-  PetscInt        *cellstart;      /* ncells + 1 */
-  PetscInt        *cellnodes;      /* the nodes of cell c start at cellnodes[cellstart[c]], in tensor order */
+  PetscInt         ncells, nnodes; /* number of cells and nodes on this rank; nodes are numbered as in the local
+                                      section */
+  PetscInt        *cellstart;      /* ncells + 1 entries, see cellnodes */
+  PetscInt        *cellnodes;      /* nodes of the cells in tensor order; those of cell c start at
+                                      cellnodes[cellstart[c]] */
   PetscInt        *cellbody;
-  unsigned char   *prescribed;  /* bit d of a node: its component d is prescribed; NULL: none is */
-  Vec              springs;     /* stiffness of springs to the ground, one per row; NULL: none [force/length] */
-  Mat              between;     /* stiffness of springs between unknowns; NULL: none [force/length] */
-  PetscReal       *temperature; /* 4 per cell; NULL: none */
-  PetscBool        yields;      /* some body's law has a history */
-  PetscInt        *firstpoint;  /* then: first point of cell c in history; PETSC_DECIDE: its law has none */
+  unsigned char   *prescribed;  /* bit d of a node's entry: its component d is prescribed; NULL: no component is
+                                   prescribed */
+  Vec              springs;     /* stiffness of springs to the ground, one entry per row [force/length]; NULL: no
+                                   springs */
+  Mat              between;     /* stiffness of springs between unknowns [force/length]; NULL: no springs */
+  PetscReal       *temperature; /* 4 values per cell, see ThermalSubtract(); NULL: no temperature */
+  PetscBool        yields;      /* whether the law of some body has a history */
+  PetscInt        *firstpoint;  /* if so: index in `history` of the first point of each cell; PETSC_DECIDE: its law
+                                   has no history */
   PetscInt         npoints;     /* number of points with a history on this rank */
-  PetscReal       *history;     /* at the last state of equilibrium, MATERIAL_HISTORY values per point */
+  PetscReal       *history;     /* MATERIAL_HISTORY values per point, at the last state of equilibrium */
   PetscInt         nsections;
   BodySection     *sections;
-  PetscInt        *cellsection, *cellbeyond; /* of each cell: its section, PETSC_DECIDE: none; its first value in */
-  PetscReal       *beyond;                   /* 1 for nodes of a cut cell beyond the section, 0 for the others */
+  PetscInt        *cellsection, *cellbeyond; /* per cell: its section, or PETSC_DECIDE if none; index of its first
+                                                value in `beyond` */
+  PetscReal       *beyond;                   /* for each node of a cut cell: 1 if it is beyond the section, otherwise
+                                                0 */
   PetscInt         nbeyond;
   AssembledTangent assembled;
-  PetscReal        inertia, viscosity; /* of tangents: factor of the mass, 0: none; more than 1 of the stiffness */
-  PetscBool        consistent, *light; /* mass; local nodes that have none, NULL: all have theirs */
+  PetscReal        inertia, viscosity; /* for tangents in dynamics: factor of the mass, 0 for none; factor by which
+                                          viscosity increases the stiffness, minus 1 */
+  PetscBool        consistent, *light; /* whether the mass is consistent; per local node whether it has no mass,
+                                          NULL: all nodes have mass */
 };
 
-/* locals.c: local values of a displacement (NULL: zero), and the coordinates */
+/* locals.c: gets local values of a displacement (NULL: zero), and the coordinates */
 PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, const PetscScalar **ul,
   const PetscScalar **x);
 PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul,
   const PetscScalar **x);
 
-/* Gathers the values of a local vector (3 per node) at a cell's nodes, by component */
+/* Gets the values of a local vector (3 per node) at a cell's nodes, sorted by component */
 static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[],
   PetscReal values[3][CELL_MAX_NODES])
 {
@@ -249,20 +276,20 @@ static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscSca
   }
 }
 
-/* A cell with coordinates and displacements */
+/* A cell with its coordinates and displacements */
 typedef struct {
   PetscInt            n;
   const PetscInt     *nodes;
   const Body         *body;
-  const BodyMaterial *material; /* the body's material, or */
-  BodyMaterial        own;      /* a copy with the cell's history */
+  const BodyMaterial *material; /* the body's material, or `own` */
+  BodyMaterial        own;      /* copy of the body's material that refers to the cell's history */
   PetscReal           X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
 } CellState;
 
-/* thermal.c: subtracts the free thermal displacement of a cell */
+/* thermal.c: subtracts the free thermal displacement of a cell from its displacement */
 PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 
-/* sections.c: adds the shortening of a section to the displacements of a cell's nodes beyond it */
+/* sections.c: adds the shortening of a section to the displacements of a cell's nodes beyond the section */
 PETSC_INTERN void SectionAdd(Elasticity, PetscInt c, CellState *);
 
 static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],

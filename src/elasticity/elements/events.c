@@ -1,4 +1,4 @@
-/* PETSc's log events of elasticity */
+/* Log events of elasticity */
 #include "elementsimpl.h"
 
 PetscLogEvent ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;

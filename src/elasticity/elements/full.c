@@ -1,4 +1,4 @@
-/* Full integration: E = int W(H) */
+/* Element with full integration: E = int W(H) */
 #include "elementsimpl.h"
 
 static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
@@ -50,7 +50,7 @@ static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m
   return CELL_CALL(FullForce, basis, m, X, U, F);
 }
 
-/* K_ia,kb = int dN_a/dX_j dP_ij/dH_kl dN_b/dX_l */
+/* Computes K_ia,kb = int dN_a/dX_j dP_ij/dH_kl dN_b/dX_l */
 static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {

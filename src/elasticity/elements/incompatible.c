@@ -1,14 +1,17 @@
 /*
-   Incompatible modes, for laws of small strain and cells of order 1: E = min over a of int W(H + sum_m a_m M_m), with
-   the modes M_m of modes.c, condensed in the cell. Laws that are not linear: condensed.c.
+   Element with incompatible modes, for laws of small strain and cells of order 1: E = min over a of int W(H + sum_m a_m
+   M_m), with the modes M_m of modes.c. The coefficients a are eliminated in the cell. condensed.c treats laws that are
+   not linear.
 */
 #include "elementsimpl.h"
 
 #define MODES INCOMPATIBLE_MODES
 
 typedef struct {
-  PetscReal K[MODES][3][CELL_MAX_NODES]; /* second derivatives of the energy by a mode and U[i][a] */
-  PetscReal L[MODES][MODES];             /* Cholesky factor of the second derivatives by two modes */
+  PetscReal K[MODES][3][CELL_MAX_NODES]; /* second derivatives of the energy by the coefficient of a mode and by
+                                            U[i][a] */
+  PetscReal L[MODES][MODES];             /* Cholesky factor of K_aa, the second derivatives by two coefficients of
+                                            modes */
 } Incompatibility;
 
 static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
@@ -33,7 +36,7 @@ static void IncompatibleSetUp(const CellBasis *basis, const BodyMaterial *m, Pet
   IncompatibleFactor(modes->L);
 }
 
-/* a = -K_aa^(-1) K_au u; returns the energy that the modes remove, a.K_aa a/2 */
+/* Computes a = -K_aa^(-1) K_au u. Returns the energy by which the modes reduce that of the cell, a.K_aa a/2. */
 static PetscReal IncompatibleSolve(const Incompatibility *modes, PetscReal U[3][CELL_MAX_NODES], PetscReal a[MODES])
 {
   PetscReal released = 0;
@@ -83,7 +86,7 @@ static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMat
   return PETSC_TRUE;
 }
 
-/* K_uu - (L^(-1) K_au)^T (L^(-1) K_au) */
+/* Computes K = K_uu - (L^(-1) K_au)^T (L^(-1) K_au) */
 static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
@@ -108,7 +111,7 @@ static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const Bod
   return PETSC_TRUE;
 }
 
-/* The modes' stresses have no mean where the law is linear */
+/* Computes the mean Cauchy stress. For a linear law the stresses of the modes have zero mean and need not be added. */
 static PetscBool ElementCauchy_Incompatible(const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {

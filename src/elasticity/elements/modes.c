@@ -17,7 +17,7 @@
 
 #define MODES INCOMPATIBLE_MODES
 
-/* cofactor = det J0 J0^(-1); the modes are scaled by det J0 */
+/* Computes cofactor = det J0 J0^(-1), with which the modes are scaled by det J0 */
 void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
 {
   PetscReal J[3][3];
@@ -36,7 +36,7 @@ void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3]
   }
 }
 
-/* The modes as displacement gradients at point q, whose volume is w */
+/* Computes the modes as displacement gradients at point q, whose volume is w */
 void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal cofactor[3][3], PetscReal M[MODES][9])
 {
   const PetscReal *xi = basis->xi[q], inverse = basis->weight[q] / w;
@@ -52,8 +52,10 @@ void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscRea
   }
 }
 
-/* Cholesky factorization in place; the matrix is positive definite, since no combination of modes is a rotation at
-   all points */
+/*
+   Computes a Cholesky factorization in place. The matrix is positive definite, since no combination of modes is a
+   rotation at all points.
+*/
 void IncompatibleFactor(PetscReal L[MODES][MODES])
 {
   for (int m = 0; m < MODES; ++m) {

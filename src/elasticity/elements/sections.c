@@ -1,9 +1,10 @@
 /*
    Sections through bodies for the pretension of bolts. The nodes of the body on one side of a plane are beyond the
-   section. A cell with nodes on both sides is cut: its nodes beyond are displaced by u + shortening x axis, while those
-   of all other cells are displaced by u. So the body is cut along the faces between cut cells and those beyond, and the
-   two sides are displaced against one another, without any new node. The force of the section is the sum of the nodal
-   forces of the cut cells beyond it along the axis, the derivative of the energy with respect to the shortening.
+   section. A cell with nodes on both sides is cut. In cut cells the displacement of nodes beyond the section is u +
+   shortening x axis; in all other cells it is u. The body is thus cut along the faces between cut cells and the cells
+   beyond, and the two sides are displaced relative to each other, without additional nodes.
+   The force of the section is the derivative of the energy with respect to the shortening: the sum of the nodal forces,
+   along the axis, of the cut cells' nodes beyond the section.
 */
 #include "elementsimpl.h"
 #include <mesh.h>
@@ -19,7 +20,7 @@ void SectionAdd(Elasticity e, PetscInt c, CellState *cell)
   }
 }
 
-/* Hanging nodes are beyond the section as much as the nodes that they depend on */
+/* Sets the values of hanging nodes in `beyond` to the means of the values of the nodes on which they depend */
 static PetscErrorCode SectionHang(Elasticity e, Vec beyond)
 {
   Mat                means;
@@ -53,7 +54,10 @@ static PetscErrorCode SectionHang(Elasticity e, Vec beyond)
   PetscFunctionReturn(0);
 }
 
-/* Whether nodes are beyond the plane: 1, or 0, in the first of three values per local node */
+/*
+   Finds which local nodes are beyond the plane through `point` with normal `axis`. *sides: a local vector with 1 or 0
+   in the first of three values per node.
+*/
 static PetscErrorCode SectionGetSides(Elasticity e, const PetscReal point[3], const PetscReal axis[3], Vec *sides)
 {
   const PetscReal    rounding = 1e-10;
@@ -85,7 +89,7 @@ static PetscErrorCode SectionGetSides(Elasticity e, const PetscReal point[3], co
   PetscFunctionReturn(0);
 }
 
-/* Finds the cells of this rank that the last section cuts. twice: one of them is cut by another section already */
+/* Finds the cells of this rank that the last section cuts. *twice: another section cuts one of them already. */
 static PetscErrorCode SectionCut(Elasticity e, const PetscScalar sides[], PetscInt *ncells, PetscBool *twice)
 {
   const PetscInt s = e->nsections - 1;

@@ -1,4 +1,4 @@
-/* Stiffness of a cell from the tangents at its points, for all elements */
+/* Computes the stiffness of a cell from the tangents at its points, for all elements */
 #include "elementsimpl.h"
 
 void CellSumsClear(PetscInt n, CellSums *S)
@@ -11,8 +11,8 @@ void CellSumsClear(PetscInt n, CellSums *S)
 }
 
 /*
-   K_ab = int lambda grad N_a (x) grad N_b + mu grad N_b (x) grad N_a + mu (grad N_a . grad N_b) I,
-   from the six integrals S_ij[a][b] = int dN_a/dX_i dN_b/dX_j, i <= j, as S_ji is the transpose of S_ij.
+   Computes K_ab = int lambda grad N_a (x) grad N_b + mu grad N_b (x) grad N_a + mu (grad N_a . grad N_b) I, from the
+   six integrals S_ij[a][b] = int dN_a/dX_i dN_b/dX_j with i <= j, since S_ji is the transpose of S_ij
 */
 static inline void StiffnessIsotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
   PetscReal lambda, PetscReal mu, PetscScalar K[])
@@ -77,7 +77,7 @@ void CellStiffnessAdd(const CellBasis *basis, PetscReal w, PetscReal G[3][CELL_M
   CELL_CALL(StiffnessAdd, basis, w, G, A, S);
 }
 
-/* S[k][i][a][b] = S[i][k][b][a] */
+/* Computes the stiffness from the sums, of which only those with i <= k are stored: S[k][i][a][b] = S[i][k][b][a] */
 void CellStiffnessFinish(const CellBasis *basis, const CellSums *S, PetscScalar K[])
 {
   const PetscInt n = basis->nnodes, width = 3 * n;
@@ -97,7 +97,7 @@ void CellStiffnessFinish(const CellBasis *basis, const CellSums *S, PetscScalar 
   }
 }
 
-/* For an anisotropic law, with its constant tangent A */
+/* Computes the stiffness for an anisotropic law with the constant tangent A */
 static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
   const PetscReal A[81], PetscScalar K[])
 {

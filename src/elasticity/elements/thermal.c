@@ -1,10 +1,11 @@
 /*
-   Thermal strain for small-strain laws. The law is evaluated with the displacement gradient minus A T, where A is the
-   thermal expansion tensor and T the temperature above the stress-free one. In each cell T is approximated by a linear
-   function T_c + g.y of the position y from its centre, by least squares over the nodes. The thermal strain is then
-   compatible: a free cell would be displaced by u = A y (T_c + g.y) - (y.A y)/2 g, whose symmetric gradient is A (T_c +
-   g.y). Each cell is evaluated at its displacement minus this one, with any element. Hence a free body in a linear
-   temperature field has no stress, also in bending. The tangent is not affected.
+   Thermal strain for laws of small strain. The law is evaluated with the displacement gradient minus A T, where A is
+   the thermal expansion tensor and T the temperature above the stress-free one.
+   In each cell T is approximated by a linear function T_c + g.y of the position y relative to the centre, by least
+   squares over the nodes. The thermal strain is then compatible: a free cell would have the displacement u = A y (T_c +
+   g.y) - (y.A y)/2 g, whose symmetric gradient is A (T_c + g.y). Each cell is evaluated at its displacement minus this
+   one, by any element. A free body in a linear temperature field is therefore free of stress, also in bending. The
+   tangent is not affected.
 */
 #include "elementsimpl.h"
 #include <mesh.h>
@@ -26,7 +27,7 @@ static void ThermalCentre(PetscInt n, PetscReal X[3][CELL_MAX_NODES], PetscReal 
   }
 }
 
-/* fit: T_c and g from the nodal temperatures */
+/* Computes fit = (T_c, g) from the nodal temperatures T */
 static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscReal T[], PetscReal fit[4])
 {
   PetscReal centre[3], M[3][3] = {{0}}, b[3] = {0};
@@ -45,7 +46,7 @@ static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscRe
   ThermalSolve(M, b, fit + 1);
 }
 
-/* Subtracts the free thermal displacement from a cell's displacement */
+/* Subtracts the free thermal displacement from a cell's displacement. fit: T_c and g of the cell. */
 void ThermalSubtract(const PetscReal fit[4], CellState *cell)
 {
   const PetscReal *A = cell->body->expansion;

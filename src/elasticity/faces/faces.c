@@ -8,7 +8,8 @@ typedef struct {
 } Face;
 
 typedef struct {
-  PetscReal N[FACET_MAX_NODES], x[3], area; /* shape functions, coordinates, weight x area */
+  PetscReal N[FACET_MAX_NODES], x[3], area; /* values of the shape functions; coordinates [length]; weight x area
+                                               [length^2] */
 } FacePoint;
 
 #define FACE_POINTS 9
@@ -41,7 +42,7 @@ static PetscErrorCode FaceDestroy(Face *face)
   PetscFunctionReturn(0);
 }
 
-/* 3 x 3 points of a facet: exact for plane facets */
+/* Computes the 3 x 3 quadrature points of a facet. The rule is exact for plane facets. */
 static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
 {
   for (int q = 0; q < FACE_POINTS; ++q) {
@@ -63,7 +64,7 @@ static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
   }
 }
 
-/* Adds int N_a f(x) dA to a global vector */
+/* Adds int N_a f(x) dA to a global vector, where f is the function `field` */
 static PetscErrorCode FaceAddField(Elasticity e, const char                             name[],
   void (*field)(const PetscReal x[3], const void *ctx, PetscReal value[3]), const void *ctx, Vec total)
 {
@@ -127,7 +128,7 @@ PetscErrorCode ElasticityAddFaceField(Elasticity e, const char face[], const Pet
   PetscFunctionReturn(0);
 }
 
-/* t(x) = a + b x (x - center) */
+/* The traction t(x) = a + b x (x - center) */
 typedef struct {
   PetscReal a[3], b[3], center[3];
 } FaceTraction;
@@ -143,7 +144,10 @@ static void FaceTwisted(const PetscReal x[3], const void *ctx, PetscReal value[3
   }
 }
 
-/* Area, centroid, and second moments int r r^T dA about a point: xx yy zz xy yz zx */
+/*
+   Computes area, first moments int r dA, and second moments int r r^T dA (xx yy zz xy yz zx) of a face, where r is the
+   position relative to the point `about`
+*/
 static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscReal about[3], PetscReal sums[10])
 {
   static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -170,7 +174,10 @@ static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Solves int r x (b x r) dA = moment for b by Cramer's rule; s: second moments */
+/*
+   Solves int r x (b x r) dA = moment for b by Cramer's rule. s: second moments of the face. Returns false if the
+   moments are singular.
+*/
 static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3], PetscReal b[3])
 {
   const PetscReal inertia[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[2] + s[0], -s[4]},

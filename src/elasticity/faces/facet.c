@@ -1,7 +1,10 @@
 /* Facets of the bodies' faces: their nodes and shape functions */
 #include "facesimpl.h"
 
-/* Shape functions of a triangle with 3 or 6 nodes (corners, then edges), from the sides s = 0, t = 0 and s + t = 1 */
+/*
+   Computes the shape functions of a triangle with 3 or 6 nodes (corners, then edges) and their derivatives. The sides
+   are s = 0, t = 0 and s + t = 1.
+*/
 static void FacetTriangleShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
 {
   static const PetscReal by_s[3] = {-1, 1, 0}, by_t[3] = {-1, 0, 1};
@@ -17,7 +20,10 @@ static void FacetTriangleShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N
   }
 }
 
-/* Gauss points of the square; those of a triangle are on rays from its second corner, exact to degree 2 or 4 */
+/*
+   Returns the weight and gets the parameters of a Gauss point of the square. For a triangle, the points lie on rays
+   from its second corner, and the rule is exact to degree 2 or 4.
+*/
 PetscReal FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscReal *s, PetscReal *t)
 {
   static const PetscReal weight[2][3] = {{0.5, 0.5, 0}, {5. / 18, 8. / 18, 5. / 18}};
@@ -32,8 +38,10 @@ PetscReal FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscRea
   return w * (1 - *s);
 }
 
-/* Shape functions of a facet on [0,1]^2 and their derivatives: 4 nodes around it; with 9 nodes then its edges and
-   its middle */
+/*
+   Computes the shape functions of a facet on [0,1]^2 and their derivatives. A facet with 4 nodes has them around its
+   boundary; with 9 nodes those on the edges and the one in the middle follow.
+*/
 void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[])
 {
   static const PetscInt place[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
@@ -61,8 +69,10 @@ void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal N
   }
 }
 
-/* F[a][d] = int N_a n dA with n dA = dX/ds x dX/dt. With 4 or 9 nodes the integrand has degree 2 or 5 in s and in t,
-   for which 2 x 2 or 3 x 3 Gauss points are exact; on triangles with 3 or 6 nodes the degree is 1 or 4 */
+/*
+   Computes F[a][d] = int N_a n dA with n dA = dX/ds x dX/dt. With 4 or 9 nodes the integrand has degree 2 or 5 in s and
+   in t, for which 2 x 2 or 3 x 3 Gauss points are exact. On triangles with 3 or 6 nodes the degree is 1 or 4.
+*/
 void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
 {
   const PetscInt npoints = n <= 4 ? 2 : 3;
@@ -86,7 +96,7 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
   }
 }
 
-/* Gets a facet of this rank; x: local coordinates of the nodes */
+/* Gets a facet of this rank. x: local coordinates of the nodes. */
 PetscErrorCode FacetGet(Elasticity e, PetscInt point, const PetscScalar x[], Facet *facet)
 {
   PetscSection section;

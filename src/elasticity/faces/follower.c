@@ -1,16 +1,18 @@
-/* Follower pressures on the deformed normal and area: their load, and its derivative */
+/* Follower pressures, which act on the deformed area along the deformed normal: their load and its derivative */
 #include "facesimpl.h"
 #include <mesh.h>
 
-/* Deforms the facet, and computes the nodal forces of -pressure n */
+/* Computes the nodal forces of -pressure n on the deformed facet. x: deformed coordinates. */
 static void FollowerLoad(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscReal F[][3])
 {
   FacetNormals(facet->n, x, F);
   for (PetscInt i = 0; i < 3 * facet->n; ++i) F[i / 3][i % 3] *= -pressure;
 }
 
-/* S: symmetric part of the load's derivative by central differences, which are exact since the load is quadratic in
-   the coordinates */
+/*
+   Computes the symmetric part S of the load's derivative by central differences. These are exact, since the load is
+   quadratic in the coordinates.
+*/
 static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscScalar S[])
 {
   const PetscInt width = 3 * facet->n;
@@ -35,7 +37,7 @@ static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][
   }
 }
 
-/* Adds to rows and columns that are not prescribed */
+/* Adds S to the matrix, except in rows and columns of prescribed displacements */
 static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const PetscInt global[], PetscScalar S[],
   Mat slope)
 {

@@ -1,8 +1,8 @@
-/* Dead loads and lumped mass: integrals of the shape functions over the reference geometry */
+/* Dead loads and lumped mass: integrals of the shape functions over the undeformed geometry */
 #include "facesimpl.h"
 #include <mesh.h>
 
-/* volume[a] = int N_a over a cell */
+/* Computes volume[a] = int N_a over a cell */
 static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal volume[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES];
@@ -15,8 +15,10 @@ static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], 
   }
 }
 
-/* The same; for tetrahedra with 10 nodes, whose corner integrals are negative, distributed in proportion to int
-   N_a^2 */
+/*
+   Computes the lumped masses of a cell's nodes for unit density: int N_a, or, for tetrahedra with 10 nodes, whose
+   corner integrals are negative, the cell's volume distributed in proportion to int N_a^2
+*/
 void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal mass[CELL_MAX_NODES])
 {
   PetscReal G[3][CELL_MAX_NODES], square[CELL_MAX_NODES] = {0}, whole = 0, sum = 0;
@@ -35,7 +37,10 @@ void CellMasses(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscRea
   for (PetscInt a = 0; a < 10; ++a) mass[a] = whole / sum * square[a];
 }
 
-/* Adds factor[d] times these integrals over the cells of one body (PETSC_DECIDE: all) to a global vector */
+/*
+   Adds factor[d] times the cells' `integrals` to a global vector. body: the body whose cells count, or PETSC_DECIDE for
+   all.
+*/
 static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
   void (*integrals)(const CellBasis *, PetscReal[3][CELL_MAX_NODES], PetscReal[CELL_MAX_NODES]),
   const PetscReal factor[3], Vec total)
@@ -126,7 +131,10 @@ PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscRe
   PetscFunctionReturn(0);
 }
 
-/* F: area vectors at the nodes, from the bilinear facets or triangles into which the nodes divide the facet */
+/*
+   Computes area vectors F at the nodes of a facet, from the bilinear facets or triangles into which the nodes divide
+   the facet
+*/
 static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
 {
   for (PetscInt a = 0; a < facet->n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
@@ -141,8 +149,10 @@ static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
   }
 }
 
-/* Adds factor times int N_a n dA over a face, for its facets, or for the parts into which their nodes divide them
-   (cut) */
+/*
+   Adds factor times int N_a n dA over a face. If `cut`, facets of order 2 are divided by their nodes into facets of
+   order 1.
+*/
 static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], PetscReal factor, PetscBool cut, Vec total)
 {
   IS                 facets;
@@ -209,10 +219,12 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the nodal area vectors of a face: the integral of each node's shape function times the normal. face:
-   name of the face, "<body>.<face>"; areas: global vector; of every node the integral of its bilinear shape function
-   times the reference normal is added to it [length^2]. Facets of order 2 are cut into four at their nodes, as contact
-   does: areas are positive, where the integrals of quadratic shape functions are loads. */
+/*
+   Collective. Adds the nodal area vectors of a face: the integral of each node's bilinear shape function times the
+   normal. face: name of the face, "<body>.<face>"; areas: global vector to which they are added [length^2]. Facets of
+   order 2 are divided into four at their nodes, as contact does. The areas are therefore positive; integrals of
+   quadratic shape functions may be negative.
+*/
 PetscErrorCode ElasticityAddFacetAreas(Elasticity e, const char face[], Vec areas)
 {
   PetscFunctionBegin;

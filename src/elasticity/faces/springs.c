@@ -1,4 +1,7 @@
-/* Springs. To the ground: a stiffness k per unknown, E = sum k u^2/2. Between bodies: a matrix S, E = u^T S u/2. */
+/*
+   Springs. A spring to the ground has a stiffness k per unknown, E = sum k u^2/2. Springs between bodies have a matrix
+   S, E = u^T S u/2.
+*/
 #include "facesimpl.h"
 
 /*@
@@ -34,7 +37,7 @@ PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness, Mat between)
   PetscFunctionReturn(0);
 }
 
-/* k u + S u */
+/* Computes product = k u + S u */
 static PetscErrorCode SpringsMultiply(Elasticity e, Vec u, Vec product)
 {
   PetscFunctionBegin;
@@ -44,7 +47,7 @@ static PetscErrorCode SpringsMultiply(Elasticity e, Vec u, Vec product)
   PetscFunctionReturn(0);
 }
 
-/* Adds this rank's part; the caller sums over the ranks */
+/* Adds this rank's contribution to the energy. The caller sums over the ranks. */
 PetscErrorCode SpringsAddEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   const PetscScalar *f, *v;
@@ -78,8 +81,10 @@ PetscErrorCode SpringsAddForce(Elasticity e, Vec u, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Adds to the diagonal blocks of owned nodes, of all bodies or of those that are assembled again. The diagonal of
-   prescribed unknowns is arbitrary */
+/*
+   Adds the stiffness of springs to the ground to the diagonal blocks of owned nodes: of all bodies if `all`, otherwise
+   of those that are assembled again. The diagonal entries of prescribed unknowns may have any value.
+*/
 PetscErrorCode SpringsAddTangent(Elasticity e, PetscBool all, const PetscInt global[], Mat tangent)
 {
   const PetscScalar *k;

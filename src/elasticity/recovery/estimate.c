@@ -1,11 +1,14 @@
-/* Estimate of the discretization error: difference between the elements' strains and the recovered ones, in the
-   energy norm */
+/*
+   Estimates the discretization error: the difference between the elements' strains and the recovered ones, in the
+   energy norm
+*/
 #include "recoveryimpl.h"
 
 /*
-   Second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error; the error of
-   the dilatation is used for kappa. The curvature of theta is omitted, as it integrates to zero under uniform pressure.
-   At finite strain the isochoric tangent may be indefinite; negative values are set to zero.
+   Returns the second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error;
+   error[9], the error of the dilatation, is used for kappa. H: displacement gradient. The curvature of theta is
+   omitted, since its integral vanishes under uniform pressure. At finite strain the isochoric tangent may be
+   indefinite; negative values are replaced by zero.
 */
 static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9],
   const PetscReal error[ELEMENT_STRAINS])
@@ -40,7 +43,7 @@ static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recove
   return sum;
 }
 
-/* Adds the squared errors of the selected bodies, and sets those of their cells */
+/* Adds the squared errors of the selected bodies' cells to bodies[], and stores them in cells[] unless this is NULL */
 static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[],
   const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
 {
@@ -57,8 +60,10 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
   }
 }
 
-/* Selects bodies of which no two share a node, and removes them from the remaining ones: those that come first at all
-   of their nodes */
+/*
+   Selects remaining bodies of which no two share a node, and marks them as no longer remaining. A body is selected if
+   its number is the smallest at all of its nodes. *more: whether some bodies remain.
+*/
 static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
   PetscBool *more)
 {
@@ -97,8 +102,10 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Selects the next bodies, removes them from the remaining ones, and recovers their strains. more: whether some
-   remain */
+/*
+   Selects the next bodies, marks them as no longer remaining, and recovers their strains. *more: whether some bodies
+   remain.
+*/
 PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
 {

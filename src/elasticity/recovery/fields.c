@@ -1,8 +1,10 @@
 /* Output fields: stress at nodes and quadrature points, strain energy of cells */
 #include "recoveryimpl.h"
 
-/* Cauchy stress from a displacement gradient (9) and a separate dilatation, which determines the pressure kappa
-   theta */
+/*
+   Computes the Cauchy stress from a displacement gradient (9 values) and a separate dilatation theta, which determines
+   the pressure kappa theta. Returns false, with infinite values, if the point is inverted.
+*/
 static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEMENT_STRAINS], PetscReal stress[6])
 {
   const PetscBool valid = m->law->cauchy(&m->isochoric, strain, stress);
@@ -11,7 +13,9 @@ static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEM
   return valid;
 }
 
-/* Adds the stresses at the selected bodies' nodes; n: number of contributions per node */
+/*
+   Adds the stresses at the selected bodies' nodes to stress[], 6 values per node. n: number of contributions per node.
+*/
 static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[],
   PetscReal n[], PetscReal stress[])
 {

@@ -1,26 +1,29 @@
 /*
-   Recovery of displacement gradient and dilatation at the nodes of cells of order 2. As in recovery.c, but from 8
-   samples per cell at the 2 x 2 x 2 Gauss points, where gradients of order 2 are superconvergent (4 per tetrahedron),
-   fitted by quadratic polynomials over the cells around a vertex. The result is of second order, and higher on regular
-   meshes. Other nodes get the mean of the polynomials of their cells' vertices with the highest rank: vertices inside
-   the body, else those with the most cells. Terms that the samples do not determine are omitted, such as the square
-   across one layer of cells.
+   Recovers displacement gradient and dilatation at the nodes of cells of order 2. In contrast to recovery.c a cell has
+   8 samples, at the 2 x 2 x 2 Gauss points where gradients of order 2 are superconvergent (4 samples for a
+   tetrahedron). The samples of the cells around a vertex are fitted by a quadratic polynomial. The result is of second
+   order, and of higher order on regular meshes.
+   A node gets the mean of the polynomials of its cells' vertices that have the highest rank: vertices inside the body
+   or, if there are none, those with the most cells. Terms that the samples do not determine are omitted, such as the
+   square of the coordinate across a single layer of cells.
 */
 #include "recoveryimpl.h"
 
-#define TERMS   10 /* 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
+#define TERMS   10 /* terms of a quadratic polynomial: 1, x, y, z, x^2, y^2, z^2, xy, yz, zx */
 #define SAMPLES 8
 
-/* Least squares around a vertex: sums over the samples around it */
+/* Least-squares fit around a vertex, from the samples of the cells around it */
 typedef struct {
-  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* afterwards the polynomial's coefficients */
-  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; and sum of its magnitudes */
+  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* matrix and right-hand side of the fit; b is overwritten by
+                                                           the coefficients of the polynomial */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of the magnitudes of these
+                                vectors */
   PetscReal ncells;
 } QuadraticPatch;
 
 typedef struct {
-  PetscInt n; /* number of samples, and of vertices */
-  /* coordinates and values of samples; int grad N of the vertices */
+  PetscInt n; /* number of samples, which is also the number of vertices */
+  /* coordinates and values of the samples; int grad N of the vertices */
   PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3];
 } QuadraticCell;
 
@@ -34,7 +37,9 @@ static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
   }
 }
 
-/* Weights from values at 3 Gauss points of a line to its two superconvergent points */
+/*
+   Computes the weights with which values at 3 Gauss points of a line are interpolated to its two superconvergent points
+*/
 static void QuadraticLine(PetscReal weight[2][3])
 {
   const PetscReal gauss = PetscSqrtReal(0.6), at[2] = {-PetscSqrtReal(1. / 3), PetscSqrtReal(1. / 3)};
@@ -48,8 +53,11 @@ static void QuadraticLine(PetscReal weight[2][3])
   }
 }
 
-/* Weights from values at the points of a tetrahedron to its 4 samples, by the linear polynomial of least squares; in
-   each sample one barycentric coordinate is the largest */
+/*
+   Computes the weights with which values at the quadrature points of a tetrahedron give values at its 4 samples, by a
+   linear polynomial of least squares. Sample s is the point at which barycentric coordinate s is 1 - 3 x 0.138 and the
+   others are 0.138.
+*/
 static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
 {
   const PetscReal place = 0.1381966011250105;
@@ -65,7 +73,7 @@ static void QuadraticTetrahedron(const CellBasis *basis, PetscReal weight[SAMPLE
   }
 }
 
-/* Weights from values at the points of a cell to its n samples */
+/* Computes the weights with which values at the quadrature points of a cell give values at its n samples */
 static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weight[SAMPLES][CELL_MAX_POINTS])
 {
   PetscReal line[2][3];
@@ -129,8 +137,10 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
   patch->ncells += 1;
 }
 
-/* Cholesky factorization scaled by the diagonal; scale is 0 for terms that depend on earlier ones in the samples,
-   which are omitted */
+/*
+   Computes a Cholesky factorization of A scaled by its diagonal. scale[i] is zero for terms that depend on earlier ones
+   in the samples; these terms are omitted.
+*/
 static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], PetscReal L[TERMS][TERMS])
 {
   for (int i = 0; i < TERMS; ++i) {
@@ -150,7 +160,7 @@ static void QuadraticFactor(PetscReal A[TERMS][TERMS], PetscReal scale[TERMS], P
   }
 }
 
-/* Replaces b by the coefficients of a quadratic polynomial, as far as the samples determine it */
+/* Replaces b by the coefficients of the quadratic polynomial, as far as the samples determine them */
 static void QuadraticPatchFit(QuadraticPatch *patch)
 {
   PetscReal L[TERMS][TERMS], scale[TERMS];
@@ -178,8 +188,10 @@ static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
   return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
-/* Rank of a vertex's polynomial at a node of a cell: highest inside the body, else by its number of cells; higher at
-   the vertex itself */
+/*
+   Returns the rank of a vertex's polynomial at a node. The rank is highest for vertices inside the body and otherwise
+   increases with the number of cells; it is higher by one if the node is the vertex itself.
+*/
 static PetscInt QuadraticRank(const QuadraticPatch *patch, PetscBool itself)
 {
   return 2 * (QuadraticPatchIsInside(patch) ? 100 : (PetscInt)patch->ncells) + (itself ? 1 : 0);
@@ -196,8 +208,10 @@ static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], 
   }
 }
 
-/* At the nodes of a cell: the highest rank among the polynomials of its vertices; or with `sums`, adds the
-   polynomials of that rank */
+/*
+   Raises rank[] at the nodes of a cell to the highest rank of its vertices' polynomials. If `sums` is not NULL, adds
+   the polynomials of that rank to sums[] instead.
+*/
 static void QuadraticContinue(const CellState *state, const PetscInt number[], const QuadraticPatch patches[],
   PetscInt rank[], RecoveredNode sums[])
 {
@@ -216,7 +230,10 @@ static void QuadraticContinue(const CellState *state, const PetscInt number[], c
   }
 }
 
-/* Numbers the vertices of cells of order 2 (-1: another node), and creates their star forest from that of the nodes */
+/*
+   Numbers the vertices of cells of order 2, with -1 for other nodes, and creates their star forest from that of the
+   nodes
+*/
 static PetscErrorCode QuadraticNumber(Elasticity e, PetscSF nodes, PetscInt number[], PetscInt *n, PetscSF *vertices)
 {
   PetscInt           nleaves, nshared = 0, *theirs, *leaf;
@@ -306,7 +323,7 @@ static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Sets the values at the nodes of the selected bodies' cells of order 2; other nodes are unchanged */
+/* Sets recovered[] at the nodes of the selected bodies' cells of order 2. Values at other nodes are unchanged. */
 PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[])
 {

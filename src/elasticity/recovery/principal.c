@@ -1,12 +1,12 @@
-/* Principal values of a stress */
+/* Computes the principal values of a stress */
 #include "recoveryimpl.h"
 
-/* One Jacobi rotation: makes the entry (p, q) zero */
+/* Makes the entry (p, q) zero by a Jacobi rotation */
 static void PrincipalRotate(PetscReal A[3][3], int p, int q)
 {
   const int       r    = 3 - p - q;
   const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q];
-  /* without scaling the squares of tiny numbers would underflow */
+  /* without this scaling, squares of tiny numbers would underflow */
   const PetscReal size = PetscMax(PetscAbsReal(half), PetscAbsReal(off));
   PetscReal       t, c, s, pr = A[p][r], qr = A[q][r];
 

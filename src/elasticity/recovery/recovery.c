@@ -1,18 +1,20 @@
 /*
-   Recovery of displacement gradient and dilatation at the vertices by superconvergent patches. Cell averages, placed at
-   the cells' centroids, are fitted by a linear polynomial over the cells around a vertex. The cells around a vertex on
-   the surface are on one side of it; such a vertex gets the mean of the polynomials of the interior vertices of its
-   cells. The result is of second order up to the surface. A body with one layer of cells has no interior vertex; its
-   vertices get the mean of their cells. References: Zienkiewicz and Zhu, The superconvergent patch recovery and a
-   posteriori error estimates, parts 1 and 2, 1992.
+   Recovers displacement gradient and dilatation at the vertices by superconvergent patches. The averages of the cells
+   around a vertex, located at the cells' centroids, are fitted by a linear polynomial. All cells around a vertex on the
+   surface are on one side of it; such a vertex gets the mean of the polynomials of the interior vertices of its cells.
+   The result is of second order up to the surface. A body with one layer of cells has no interior vertex; its vertices
+   get the mean of their cells. References: Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori
+   error estimates, parts 1 and 2, 1992.
 */
 #include "recoveryimpl.h"
 
-/* Sums over the cells around a node, with positions relative to it */
+/* Sums over the cells around a node. Positions are relative to the node. */
 typedef struct {
-  PetscReal n, d[3], dd[6]; /* number of cells; sums of positions and of their products xx yy zz xy yz zx */
-  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sums of values, and of positions x values */
-  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; and sum of its magnitudes */
+  PetscReal n, d[3], dd[6]; /* number of cells; sums of positions; sums of the products xx yy zz xy yz zx of
+                               positions */
+  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sums of values; sums of positions times values */
+  PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of the magnitudes of these
+                                vectors */
 } NodeSums;
 
 typedef struct {
@@ -26,7 +28,7 @@ typedef union {
 } NodePatch;
 
 typedef struct {
-  PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid, averages, int grad N */
+  PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid; averages over the cell; int grad N */
 } CellSample;
 
 static void CellSampleAverages(CellState *state, CellSample *cell)
@@ -72,7 +74,10 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, c
   sums->area += PetscSqrtReal(PetscSqr(cell->B[0][a]) + PetscSqr(cell->B[1][a]) + PetscSqr(cell->B[2][a]));
 }
 
-/* Inverse of the covariance of the cells' centroids; false if they lie (almost) in a plane */
+/*
+   Computes the inverse of the scatter matrix of the cells' centroids. Returns false if the centroids lie almost in a
+   plane.
+*/
 static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
 {
   const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1],
@@ -93,7 +98,7 @@ static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mea
   return PETSC_TRUE;
 }
 
-/* Fits the linear polynomial of least squares around a node inside a body */
+/* Fits a linear polynomial of least squares around a node inside a body. Other nodes get the mean of their cells. */
 static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
 {
   const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
@@ -123,7 +128,7 @@ static void NodePatchFit(NodePatch *patch)
   else patch->polynomial.inside = PETSC_FALSE;
 }
 
-/* Star forest: leaves are local nodes that other ranks own, roots are local nodes */
+/* Creates the star forest whose roots are local nodes and whose leaves are local nodes that other ranks own */
 PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
 {
   MPI_Comm           comm = PetscObjectComm((PetscObject)e->dm);
@@ -160,7 +165,7 @@ PetscErrorCode ElasticityCreateNodeSF(Elasticity e, PetscSF *nodes)
   PetscFunctionReturn(0);
 }
 
-/* Sums records of n reals over the ranks that share a node; all of them get the sum */
+/* Sums records of n real numbers over the ranks that share a node. All these ranks get the sum. */
 PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
 {
   MPI_Datatype record;
@@ -194,7 +199,7 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* Adds the polynomials of a cell's interior vertices at its other nodes */
+/* Adds the polynomials of a cell's interior vertices, evaluated at the cell's other nodes, to recovered[] */
 static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES],
   RecoveredNode recovered[])
 {
@@ -214,8 +219,10 @@ static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt n
   }
 }
 
-/* Sets the values at the nodes of the selected bodies' cells of order 1; no two bodies share a node. recovered is
-   zero on entry */
+/*
+   Sets recovered[] at the nodes of the selected bodies' cells of order 1. recovered[] must be zero initially, and no
+   two of these bodies may share a node.
+*/
 PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[])
 {

@@ -1,18 +1,16 @@
-/*
-   Recovered gradients: error estimate, and output fields.
-*/
+/* Private header of recovery: recovered gradients, from which the error estimate and output fields are computed */
 #ifndef RECOVERYIMPL_H
 #define RECOVERYIMPL_H
 
 #include "src/elasticity/elements/elementsimpl.h"
 
-/* recovery.c: displacement gradient (9) and dilatation at the nodes */
+/* recovery.c: recovered displacement gradient (9 values) and dilatation at a node */
 typedef struct {
-  PetscReal n; /* number of polynomials that contributed to a surface node */
+  PetscReal n; /* number of polynomials that contributed to the value */
   PetscReal value[ELEMENT_STRAINS];
 } RecoveredNode;
 
-/* Corner nodes of a cell, whose polynomials are used at its other nodes */
+/* Returns the node that is a corner of the cell. Only corners have polynomials. */
 static inline PetscInt RecoveryCorner(PetscInt nnodes, PetscInt corner)
 {
   return nnodes == 27 ? 2 * (corner & 1) + 6 * (corner >> 1 & 1) + 18 * (corner >> 2) : corner;
@@ -27,7 +25,7 @@ PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBo
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c: recovery of as many remaining bodies as possible at once; the error estimate is public */
+/* estimate.c: recovers the strains of as many remaining bodies as possible at once; its error estimate is public */
 PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[],
   PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
 

@@ -1,7 +1,10 @@
-/* Strain and rotation of bodies with a small-strain law */
+/* Measures strain and rotation of bodies with a law of small strain */
 #include "recoveryimpl.h"
 
-/* Principal strain of largest magnitude, and angle of the infinitesimal rotation, from a displacement gradient */
+/*
+   Computes the largest absolute principal strain, and the angle of the infinitesimal rotation [rad], from a
+   displacement gradient
+*/
 static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
 {
   const PetscReal e[6] = {H[0], H[4], H[8], 0.5 * (H[1] + H[3]), 0.5 * (H[5] + H[7]), 0.5 * (H[2] + H[6])};
@@ -14,7 +17,7 @@ static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, Pet
   PetscFunctionReturn(0);
 }
 
-/* Means over a cell */
+/* Computes the volume of a cell, and the means over the cell of the principal strain and of the rotation angle */
 static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume, PetscReal *strain,
   PetscReal *rotation)
 {
@@ -39,16 +42,17 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the mean strain and rotation of bodies with a small-strain law. u: global displacement, 3
-   components per node [length]; values: two per body: the largest absolute principal strain, averaged with the strain
-   energy as weight, and the rotation angle, averaged over the volume [rad]; 0 for other laws. Strain and rotation are
-   means over a cell. With this weight, unloaded parts have no influence, and the few cells at a singular edge have
-   little. */
+/*
+   Collective. Measures strain and rotation of bodies with a law of small strain. u: global displacement, 3 components
+   per node [length]; values: two per body, namely the mean of the largest absolute principal strain weighted with the
+   strain energy, and the mean of the rotation angle weighted with the volume [rad]; 0 for other laws. With these
+   weights unloaded parts have no influence on the strain, and the few cells at a singular edge have little.
+*/
 PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2])
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* of each body: energy, energy x strain, volume, volume x rotation */
+  PetscReal         *sums; /* per body: energy, energy x strain, volume, volume x rotation */
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));

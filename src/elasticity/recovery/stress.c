@@ -1,4 +1,4 @@
-/* Stress of the cells */
+/* Computes the stress of the cells */
 #include "recoveryimpl.h"
 
 static PetscReal StressVonMises(const PetscReal s[6])
