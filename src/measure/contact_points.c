@@ -1,18 +1,20 @@
-/* Pressure, gap and status at the vertices of both sides of every contact pair. */
+/* Computes pressure, gap and status at the vertices of both sides of every contact pair */
 #include "pair_rows.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Values at the mesh's vertices that belong to the pair. carried: [area, force, gap x area]; sides: [1 mortar, -1
-   nonmortar side; area with pressure; -]; closing: [closed area; facet length x area; force of slipping rows];
-   force: vector */
+/*
+   Values at the mesh's vertices that belong to the pair, three per vertex. carried: covered area, force, gap x area;
+   sides: 1 on the mortar side or -1 on the nonmortar side, area with pressure, unused; closing: closed area, facet
+   length x area, force of slipping rows; force: components of the contact force.
+*/
 typedef struct {
   Vec carried, sides, closing, force;
-  Vec shear, slid; /* friction force on the mortar side [force], and slip x area; NULL without friction */
+  Vec shear, slid; /* friction force on the mortar side [force]; slip x area [length^3]; NULL without friction */
 } PairVertices;
 
-/* contact force J^T (mass x pressure) of the rows of the pair */
+/* Computes the contact force J^T (mass x pressure) of the rows of the pair */
 static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec force)
 {
   const PetscScalar *mass;
@@ -31,7 +33,10 @@ static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionReturn(0);
 }
 
-/* Adds friction at the vertices: to the forces, and to closing[2] the force of slipping rows */
+/*
+   Adds friction at the vertices: computes shear and slid, the force of slipping rows in closing[2], and adds the
+   friction forces to `force`
+*/
 static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, const PairRows *rows,
   PairVertices *vertices)
 {
@@ -61,7 +66,7 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
   PetscFunctionReturn(0);
 }
 
-/* Computes the values of both sides of a pair before agglomeration */
+/* Computes the values of both sides of a pair before agglomeration (nodal_pressure.c) */
 static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, PairVertices *vertices)
 {
   PetscFunctionBegin;
@@ -97,8 +102,10 @@ static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
   PetscFunctionReturn(0);
 }
 
-/* Treats one component of the friction stress like the pressure (nodal_pressure.c), so that both together satisfy the
-   friction law */
+/*
+   Smooths one component of the friction stress like the pressure (nodal_pressure.c), so that both together satisfy the
+   friction law. first: the pair's first point; alone: values before agglomeration.
+*/
 static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone, PetscInt component)
 {
@@ -134,8 +141,10 @@ static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt fi
   PetscFunctionReturn(0);
 }
 
-/* Sets friction stress and slip of the points from number `first` on. Slip is the mean over the covered area before
-   agglomeration (alone) */
+/*
+   Sets friction stress and slip of the pair's points, from number `first` on. The slip is the mean over the covered
+   area before agglomeration, which is in `alone`.
+*/
 static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
   Vec alone)
 {
@@ -172,13 +181,13 @@ static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Whether part is more than half of whole, beyond rounding */
+/* Returns whether `part` is more than half of `whole`, beyond rounding */
 static PetscBool PairIsMostly(PetscReal part, PetscReal whole)
 {
   return (PetscBool)(2.0 * part > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * whole);
 }
 
-/* Appends the pair's points; alone: values before agglomeration */
+/* Appends the pair's points. alone: values before agglomeration. */
 static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows,
   const PairVertices *vertices, Vec alone)
 {
@@ -226,7 +235,10 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscFunctionReturn(0);
 }
 
-/* Sums areas over the nonmortar side's points. first: the pair's first point */
+/*
+   Computes the areas of the nonmortar side's points, the normal force and the largest pressure for the report. first:
+   the pair's first point.
+*/
 static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec sides, PetscInt first,
   PairReport *report)
 {
@@ -260,7 +272,7 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Computes the contact points and reports of all pairs at the last state. Collective. */
 PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
 {
   PetscFunctionBegin;

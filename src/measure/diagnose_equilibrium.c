@@ -1,29 +1,29 @@
 /*
-   Tests whether an equilibrium exists. Contact forces can balance the loads on the bodies only if the negative loads
-   lie in the cone of the generalized contact forces on the free rigid motions of all bodies; each row contributes its
-   normal force with as much friction as that allows. The point of the cone nearest to the negative loads is found by
-   adding rays one by one: the row whose force does the most negative work on the remaining load. If no row does, and a
-   load remains, the remaining load defines a motion that the loads drive and no contact resists: there is no
-   equilibrium (Farkas' lemma).
+   Tests whether an equilibrium exists. Every contact row can exert its normal force, with as much friction as the law
+   allows; these generalized forces on the free rigid motions of all bodies form a cone. Contact can balance the loads
+   only if the negative loads lie in this cone.
+   The point of the cone nearest to the negative loads is found by adding rays one by one: each time the row whose force
+   does the most negative work on the remaining load. If no row does negative work and a load remains, this load defines
+   a motion that the loads drive and no contact resists. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
 #include "src/state/path.h"
 
-#define EQUILIBRIUM_ROWS 3 /* linearizations */
+#define EQUILIBRIUM_ROWS 3 /* number of linearizations whose rows form the cone */
 
-/* The rays whose sum is the nearest point so far, n numbers each, and their factors */
+/* The rays whose sum is the nearest point found so far, with n numbers each, and their factors */
 typedef struct {
   PetscInt   n, nrays, nmax;
-  PetscReal *ray, *normal; /* normal: of the row's normal force alone */
-  PetscReal *amount;       /* [force] */
+  PetscReal *ray, *normal; /* rays; the parts of the rays from the rows' normal forces */
+  PetscReal *amount;       /* factor of each ray [force] */
 } ContactCone;
 
-/* The row that resists a motion most, and its friction, on all ranks */
+/* The row that resists a motion most, and its friction; the same on all ranks */
 typedef struct {
-  PetscReal rate;     /* work of a unit of its force on the motion: negative */
-  PetscInt  row;      /* global row; PETSC_DECIDE: none */
+  PetscReal rate;     /* work of a unit of its force on the motion, negative */
+  PetscInt  row;      /* global row; PETSC_DECIDE: there is none */
   PetscReal shear[2]; /* friction force per normal force */
-  PetscReal normal;   /* 1; or 0: friction alone, which needs almost no normal force */
+  PetscReal normal;   /* normal force: 1, or 0 for friction alone, which needs almost no normal force */
 } ConeRow;
 
 static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
@@ -41,8 +41,10 @@ static PetscErrorCode ConeFree(ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
-/* Finds the row whose force does the most negative work on the remaining load. Pairs that stick, or have a shear
-   limit, allow any friction force. */
+/*
+   Finds the row whose force does the most negative work on the motion w. Pairs that stick, or have a shear limit, allow
+   any friction force.
+*/
 static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
 {
   Vec                rates, slips = NULL;
@@ -93,7 +95,10 @@ static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLineari
   PetscFunctionReturn(0);
 }
 
-/* ray: generalized force of a unit of a row's force on the free motions; shear: including its friction */
+/*
+   Computes the ray of a row: the generalized force on the free motions of a unit of its force. shear: whether friction
+   is included.
+*/
 static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin, const ConeRow *row, PetscBool shear,
   PetscReal ray[])
 {
@@ -127,7 +132,7 @@ static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin,
   PetscFunctionReturn(0);
 }
 
-/* left = load + sum of the rays */
+/* Computes left = load + the sum of the rays */
 static void ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
 {
   for (PetscInt i = 0; i < cone->n; ++i) {
@@ -144,7 +149,7 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* Factors of the rays, of any sign, that leave the smallest remainder; by orthogonalization */
+/* Computes the factors of the rays, of any sign, that leave the smallest remainder of the load, by orthogonalization */
 static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[], PetscReal amount[])
 {
   const PetscInt  n = cone->n, nrays = cone->nrays;
@@ -174,7 +179,7 @@ static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[],
   PetscFunctionReturn(0);
 }
 
-/* Removes rays with zero amount */
+/* Removes rays whose factor is zero */
 static void ConeDrop(ContactCone *cone)
 {
   PetscReal largest = 0.0;
@@ -193,7 +198,10 @@ static void ConeDrop(ContactCone *cone)
   cone->nrays = kept;
 }
 
-/* Non-negative factors of the rays that leave the smallest remainder (Lawson and Hanson's algorithm) */
+/*
+   Computes the non-negative factors of the rays that leave the smallest remainder of the load (Lawson and Hanson's
+   algorithm)
+*/
 static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 {
   PetscReal *wanted, part = 0.0;
@@ -216,8 +224,10 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
   PetscFunctionReturn(0);
 }
 
-/* left: the part of the loads that contact forces cannot balance; size: sum of the magnitudes of the nodal loads. none:
-   no equilibrium exists, or only one with contact forces of a thousand times the loads */
+/*
+   Computes the part of the loads that contact forces cannot balance (left). size: sum of the magnitudes of the nodal
+   loads; *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
+*/
 static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
   const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
 {
@@ -253,7 +263,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Removes from a motion the part that opens rows with pressure: bodies slide and do not climb */
+/* Removes from a motion the part that opens rows with pressure, so that bodies slide and do not lift off */
 static void ConeSlide(const ContactCone *cone, PetscReal motion[])
 {
   const PetscInt n   = cone->n;
@@ -279,7 +289,7 @@ static void ConeSlide(const ContactCone *cone, PetscReal motion[])
   }
 }
 
-/* Sum of the magnitudes of the nodal loads */
+/* Computes the sum of the magnitudes of the nodal loads */
 static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
 {
   const PetscScalar *f;
@@ -297,9 +307,11 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* Linearizes contact at the last state three times: with the usual search distance; with dual functions, whose forces
-   may act at the edges of faces; and with a search distance of the size of the bodies, because a moving body may meet
-   other faces */
+/*
+   Linearizes contact at the last state three times: with the usual search distance; with dual functions, whose forces
+   may act at the edges of faces; and with a search distance of the size of the bodies, since a moving body may reach
+   other faces
+*/
 static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
   Simulation sim = m->sim;
@@ -317,7 +329,7 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* Reports the motion of the bodies that contact does not hold; left: unbalanced load on the free motions */
+/* Reports the motion of the bodies that contact does not hold. left: unbalanced load on the free motions. */
 static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone *cone, const PetscReal left[],
   PetscBool frictional, StepReport *report)
 {
@@ -337,7 +349,7 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   PetscFunctionReturn(0);
 }
 
-/* The rotations of rigid bodies that turn freely, and the load on these bodies, are those of the last state */
+/* Rotates free rigid bodies, and the load on these bodies, back to the last state */
 static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec load)
 {
   const Constraints constraints = SimulationConstraints(sim);
@@ -351,8 +363,8 @@ static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec lo
 }
 
 /*
-   Called after a solve without solution. none: whether no equilibrium exists for these loads and the positions of the
-   last state; the report then names the moving body and its motion
+   Tests, after a solve failed, whether an equilibrium exists for the loads at `time` and the positions of the last
+   state. *none: no equilibrium exists; the report then names the moving body and its motion.
 */
 PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {

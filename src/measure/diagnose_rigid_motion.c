@@ -1,11 +1,14 @@
-/* If nothing stops a body, the energy is unbounded below. Finds the body and describes its motion. */
+/* Finds the body that moves without limit if the energy is unbounded below, and describes its motion */
 #include "measureimpl.h"
 #include <vector3.h>
 
-/* Sums over the nodes of a body with coordinates X and displacements u; only reals, to be summed over ranks at once */
+/*
+   Sums over the nodes of a body with coordinates X and displacements u. All members are real numbers, so that they are
+   summed over the ranks at once.
+*/
 typedef struct {
-  PetscReal n, place[3], shift[3];    /* number of nodes, sums of X and u */
-  PetscReal moment[3], inertia[3][3]; /* sums of X x u and of |X|^2 I - X X^T */
+  PetscReal n, place[3], shift[3];    /* number of nodes; sum of X; sum of u */
+  PetscReal moment[3], inertia[3][3]; /* sum of X x u; sum of |X|^2 I - X X^T */
   PetscReal square;                   /* sum of |u|^2 */
 } RigidFitSums;
 
@@ -13,11 +16,11 @@ typedef struct {
 typedef struct {
   PetscReal center[3], t[3], w[3];
   PetscReal turned;   /* root mean square of w x (X - center) */
-  PetscReal residual; /* root mean square of the displacements without the motion, relative to that of the
+  PetscReal residual; /* root mean square of the displacements minus the motion, relative to that of the
                          displacements */
 } RigidFit;
 
-/* Collective. The body with the largest displacement component, and its value */
+/* Finds the body with the largest displacement component, and that component. Collective. */
 static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
 {
   const PetscInt     nbodies = sim->scene->nbodies;
@@ -74,7 +77,10 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
   PetscFunctionReturn(0);
 }
 
-/* Least squares: t is the mean displacement, w from the inertia and the moment about the center, by Cramer's rule */
+/*
+   Fits the motion by least squares: t is the mean displacement, and w follows from the inertia and the moment about the
+   center, by Cramer's rule
+*/
 static void RigidFitFit(RigidFitSums *sums, RigidFit *fit)
 {
   PetscReal moment[3], cross[3][3], turned, *inertia = &sums->inertia[0][0];
@@ -89,12 +95,15 @@ static void RigidFitFit(RigidFitSums *sums, RigidFit *fit)
     inertia[k] -= (k % 4 == 0) * VectorDot(sums->place, fit->center) - sums->place[k / 3] * fit->center[k % 3];
   for (PetscInt i = 0; i < 3; ++i) VectorCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
   for (PetscInt i = 0; i < 3; ++i) fit->w[i] = VectorDot(cross[i], moment) / VectorDot(sums->inertia[0], cross[0]);
-  turned        = VectorDot(fit->w, moment) / sums->n; /* w . inertia w */
+  turned        = VectorDot(fit->w, moment) / sums->n; /* equals w . inertia w */
   fit->turned   = PetscSqrtReal(PetscMax(turned, 0.0));
   fit->residual = PetscSqrtReal(PetscMax(1.0 - (turned + VectorDot(fit->t, fit->t)) * sums->n / sums->square, 0.0));
 }
 
-/* Rounds x to a power of ten below the unit, and avoids minus zero, so that rounding errors are not printed */
+/*
+   Returns x rounded to a multiple of the power of ten below `unit`, without a minus sign for zero, so that rounding
+   errors are not printed
+*/
 static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
 {
   const PetscReal power = PetscPowReal(10.0, PetscFloorReal(PetscLog10Real(unit)));
@@ -102,10 +111,12 @@ static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
   return PetscFloorReal(x / power + 0.5) * power + 0.0;
 }
 
-/* Text for the motion of an unrestrained body: turns over, moves away, or neither as a whole */
+/*
+   Writes a text for the motion of a body that nothing holds: it turns over, moves away, or moves neither way as a whole
+*/
 static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length)
 {
-  const PetscReal part = 0.1; /* smallest part of a motion that is mentioned */
+  const PetscReal part = 0.1; /* smallest relative part of a motion that is mentioned */
   PetscReal       axis[3], arm, radius, size;
   RigidFit        fit;
 
@@ -135,7 +146,10 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
   PetscFunctionReturn(0);
 }
 
-/* Collective. Appends to the reason of a failed step the body with the largest displacement, and `known` */
+/*
+   Appends a description of the body with the largest displacement, and the text `known`, to the reason of a failed
+   step. Collective.
+*/
 PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], StepReport *report)
 {
   RigidFitSums sums;

@@ -1,15 +1,15 @@
-/* Forces and moments of pairs, faces and bodies. */
+/* Computes forces and moments of pairs, faces and bodies */
 #include "measureimpl.h"
 #include <vector3.h>
 #include <string.h>
 #include "src/state/contact_state.h"
 
-/* A force and its moment about the origin [force], [force length] */
+/* A force [force] and its moment about the origin [force length] */
 typedef struct {
   PetscReal force[3], moment[3];
 } ForceSum;
 
-/* Deformed coordinates of the owned vertices, and the forces at them */
+/* Undeformed coordinates and displacements of the owned vertices, and the forces at them */
 typedef struct {
   PetscInt           rstart, n;
   const PetscScalar *x, *u, *force;
@@ -35,7 +35,7 @@ static PetscErrorCode ForceFieldRestore(Simulation sim, Vec u, Vec force, ForceF
   PetscFunctionReturn(0);
 }
 
-/* Adds the force of one row, divided by the number of faces that share it */
+/* Adds the force of one row, divided by the number of faces that share the row */
 static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt sharers, ForceSum *sum)
 {
   const PetscInt  i = row - field->rstart, c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
@@ -46,7 +46,10 @@ static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt share
   sum->moment[e] -= PetscRealPart(field->x[v + d] + field->u[v + d]) * f;
 }
 
-/* Adds the forces on a face, for the given components; sharers: number of faces for each row of this rank, NULL: one */
+/*
+   Adds the forces on a face, for the components that are true in component[]. sharers: number of faces that share each
+   row of this rank; NULL: one.
+*/
 static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
   const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
 {
@@ -75,7 +78,7 @@ static PetscErrorCode ForceSumReduce(MPI_Comm comm, PetscInt n, ForceSum sums[])
   PetscFunctionReturn(0);
 }
 
-/* Index of a face in the report; it is appended if it is new */
+/* Returns the index of a face in the report. A new face is appended. */
 static PetscInt ForcesFindFace(StepReport *report, const char name[])
 {
   PetscInt f = 0;
@@ -85,7 +88,7 @@ static PetscInt ForcesFindFace(StepReport *report, const char name[])
   return f;
 }
 
-/* Replaces the report's lists of pairs, faces and bodies by zeros */
+/* Creates the report's lists of pairs, faces and bodies, with zeros */
 PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
 {
   Scene scene = sim->scene;
@@ -116,8 +119,10 @@ PetscErrorCode ForcesFree(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* sides: sums of J^T (mass x pressure) of the pair's rows, and of their friction, over the nonmortar and the mortar
-   side */
+/*
+   Computes the sums of the pair's contact forces, J^T (mass x pressure) and friction, over the nonmortar side
+   (sides[0]) and the mortar side (sides[1])
+*/
 static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
   ForceSum sides[2])
 {
@@ -146,7 +151,10 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscFunctionReturn(0);
 }
 
-/* weighted: mass x pressure, one per row of sim->solved->linearization; shear: friction forces, or NULL */
+/*
+   Computes the contact forces of all pairs. weighted: mass x pressure, one entry per row of sim->solved->linearization;
+   shear: friction forces, or NULL.
+*/
 PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
 {
   ForceSum *sides;
@@ -171,7 +179,7 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear
   PetscFunctionReturn(0);
 }
 
-/* sharers: number of faces that prescribe each row */
+/* Counts the faces that prescribe each row */
 static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscInt sharers[])
 {
   PetscFunctionBegin;
@@ -195,8 +203,10 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Adds the forces at all nodes of a face (of an inclined symmetry plane, or of a rigid body driven by forces), and
-   zeroes them in `ties` */
+/*
+   Adds the forces at all nodes of a face to *sum, and sets them to zero in `ties`. Used for the face of an inclined
+   symmetry plane, or of a rigid body that is driven by forces.
+*/
 static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -223,8 +233,10 @@ static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char 
   PetscFunctionReturn(0);
 }
 
-/* reaction: forces in prescribed rows. ties: forces on the bodies, rigid: on the rigid bodies; NULL: none. What
-   remains of ties belongs to joints */
+/*
+   Computes the reactions of all faces. reaction: forces in prescribed rows; ties: forces of ties on the bodies, of
+   which those that remain belong to joints; rigid: forces on the rigid bodies. ties and rigid may be NULL.
+*/
 PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum  *sums;
@@ -259,7 +271,7 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties,
   PetscFunctionReturn(0);
 }
 
-/* Report of the body of a face <body>.<face> */
+/* Returns the report of the body of a face <body>.<face> */
 static BodyReport *ForcesFindBody(StepReport *report, const char face[])
 {
   for (PetscInt b = 0; b < report->nbodies; ++b) {
@@ -287,7 +299,10 @@ static PetscErrorCode ForcesMeasureConnectors(Simulation sim, Vec u, StepReport 
   PetscFunctionReturn(0);
 }
 
-/* Adds to one of the body's sums, and its magnitude to balance, which is normalized at the end */
+/*
+   Adds a force to one of the body's sums and to its residual. The magnitude is added to body->balance, which is
+   normalized at the end.
+*/
 static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3])
 {
   PetscFunctionBegin;
@@ -347,8 +362,10 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* Sums the bodies' forces from the pairs and faces as reported, springs, ties and loads (NULL: none). Forces below
-   rounding count as balanced */
+/*
+   Sums the forces on each body: those of pairs and faces from the report, springs, ties and loads (NULL: none). Forces
+   below `rounding` count as balanced.
+*/
 PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
   PetscReal largest = 0.0;

@@ -1,10 +1,11 @@
-/* The rigid motions of the bodies that are resisted by contact only, not by prescribed displacements, springs or
-   ties. */
+/* Computes the rigid motions of the bodies that only contact resists, but no prescribed displacement, spring or tie */
 #include "measureimpl.h"
 #include "src/state/path.h"
 
-/* Positions of the bodies' nodes. Those of bodies at small strain are undeformed, as in their energy, unless rigid
-   bodies turn. */
+/*
+   Gets the positions of the bodies' nodes. For bodies at small strain they are undeformed, as in the energy, unless
+   rigid bodies turn.
+*/
 static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
 {
   PetscBool linear;
@@ -45,7 +46,10 @@ static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
   PetscFunctionReturn(0);
 }
 
-/* w: displacements of the bodies' motions, 6 per body: translations, and angles x body size */
+/*
+   Computes the displacements w for motions of the bodies, 6 numbers per body: translations, and rotation angles times
+   the size of the body
+*/
 static PetscErrorCode FreeMotionsDisplaceBodies(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
   const PetscScalar *x;
@@ -67,7 +71,7 @@ static PetscErrorCode FreeMotionsDisplaceBodies(const FreeMotions *m, const Pets
   PetscFunctionReturn(0);
 }
 
-/* motion: work of forces on the bodies' motions, 6 per body */
+/* Computes the work of forces on the bodies' motions, 6 numbers per body */
 static PetscErrorCode FreeMotionsSumBodies(const FreeMotions *m, Vec force, PetscReal motion[])
 {
   const PetscScalar *x, *f;
@@ -92,7 +96,10 @@ static PetscErrorCode FreeMotionsSumBodies(const FreeMotions *m, Vec force, Pets
   PetscFunctionReturn(0);
 }
 
-/* force: resistance to displacements w in prescribed, sprung and tied rows, each with a stiffness of about 1 */
+/*
+   Computes the force with which prescribed, sprung and tied rows resist displacements w, with a stiffness of about 1
+   each
+*/
 static PetscErrorCode FreeMotionsResist(const FreeMotions *m, Vec w, Vec resisted, Vec force)
 {
   Simulation sim = m->sim;
@@ -120,7 +127,7 @@ static PetscErrorCode FreeMotionsResist(const FreeMotions *m, Vec w, Vec resiste
   PetscFunctionReturn(0);
 }
 
-/* resisted: 1 in rows that are prescribed or have a spring, else 0 */
+/* Sets `resisted` to 1 in rows that are prescribed or have a spring, and to 0 in the others */
 static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec resisted)
 {
   PetscScalar       *a;
@@ -142,7 +149,7 @@ static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec resisted)
   PetscFunctionReturn(0);
 }
 
-/* resistance[6 nbodies x 6 nbodies]: symmetric matrix of the resistance to the bodies' motions */
+/* Computes the symmetric matrix of the resistance to the bodies' motions, [6 nbodies x 6 nbodies] */
 static PetscErrorCode FreeMotionsMeasureResistance(const FreeMotions *m, PetscReal resistance[])
 {
   const PetscInt size = 6 * m->nbodies;
@@ -170,11 +177,13 @@ static PetscErrorCode FreeMotionsMeasureResistance(const FreeMotions *m, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Gauss elimination with the largest resistance first; pivot[k]: the k-th motion; n: number of motions with
-   resistance */
+/*
+   Eliminates by Gauss's method, each time the motion with the largest resistance. pivot[k]: k-th eliminated motion; *n:
+   number of motions with resistance.
+*/
 static void FreeMotionsEliminate(PetscInt size, PetscReal a[], PetscInt pivot[], PetscInt *n)
 {
-  const PetscReal none = 1e-9; /* relative to the resistance of one held node or more */
+  const PetscReal none = 1e-9; /* relative to the resistance of a held node, which is about 1 */
   PetscBool       more = PETSC_TRUE;
 
   for (*n = 0; more && *n < size; *n += more) {
@@ -200,7 +209,7 @@ static void FreeMotionsEliminate(PetscInt size, PetscReal a[], PetscInt pivot[],
   }
 }
 
-/* Makes the newest motion orthogonal to the earlier ones, and of length 1 */
+/* Makes motion n orthogonal to the earlier ones, and of length 1 */
 static void FreeMotionsOrthonormalize(PetscInt size, PetscInt n, PetscReal motion[])
 {
   PetscReal *v = &motion[size * n], square = 0.0;
@@ -216,7 +225,7 @@ static void FreeMotionsOrthonormalize(PetscInt size, PetscInt n, PetscReal motio
   for (PetscInt i = 0; i < size; ++i) v[i] /= PetscSqrtReal(square);
 }
 
-/* Finds the motions without resistance: one for each remaining unknown of the elimination */
+/* Computes the motions without resistance, one for each motion that was not eliminated */
 static PetscErrorCode FreeMotionsFind(FreeMotions *m)
 {
   const PetscInt size = 6 * m->nbodies;
@@ -242,7 +251,7 @@ static PetscErrorCode FreeMotionsFind(FreeMotions *m)
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Computes the free motions at the last state. Collective. */
 PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
 {
   PetscFunctionBegin;
@@ -253,7 +262,7 @@ PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
   PetscFunctionReturn(0);
 }
 
-/* w: displacements of the sum of the free motions */
+/* Computes the displacements w of a combination of the free motions */
 PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
   const PetscInt size = 6 * m->nbodies;
@@ -269,7 +278,7 @@ PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[
   PetscFunctionReturn(0);
 }
 
-/* motion: work of forces on the free motions */
+/* Computes the work of forces on the free motions */
 PetscErrorCode FreeMotionsSum(const FreeMotions *m, Vec force, PetscReal motion[])
 {
   const PetscInt size = 6 * m->nbodies;

@@ -1,11 +1,16 @@
-/* Work dissipated by friction: the work of the friction forces on the vertices. Vertex forces are used because
-   covered areas and rows change between load steps. */
+/*
+   Computes the work dissipated by friction, as the work of the friction forces at the vertices. Forces at vertices are
+   used, since covered areas and rows change between load steps.
+*/
 #include "measureimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Friction coefficient of a pair at this time: 0 without friction, PETSC_INFINITY if pressure does not limit it */
+/*
+   Gets the friction coefficient of a pair at a time: 0 without friction, PETSC_INFINITY if the pressure does not limit
+   the friction
+*/
 PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt which, PetscReal *coefficient)
 {
   const SceneContactPair *pair   = &scene->pairs[which];
@@ -22,8 +27,10 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
   PetscFunctionReturn(0);
 }
 
-/* For one pair, at the vertices of both sides that this rank owns: the present friction forces, and minus the work
-   since the last state of the mean of the forces at both states */
+/*
+   Computes, for one pair and the vertices of both sides that this rank owns, the present friction forces, and minus the
+   work that the mean of the forces at the last and the present state has done since the last state
+*/
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])
 {
@@ -48,7 +55,9 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const C
   PetscFunctionReturn(0);
 }
 
-/* sums[2 pair + 1] += magnitudes of the rows' friction forces, in proportion to their covered part */
+/*
+   Adds the magnitudes of the rows' friction forces to sums[2 pair + 1], in proportion to the covered part of each row
+*/
 static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSolution *sol, PetscReal sums[])
 {
   const PetscScalar *f, *mass;
@@ -65,7 +74,10 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
   PetscFunctionReturn(0);
 }
 
-/* For every pair: work since the start, up to the solution `sol` at u, and sum of the magnitudes of the forces */
+/*
+   Computes for every pair the work of friction from the start to the solution `sol` at u, and the sum of the magnitudes
+   of the friction forces
+*/
 PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
 {
   const Bodies          bodies = SimulationBodies(sim);
@@ -99,7 +111,7 @@ PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol
   PetscFunctionReturn(0);
 }
 
-/* Adds the dissipation up to u to the history, and stores the forces at u */
+/* Adds the dissipation up to u to the history, and stores the friction forces at u */
 static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
 {
   const Bodies       bodies = SimulationBodies(sim);
@@ -126,8 +138,10 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
   PetscFunctionReturn(0);
 }
 
-/* Makes the solution at u the new state of equilibrium: adds its dissipation and slip to the history; later slip is
-   counted from here */
+/*
+   Makes the solution at u the new state of equilibrium: adds its dissipation and slip to the history. Later slip is
+   relative to this state.
+*/
 PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
 {
   ContactLinearization lin = sim->solved->linearization;
@@ -156,7 +170,7 @@ PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
   PetscFunctionReturn(0);
 }
 
-/* After a state was restored from a checkpoint: its friction forces become those of the last solve */
+/* Makes the friction forces of a state that was restored from a checkpoint those of the last solve */
 PetscErrorCode FrictionRecall(Simulation sim)
 {
   ContactHistory *m = sim->history;
@@ -166,7 +180,10 @@ PetscErrorCode FrictionRecall(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Adds the friction forces at the vertices, of one pair or of all (PETSC_DECIDE), to force */
+/*
+   Adds the friction forces at the vertices to `force`. pair: the pair to which they belong, or PETSC_DECIDE for all
+   pairs.
+*/
 PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
 {
   PetscScalar *f;

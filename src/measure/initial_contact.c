@@ -1,14 +1,16 @@
-/* State of the contact pairs at the start, and warnings about what the scene does not declare. */
+/* Describes the contact pairs at the start, and warns of overlaps that the scene does not declare */
 #include "measureimpl.h"
 #include <math.h>
 
-#define START_ROUNDING 1e-6 /* an overlap below this fraction of the square root of the facing area is rounding */
+#define START_ROUNDING \
+  1e-6 /* largest overlap that counts as rounding error, as a fraction of the square root of the
+                               facing area */
 
 /* The nonmortar side of a pair in the undeformed state */
 typedef struct {
-  PetscInt  n;              /* number of vertices with the mortar face within the search distance */
+  PetscInt  n;              /* number of vertices that have the mortar face within the search distance */
   PetscReal least, largest; /* smallest and largest gap; negative: overlap [length] */
-  PetscReal area, overlap;  /* area of these vertices; of those that overlap [length^2] */
+  PetscReal area, overlap;  /* area of these vertices; area of those that overlap [length^2] */
 } PairStart;
 
 static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart starts[])
@@ -33,7 +35,7 @@ static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart start
   PetscFunctionReturn(0);
 }
 
-/* Measures gaps and overlaps; overlaps within rounding are ignored */
+/* Measures gaps and overlaps. Overlaps of the size of rounding errors are ignored. */
 static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, PetscInt npairs, PairStart starts[])
 {
   PetscFunctionBegin;
@@ -52,7 +54,7 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
   PetscFunctionReturn(0);
 }
 
-/* Advice for an overlap that the scene has not declared (correctly); NULL: it is fine */
+/* Returns a text that says how the overlap differs from what the scene declares; NULL: it does not differ */
 static const char *StartJudge(const SceneContactPair *pair, const PairStart *start)
 {
   if (start->overlap == 0.0) return pair->interference > 0.0 ? "which the scene says they do" : NULL;
@@ -80,8 +82,10 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* Warns of initial overlaps that the scene has not declared (correctly), and of friction that cannot act; lin: at
-   zero displacement */
+/*
+   Warns of initial overlaps that the scene has not declared or declares differently, and of friction that cannot act.
+   lin: linearization at zero displacement.
+*/
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
   Scene      scene = sim->scene;
@@ -108,7 +112,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   PetscFunctionReturn(0);
 }
 
-/* After the last load step: warns of pairs that were open in all load steps */
+/* Warns, after the last load step, of pairs that were open in all load steps */
 PetscErrorCode StartWarnOfUnmet(Simulation sim)
 {
   const RunReport *run = &sim->report;
@@ -117,7 +121,7 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscReal area = 0.0;
 
-    if (sim->scene->pairs[p].why) continue; /* found by a rule, in case they meet */
+    if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
     if (area == 0.0)
       PetscCall(ReportWarn(sim->comm, &sim->report,

@@ -1,4 +1,4 @@
-/* Measures a state from the elements and the contact rows: forces, gaps, equilibrium, errors. */
+/* Measures a state from the elements and the contact rows: forces, gaps, equilibrium, errors */
 #include "measureimpl.h"
 #include <vector3.h>
 #include <math.h>
@@ -7,11 +7,14 @@
 #include "src/state/results.h"
 #include "src/state/run.h"
 
-/* Relative sum of the contact forces on both sides, q = J_full^T M z; it is zero if action equals reaction */
+/*
+   Computes the magnitude of the sum of the contact forces on both sides, q = J_full^T M z, relative to the sum of their
+   magnitudes. It is zero if action equals reaction.
+*/
 static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
 {
   const PetscScalar *a;
-  PetscReal          sums[4] = {0, 0, 0, 0}; /* total force, and sum of the magnitudes of vertex forces */
+  PetscReal          sums[4] = {0, 0, 0, 0}; /* sum of the forces; sum of the magnitudes of the forces at vertices */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -47,7 +50,7 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Adds the squared errors of cells to those of earlier load steps */
+/* Adds the squared errors of the cells to those of earlier load steps */
 static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
 {
   PetscInt cstart, cend;
@@ -61,8 +64,10 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
   PetscFunctionReturn(0);
 }
 
-/* Estimates the discretization error in the energy norm, relative to that of the displacement; report->energy must be
-   set. moves: the bodies only move; their energy is rounding */
+/*
+   Estimates the discretization error in the energy norm, relative to the energy norm of the displacement.
+   report->energy must be set. moves: the bodies only move, so that their energy is rounding error.
+*/
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {
   const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
@@ -82,9 +87,10 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
 }
 
 /*
-   Relative error in energy due to the solver: sum m |gap z| (duality gap), work of the residual forces, and work of the
-   pressures on the difference between true and linearized gap; each to first order, divided by twice the energy. moves:
-   the bodies only move and their energy is rounding, so that nothing is relative to it
+   Estimates the relative error in energy that the solver leaves. It is the sum of three terms, to first order, divided
+   by twice the energy: the duality gap sum m |gap z|; the work of the residual forces; and the work of the pressures on
+   the difference between the updated and the linearized gap. moves: the bodies only move, so that there is no energy to
+   which an error is relative.
 */
 static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSolution *sol, Vec weighted,
   PetscBool moves, StepReport *report)
@@ -114,7 +120,9 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   PetscFunctionReturn(0);
 }
 
-/* Reactions, which in the impact scheme are a part of what is unbalanced. ties, rigid: may be NULL */
+/*
+   Scales the reactions. In the impact scheme they are only a part of the unbalanced forces. ties and rigid may be NULL.
+*/
 static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Vec rigid)
 {
   const Vec forces[] = {force, ties, rigid};
@@ -125,7 +133,7 @@ static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Ve
   PetscFunctionReturn(0);
 }
 
-/* Contact forces that a time step has beside those of its end */
+/* Moves the contact forces that a time step has in addition to those at its end from `force` to `inertia` */
 static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
 {
   const PetscReal more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
@@ -136,7 +144,7 @@ static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec for
   PetscFunctionReturn(0);
 }
 
-/* Reports the plastic work separately from the energy, and the largest plastic strains */
+/* Reports the plastic work separately from the energy, and the largest plastic strain of each body */
 static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 {
   PetscReal *largest;
@@ -157,7 +165,7 @@ static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 /*
    Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
    residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
-   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis
+   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis.
 */
 PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
   StepReport *report)
@@ -165,11 +173,11 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, dead = load;
   PetscReal         size, residual, rounding;
-  PetscBool         moves; /* the bodies only move as a whole, without stress */
+  PetscBool         moves; /* whether the bodies only move as a whole, without stress */
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
-  rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding level of the forces on such bodies */
+  rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding error of the forces on bodies without stress */
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
@@ -178,7 +186,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(VecNorm(force, NORM_2, &size));
   moves = (PetscBool)(size <= rounding);
   if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
-  if (inertia) dead = inertia; /* with it */
+  if (inertia) dead = inertia; /* the loads together with the forces of inertia */
   if (dead) PetscCall(VecAXPY(force, -1.0, dead));
   if (sol->pressure) {
     PetscCall(MeasureGap(sol, report));
@@ -198,7 +206,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report)); /* with all forces on faces */
+  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report)); /* needs all forces on faces */
   if (SchemeIsImpact(&sim->scene->dynamics)) {
     PetscCall(MeasureShareForces(sim, force, ties, rigid));
     PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));

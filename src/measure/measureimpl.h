@@ -1,13 +1,13 @@
 /*
-   Measurement of a state, which is not changed: forces, work, contact results, fields, errors. Files are in the order
-   in which they depend on each other.
+   Private header of measure: results of a state, which is not changed: forces, work, contact results, fields, errors.
+   The files are listed such that each depends only on those before it.
 */
 #ifndef MEASUREIMPL_H
 #define MEASUREIMPL_H
 
 #include "src/state/stateimpl.h"
 
-#define MEASURE_ROUNDING 1e-11 /* of forces, relative to the stiffness and the largest displacement */
+#define MEASURE_ROUNDING 1e-11 /* rounding error of forces, relative to the stiffness times the largest displacement */
 
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
@@ -19,13 +19,13 @@ PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 /* diagnose_rigid_motion.c */
 PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], StepReport *);
 
-/* free_motions.c: rigid motions of all bodies that prescribed displacements, springs and ties do not resist */
+/* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {
   Simulation sim;
   PetscInt   nbodies, n;
   Vec        x;             /* coordinates of the nodes [length] */
-  PetscReal *center, *size; /* 3 per body, 1 per body [length] */
-  PetscReal *motion;        /* [6 nbodies n], orthonormal: for each body three translations, and three angles times
+  PetscReal *center, *size; /* centre (3 numbers) and size of each body [length] */
+  PetscReal *motion;        /* [6 nbodies n], orthonormal; for each body three translations, and three angles times
                                its size */
 } FreeMotions;
 
@@ -37,7 +37,7 @@ PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
 /* diagnose_equilibrium.c */
 PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Simulation, PetscReal time, Vec load, StepReport *, PetscBool *none);
 
-/* forces.c: forces and moments by pair, by face and by body */
+/* forces.c: forces and moments of pairs, faces and bodies */
 PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
@@ -45,18 +45,26 @@ PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec
   StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
-/* nodal_pressure.c: smooths the values of vertices at the edge of the other side's covered area, face by face:
-   [area, force, gap x area] per vertex */
+/*
+   nodal_pressure.c: smooths the values (area, force, gap x area) of vertices at the edge of the area that the other
+   side covers
+*/
 PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
 
-/* contact_points.c: pressure, gap and status on both sides of every pair: sim->solved->points, and the report */
+/*
+   contact_points.c: computes sim->solved->points, with pressure, gap and status on both sides of every pair, and the
+   pairs' reports
+*/
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
-/* penetration.c: penetration of vertices; gaps of mortar pairs are means */
+/* penetration.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
-/* pair_mesh.c, strain.c: warnings about too coarse contact meshes, and about strains too large for small-strain laws */
+/*
+   pair_mesh.c, strain.c: warn of contact meshes that are too coarse, and of strains that are too large for laws of
+   small strain
+*/
 PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
 PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
 

@@ -1,10 +1,10 @@
-/* Energies and momentum in dynamics. */
+/* Energies and momentum in dynamics */
 #include "measureimpl.h"
 
 /*
-   Called when the velocity at u and the work up to u are known. The energy balance: the work of the loads plus the
-   first kinetic energy, minus kinetic energy, stored energy, work of contact and of damping, is what the time
-   integration has lost
+   Computes energies and momentum. Velocities at u and the work up to u must be known. The numerical dissipation is the
+   energy that the time integration has lost: the work of the loads plus the initial kinetic energy, minus kinetic
+   energy, stored energy, and the work of contact, damping and plasticity.
 */
 PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
 {

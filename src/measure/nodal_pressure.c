@@ -1,29 +1,31 @@
 /*
-   Nodal contact pressure. The pressure of a row is its force divided by the area that the other side covers around its
-   vertex. If that area is tiny, both are small and the quotient is inaccurate. Such a vertex passes force and area to
-   the better covered vertices of its facets, in proportion to their areas. Where the other side ends in an edge, the
-   pressure is singular and oscillates at the vertices near the edge. Vertices within a few facets of partly covered
-   ones exchange force in proportion to their differences of pressure. Both steps preserve the sums over a side, keep
-   pressures non-negative, and change nothing elsewhere.
+   Computes nodal contact pressures. The pressure of a row is its force divided by the area that the other side covers
+   around its vertex. If that area is tiny, both are small and the quotient is inaccurate. Such a vertex passes its
+   force and area to the better covered vertices of its facets, in proportion to their areas (agglomeration).
+   At an edge of the other side the pressure is singular, and oscillates at the vertices near the edge. Vertices within
+   a few facets of partly covered vertices exchange force in proportion to their differences of pressure (smoothing).
+   Both steps preserve the sums over a side, keep pressures non-negative, and change nothing elsewhere.
 */
 #include "measureimpl.h"
 
 static const PetscReal cover_ratio     = 0.3; /* a vertex passes its values on if its covered area is below this
-                                                 fraction of a neighbour's */
+                                                 fraction of a neighbour's covered area */
 static const PetscReal cover_partial   = 0.8; /* a vertex is partly covered if less than this fraction of its area is
                                                  covered */
-static const PetscInt  cover_rings     = 4;   /* number of rings of facets around such vertices in which pressures
-                                                 are smoothed */
+static const PetscInt  cover_rings     = 4;   /* number of rings of facets around partly covered vertices in which
+                                                 pressures are smoothed */
 static const PetscInt  cover_exchanges = 3;
 static const PetscReal cover_rounding =
-  1e-8; /* tolerance for these limits: meshes with simple fractions meet them exactly */
+  1e-8; /* relative tolerance of these limits, since the fractions of regular meshes may equal them */
 
-/* Facets of both faces of a pair (those of order 2 divided at their nodes), and data of their vertices in the order
-   of local vectors */
+/*
+   Facets of both faces of a pair, and data of their vertices in the order of local vectors. Facets of order 2 are
+   divided at their nodes.
+*/
 typedef struct {
   PetscInt nfacets, *offset; /* [4 nfacets] offset of each vertex's values */
-  Vec      cover; /* covered fraction of the vertex's area; covered area; sum of the areas that it passes values to
-                     (0: none) */
+  Vec      cover; /* per vertex: covered fraction of its area; covered area; sum of the areas to which it passes its
+                     values, 0 if to none */
 } CoverFacets;
 
 static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets)
@@ -52,11 +54,13 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
   PetscFunctionReturn(0);
 }
 
-/* Each vertex with a small covered area passes its values to better covered vertices of its facets. out: the values
-   received. carried NULL: out is the sum of the receiving vertices' areas */
+/*
+   Lets each vertex with a small covered area pass its values to better covered vertices of its facets. out: the values
+   that vertices receive. If `carried` is NULL, out[2] is the sum of the receiving vertices' areas.
+*/
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
-  Vec                local[3]; /* cover, carried, out */
+  Vec                local[3]; /* local vectors of cover, carried, out */
   const PetscScalar *r, *c = NULL;
   PetscScalar       *o;
 
@@ -87,7 +91,7 @@ static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried,
   PetscFunctionReturn(0);
 }
 
-/* Creates the data from covered areas and areas of the whole faces */
+/* Creates the data from covered areas and from the areas of the whole faces */
 static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, Vec carried, CoverFacets *facets)
 {
   Vec                whole;
@@ -126,7 +130,10 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
   PetscFunctionReturn(0);
 }
 
-/* Replaces the values that were passed on by the gains; left: area remaining at vertices that pass on */
+/*
+   Replaces the values of vertices that pass them on by the values that they receive, and adds the received values at
+   the others. *left: area that remains at vertices that pass their values on.
+*/
 static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried, PetscReal *left)
 {
   const PetscScalar *g, *r;
@@ -152,7 +159,9 @@ static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried
   PetscFunctionReturn(0);
 }
 
-/* Repeats until no vertex passes values on. It terminates because covered areas only grow. */
+/*
+   Lets vertices pass their values on until none has values to pass on. This terminates, since covered areas only grow.
+*/
 static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gain, Vec carried)
 {
   PetscReal left = 1.0;
@@ -165,8 +174,10 @@ static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gai
   PetscFunctionReturn(0);
 }
 
-/* Sets the first value of `edge` to a positive number at partly covered vertices, then ring by ring at all vertices
-   of facets that contain such a vertex */
+/*
+   Sets the first value of `edge` to a positive number at partly covered vertices, and then, ring by ring, at all
+   vertices of facets that contain a vertex with a positive number
+*/
 static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
 {
   const PetscScalar *r, *e;
@@ -202,14 +213,16 @@ static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
   PetscFunctionReturn(0);
 }
 
-/* Number of vertices: a triangle repeats its last one */
+/* Returns the number of vertices of a facet. A triangle repeats its last vertex. */
 static PetscInt CoverCountVertices(const PetscInt v[4])
 {
   return v[2] == v[3] ? 3 : 4;
 }
 
-/* Exchange between the vertices of a facet: off-diagonal entries of its mass matrix times the differences of their
-   pressures */
+/*
+   Exchanges force between the vertices of a facet: the off-diagonal entries of its mass matrix times the differences of
+   their pressures
+*/
 static void CoverExchangeFacet(const PetscInt v[4], const PetscScalar c[], PetscScalar gain[])
 {
   const PetscInt n = CoverCountVertices(v);
@@ -232,7 +245,7 @@ static void CoverExchangeFacet(const PetscInt v[4], const PetscScalar c[], Petsc
 
 static PetscErrorCode CoverExchange(DM dm, const CoverFacets *facets, Vec edge, Vec carried)
 {
-  Vec                local[3]; /* edge, carried, gain */
+  Vec                local[3]; /* local vectors of edge, carried, gain */
   const PetscScalar *e, *c;
   PetscScalar       *gain;
 
@@ -257,7 +270,7 @@ static PetscErrorCode CoverExchange(DM dm, const CoverFacets *facets, Vec edge, 
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Agglomerates and smooths the values of a pair's vertices. Collective. */
 PetscErrorCode NodalPressureEvenOut(Simulation sim, const SceneContactPair *pair, Vec carried)
 {
   CoverFacets facets;

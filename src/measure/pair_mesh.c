@@ -1,12 +1,16 @@
-/* Warnings about contact meshes that are too coarse. */
+/* Warns of contact meshes that are too coarse */
 #include "pair_rows.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-#define PAIR_COARSE 2.0 /* warn if the nonmortar facets are larger than the mortar facets by this factor */
-#define PAIR_SWING  0.1 /* relative change of the force between load steps that counts as an oscillation */
+#define PAIR_COARSE \
+  2.0 /* ratio of the size of nonmortar facets to that of mortar facets above which a warning is
+                           printed */
+#define PAIR_SWING \
+  0.1 /* change of the force between load steps, relative to the largest force, that counts as a
+                           reversal */
 
-/* Collective. Mean over the contact area of (nonmortar facet size / mortar facet size) */
+/* Computes the mean over the contact area of (nonmortar facet size / mortar facet size). Collective. */
 static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows, PetscReal *coarseness)
 {
   PetscReal sums[2] = {0.0, 0.0};
@@ -22,8 +26,10 @@ static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows,
   PetscFunctionReturn(0);
 }
 
-/* Values of local vertices: [0] 1 if the pair is closed there, [1] number of facets around it, [2] number of these
-   that are closed at all corners */
+/*
+   Counts facets around the vertices of a face. Values of each vertex: 1 if the pair is closed there; number of facets
+   around it; number of these that are closed at all corners.
+*/
 static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const PetscScalar closed[],
   PetscScalar count[])
 {
@@ -60,8 +66,10 @@ static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const P
   PetscFunctionReturn(0);
 }
 
-/* Collective. narrow: no closed vertex of the nonmortar face is completely surrounded by closed ones. first: the
-   pair's first point */
+/*
+   Finds whether the contact is narrow: no closed vertex of the nonmortar face is completely surrounded by closed ones.
+   first: the pair's first point. Collective.
+*/
 static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, PetscInt first, PetscBool *narrow)
 {
   PetscSection       global;
@@ -108,7 +116,7 @@ static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Collective. Sets coarseness and narrowness in the pair's report, whose area must be set */
+/* Sets coarseness and narrowness in the pair's report, whose area must be set. Collective. */
 PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *rows, PetscInt first, PairReport *report)
 {
   PetscFunctionBegin;
@@ -117,7 +125,7 @@ PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *ro
   PetscFunctionReturn(0);
 }
 
-/* Whether a load history turns back, which explains forces that do */
+/* Returns whether a load history reverses, which explains reversals of contact forces */
 static PetscBool PairLoadTurns(const RunReport *run)
 {
   for (PetscInt s = 1; s + 1 < run->nsteps; ++s) {
@@ -132,8 +140,10 @@ static PetscBool PairLoadTurns(const RunReport *run)
   return PETSC_FALSE;
 }
 
-/* Counts how often the force changes its direction by more than a tenth of its size while the contact is narrow.
-   forces: the last two extreme values; rounding: of forces */
+/*
+   Counts how often the force reverses by more than a tenth of its size while the contact is narrow. forces: the last
+   two extreme values; rounding: rounding error of forces.
+*/
 static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal rounding, PetscReal forces[2])
 {
   PetscInt  turns = 0, sense = 0;
@@ -143,7 +153,7 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal round
     const PairReport *pair = p < run->steps[s].npairs ? &run->steps[s].pairs[p] : NULL;
     const PetscReal   more = pair ? pair->normal_force - forces[1] : 0.0;
 
-    if (!pair || !pair->narrow) { /* begins anew */
+    if (!pair || !pair->narrow) { /* the count begins anew */
       sense = 0;
       if (pair) forces[1] = pair->normal_force;
       continue;
@@ -178,7 +188,7 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* Warns of a coarse nonmortar side, unless it is also the softer one */
+/* Warns of a nonmortar side that is coarser than the mortar side, unless it is also the softer one */
 static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
 {
   const SceneContactPair *pair      = &sim->scene->pairs[p];
@@ -200,7 +210,7 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* Call after the last load step */
+/* Warns of coarse contact meshes after the last load step */
 PetscErrorCode PairMeshWarn(Simulation sim)
 {
   PetscFunctionBegin;

@@ -1,17 +1,19 @@
 /*
-   Pressures that the mortar side cannot resolve. If the nonmortar side is finer and stiffer than the mortar facets, few
-   rows carry all of the force; rows between them have no pressure, and gaps that are a small fraction of the mortar
-   facets' deformation. The mortar side only feels means over its shape functions. Therefore open rows that are
-   surrounded by closed ones, and the rows around them, get the pressure of the mortar vertices (means of the rows'
-   values over the shared area), interpolated back to the rows. The sum of value x area over the rows is preserved.
+   Smooths pressures that the mortar side cannot resolve. If the nonmortar side is finer and stiffer than the mortar
+   facets, few rows carry all of the force. The rows between them have no pressure, and gaps that are small compared
+   with the mortar facets' deformation. The mortar side only responds to means over its shape functions. Therefore open
+   rows that are surrounded by closed ones, and the rows around them, get the pressure of the mortar vertices (means of
+   the rows' values over the shared area), interpolated back to the rows. The sum of value x area over the rows is
+   preserved.
 */
 #include "pair_rows.h"
 #include "src/state/contact_state.h"
 
-static const PetscReal resolve_enclosed = 0.4; /* about 0.57 at a straight border of contact, about 0.2 between
-                                                  strips of contact */
+static const PetscReal resolve_enclosed = 0.4; /* limit of the distance between the centres of closed rows and of all
+                                                  rows, relative to their spread; the ratio is about 0.57 at a
+                                                  straight border of contact, and about 0.2 between strips of contact */
 
-/* Young's modulus of the body behind the mortar face; PETSC_INFINITY: rigid */
+/* Returns Young's modulus of the body behind the mortar face; PETSC_INFINITY if the body is rigid */
 static PetscReal ResolveModulus(Scene scene, PetscInt pair)
 {
   const Material *material = &SceneFaceBody(scene, scene->pairs[pair].mortar)->material;
@@ -19,7 +21,7 @@ static PetscReal ResolveModulus(Scene scene, PetscInt pair)
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }
 
-/* size: its first value is the size of the mortar facets at each of their vertices [length] */
+/* Computes the size of the mortar facets around each of their vertices, in the first value of `size` [length] */
 static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
 {
   PetscScalar *a;
@@ -37,7 +39,7 @@ static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
   PetscFunctionReturn(0);
 }
 
-/* Collective. mean: values of the marked rows, averaged at the mortar vertices and interpolated back */
+/* Computes the mean of the marked rows' values at the mortar vertices, interpolated back to the rows. Collective. */
 static PetscErrorCode ResolveMean(Simulation sim, const PairRows *rows, const PetscReal mark[], const PetscReal value[],
   Vec sides, PetscReal mean[])
 {
@@ -63,7 +65,7 @@ static PetscErrorCode ResolveMean(Simulation sim, const PairRows *rows, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Whether one of the rows is marked on any rank */
+/* Finds whether a row is marked on any rank */
 static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mark[], PetscBool *any)
 {
   PetscFunctionBegin;
@@ -73,8 +75,10 @@ static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mar
   PetscFunctionReturn(0);
 }
 
-/* place: undeformed coordinates of the rows' vertices relative to a nearby point, and their squares; n values per
-   component [length] */
+/*
+   Computes the undeformed coordinates of the rows' vertices relative to the mean of all, and the sum of their squares;
+   n values per component [length; length^2]
+*/
 static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscReal place[])
 {
   const PetscInt     n = rows->n;
@@ -110,8 +114,9 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
 }
 
 /*
-   Keeps only the open rows that closed ones surround: the centre of the closed rows within two mortar facets is close
-   to the centre of all rows there, relative to their spread. This excludes open rows beside the contact area.
+   Unmarks open rows that closed rows do not surround. A row remains marked if the centre of the closed rows within two
+   mortar facets is close to the centre of all rows there, relative to their spread. This excludes open rows beside the
+   contact area.
 */
 static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], Vec sides,
   PetscReal open[])
@@ -139,8 +144,9 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, cons
 }
 
 /*
-   mark: 1 for rows whose gap the mortar pressure would close by a small strain of the mortar facets, and which share a
-   mortar vertex with an enclosed open row. any: whether any rank has such a row. length: size of these facets
+   Marks the rows whose gap the mortar pressure would close by a small strain of the mortar facets, and which share a
+   mortar vertex with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row; length: size
+   of the mortar facets.
 */
 static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec sides,
   const PetscReal length[], PetscReal mark[], PetscBool *any)
@@ -184,8 +190,10 @@ static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const P
   PetscFunctionReturn(0);
 }
 
-/* Replaces friction stress and slip of marked rows by their means over mortar facets. A row slips if slipping rows
-   carry more than half of its pressure. */
+/*
+   Replaces friction stress and slip of marked rows by their means over mortar facets. A row slips if slipping rows
+   carry more than half of its pressure.
+*/
 static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
   const PetscReal pressure[], Vec sides)
 {
@@ -206,7 +214,7 @@ static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const Pets
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/* Smooths the pressures of a pair that the mortar side cannot resolve. Collective. */
 PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRows *rows)
 {
   const PetscReal young  = ResolveModulus(sim->scene, pair);

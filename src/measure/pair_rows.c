@@ -1,10 +1,10 @@
-/* Rows of one contact pair: area, normal, pressure, gap, friction and status. */
+/* Rows of one contact pair: area, normal, pressure, gap, friction and status */
 #include "pair_rows.h"
 #include <vector3.h>
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* vector = mass_A x sum of A_AB over the vertices B of the mortar side */
+/* Computes for each row A the vector mass_A x sum of A_AB over the vertices B of the mortar side */
 static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
 {
   ContactLinearization lin = sim->solved->linearization;
@@ -29,15 +29,15 @@ static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt
 }
 
 /*
-   Whether a row is in contact: the strain equivalent of the pressure (pressure/young) exceeds that of the gap
-   (gap/length). With an interior point method their product is the same in all rows and tends to zero.
+   Returns whether a row is in contact: the strain that corresponds to the pressure (pressure/young) exceeds that of the
+   gap (gap/length). With an interior point method the product of the two is equal in all rows and tends to zero.
 */
 PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length)
 {
   return (PetscBool)(pressure / young > gap / length);
 }
 
-/* Sets friction and slip; a row slips if its slip exceeds the rounding of displacements */
+/* Sets friction stress and slip. A row slips if its slip exceeds the rounding error of displacements. */
 static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows)
 {
   const PetscReal      rounding = 1e-9;

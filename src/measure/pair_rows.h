@@ -1,28 +1,28 @@
-/* Rows of one contact pair, and values at their vertices; used by the files that measure contact. */
+/* Rows of one contact pair, and their values at vertices. Used by the files that measure contact. */
 #ifndef PAIR_ROWS_H
 #define PAIR_ROWS_H
 
 #include "measureimpl.h"
 
 /*
-   The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, with w_A n_A = mass_A x sum of J_AB over
-   the mortar vertices B; w_A is the area that the mortar side covers around A. Rows of other pairs have w = 0. Areas
+   The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, where w_A n_A = mass_A x sum of J_AB over
+   the mortar vertices B. w_A is the area that the mortar side covers around A; it is zero in rows of other pairs. Areas
    are distributed to vertices by lin->cover, whose sum times share_A is w_A, with the normal n_A.
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *share, *normal; /* w [length^2]; normal: 3 per row */
+  PetscReal *area, *share, *normal; /* w [length^2]; see above; n, 3 numbers per row */
   PetscReal *pressure, *gap, *closed;
-  PetscReal *presses;    /* closed before unresolved pressures were smoothed */
+  PetscReal *presses;    /* closed before the pressures were smoothed by pair_resolve.c */
   PetscReal  young;      /* Young's modulus of the softer body [force/length^2] */
   PetscReal *own;        /* size of the facets around the row [length] */
   PetscReal *facing;     /* size of the mortar facets that the row faces [length] */
-  PetscReal *length;     /* facet size that the row's gap is compared with: that of the coarser side if only that side
-                         is resolved */
+  PetscReal *length;     /* facet size with which the row's gap is compared: the row's own, or that of the mortar
+                            side if only the mortar side's means are resolved [length] */
   PetscBool  frictional; /* the pair has friction */
-  PetscReal *slips;      /* 1: the row slips */
+  PetscReal *slips;      /* 1 if the row slips, otherwise 0 */
   PetscReal *shear,
-    *slid; /* friction stress on the mortar side [force/length^2], and slip [length]; component c of row A stands at
+    *slid; /* friction stress on the mortar side [force/length^2]; slip [length]; component c of row A has the index
               c n + A */
 } PairRows;
 
@@ -31,8 +31,10 @@ PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, Pets
 PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
 
-/* pair_spread.c: from rows to vertices and back, in proportion to the shared area. sides: first value of a vertex: 1
-   mortar side, -1 nonmortar side, 0 neither */
+/*
+   pair_spread.c: transfers values from rows to vertices and back, in proportion to the shared area. The first value of
+   `sides` is 1 at vertices of the mortar side, -1 on the nonmortar side, and 0 elsewhere.
+*/
 PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, Vec sides);
 PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);
 PETSC_INTERN Mat            PairCover(ContactLinearization);

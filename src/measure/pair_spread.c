@@ -1,9 +1,11 @@
-/* Transfers values of a contact pair's rows to the vertices of both sides, and from the mortar vertices back to the
-   rows. */
+/*
+   Transfers values of a contact pair's rows to the vertices of both sides, and values of the mortar vertices back to
+   the rows
+*/
 #include "pair_rows.h"
 #include "src/state/contact_state.h"
 
-/* Sets v[to] to 1 at the rows of a component of a face */
+/* Sets one component of v at the vertices of a face to the number `to` */
 PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscInt to, Vec v)
 {
   IS              is;
@@ -24,7 +26,10 @@ PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Collective */
+/*
+   Marks the vertices of both sides in the first value of `sides`: 1 on the mortar side, -1 on the nonmortar side.
+   Collective.
+*/
 PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, Vec sides)
 {
   const SceneContactPair *faces = &sim->scene->pairs[pair];
@@ -36,15 +41,15 @@ PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, Vec sides)
   PetscFunctionReturn(0);
 }
 
-/* The matrix by which areas are distributed */
+/* Returns the matrix by which areas are distributed to vertices */
 Mat PairCover(ContactLinearization lin)
 {
   return lin->cover ? lin->cover : lin->J;
 }
 
 /*
-   v[to] at the vertices B of both sides = sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This is the
-   integral of the rows' field times B's shape function; over a side it sums to that of w_A value_A
+   Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
+   is the integral of the rows' field times B's shape function; over a side these sum to the sum of w_A value_A.
 */
 PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
 {
@@ -81,7 +86,7 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* along: v[from] at the mortar vertices, as component c of a vector; 0 elsewhere */
+/* Copies v[from] at the mortar vertices to component c of `along`, which is zero elsewhere */
 static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
 {
   const PetscScalar *side, *a;
@@ -103,8 +108,10 @@ static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from
   PetscFunctionReturn(0);
 }
 
-/* Collective. value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B / w_A: the mean of
-   a mortar field over the row; 0 in rows of other pairs */
+/*
+   Computes value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B / w_A, the mean of a
+   mortar field over the row; 0 in rows of other pairs. Collective.
+*/
 PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v, PetscInt from, PetscReal value[])
 {
   ContactLinearization lin = sim->solved->linearization;

@@ -1,11 +1,14 @@
-/* Penetration of vertices of one face of a pair below the other; gaps of mortar pairs are means. */
+/*
+   Measures the penetration of single vertices below the other face of a pair. The gaps of mortar pairs are means, so
+   that single vertices may penetrate.
+*/
 #include "measureimpl.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-#define PENETRATION_SHARE 0.01 /* warn above this fraction of the largest displacement of the run */
+#define PENETRATION_SHARE 0.01 /* a warning is printed above this fraction of the largest displacement of the run */
 
-/* Collective. Measures at the last state */
+/* Measures penetration at the last state. Collective. */
 PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
 {
   PetscReal *depth, *rounding;
@@ -23,13 +26,16 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Whether an initial overlap of the pair remains at the end of a load step because its ramp has not ended */
+/* Returns whether an initial overlap of the pair remains at the end of a load step because its ramp has not ended */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
   return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
 }
 
-/* After the last load step: warns of penetration, pair by pair, unless the scene leaves an overlap */
+/*
+   Warns of penetration after the last load step, pair by pair. Load steps in which the scene leaves an overlap are
+   ignored.
+*/
 PetscErrorCode PenetrationWarn(Simulation sim)
 {
   const RunReport *run    = &sim->report;

@@ -1,11 +1,14 @@
-/* Displacement, stress and contact at the scene's points and along its lines. */
+/* Measures displacement, stress and contact at the scene's probes: points, and points along lines */
 #include "measureimpl.h"
 #include <math.h>
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 #include "src/state/results.h"
 
-/* Contact at the vertices: values: [pressure, gap, 1 closed]; paired: [1 in a pair, -, -] */
+/*
+   Contact at the vertices, three values each. values: pressure, gap, 1 if closed; paired: 1 if the vertex is in a pair,
+   unused, unused.
+*/
 typedef struct {
   Vec values, paired;
 } ProbeContact;
@@ -27,7 +30,10 @@ PetscErrorCode ProbesDestroy(Probes *probes)
   PetscFunctionReturn(0);
 }
 
-/* Sets the values. At a vertex in several pairs: mean pressure, smallest gap, closed if it is closed in any pair */
+/*
+   Sets the values. A vertex in several pairs gets the mean pressure and the smallest gap, and is closed if it is closed
+   in one of them.
+*/
 static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], PetscScalar paired[])
 {
   PetscSection global;
@@ -56,7 +62,7 @@ static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], Pet
   PetscFunctionReturn(0);
 }
 
-/* Creates local vectors from which cells can be read */
+/* Creates local vectors, in which the values of all nodes of a cell can be read */
 static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
 {
   Vec          global[2];
@@ -88,7 +94,7 @@ static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
   PetscFunctionReturn(0);
 }
 
-/* Interpolates in a cell; n values per node, at n x the node's number */
+/* Interpolates n values per node in a cell. The values of a node start at n x the node's number. */
 static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[],
   PetscReal result[])
 {
@@ -98,7 +104,10 @@ static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], Pets
   }
 }
 
-/* Contact values exist on contact faces only: a point has them if all nodes of its facet are in a pair */
+/*
+   Reads contact values at a point. They exist on contact faces only: all nodes of the point's facet must be in a pair.
+   Otherwise the report is unchanged.
+*/
 static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPlace *place, const PetscInt node[],
   ProbeReport *report)
 {
@@ -141,7 +150,7 @@ static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const Pro
   PetscFunctionReturn(0);
 }
 
-/* Sets position and name from the scene; the rank that has the point sets the rest */
+/* Sets positions and names from the scene. The rank that has the point sets the other values. */
 static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 {
   PetscInt k = 0;
@@ -162,7 +171,7 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
   PetscFunctionReturn(0);
 }
 
-/* Sends each point's values from its rank to all */
+/* Sends each point's values from the rank that has the point to all ranks */
 static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
 {
   enum { values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal) };
@@ -182,7 +191,7 @@ static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
   PetscFunctionReturn(0);
 }
 
-/* Distributes points to the reports of points and of lines */
+/* Distributes the points to the report's lists of points and of points on lines */
 static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepReport *report)
 {
   PetscInt k = 0;
@@ -205,7 +214,7 @@ static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepRe
   PetscFunctionReturn(0);
 }
 
-/* Collective. Measures at the last state, whose nodal stress and contact points must be known */
+/* Measures the probes at the last state, whose nodal stress and contact points must be known. Collective. */
 PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
 {
   ProbeReport       *reports;

@@ -1,4 +1,4 @@
-/* Fields for probes and files: stress at the nodes and at the quadrature points, strain energy. */
+/* Computes fields for probes and files: stress at the nodes and at the quadrature points, strain energy */
 #include "measureimpl.h"
 #include "src/state/path.h"
 #include "src/state/results.h"
@@ -9,7 +9,7 @@ static PetscReal ResultsVonMises(const PetscReal s[6])
                        3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* values: stress, von Mises stress, principal values */
+/* Completes a stress: stress, von Mises stress, principal values */
 PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES])
 {
   PetscFunctionBegin;
@@ -19,7 +19,7 @@ PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRES
   PetscFunctionReturn(0);
 }
 
-/* Copies the values of the owned nodes, in the order of global vectors */
+/* Copies the values of the owned nodes in the order of global vectors */
 static PetscErrorCode ResultsPickOwned(Simulation sim)
 {
   Results     *results = sim->results;
@@ -46,7 +46,7 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Computes the requested fields at the last state; others are not computed */
+/* Computes the requested fields at the last state */
 PetscErrorCode ResultsMeasure(Simulation sim)
 {
   Results *results = sim->results;

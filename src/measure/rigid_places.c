@@ -1,4 +1,4 @@
-/* Positions of rigid bodies, and their rotations since the start. */
+/* Computes the positions of rigid bodies and their rotations since the start */
 #include "measureimpl.h"
 #include "src/state/path.h"
 
@@ -7,8 +7,10 @@ static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
   return (PetscBool)(scene->bodies[body].material.type == MATERIAL_RIGID);
 }
 
-/* Rotation vectors that differ by whole turns about their axis mean the same rotation. Takes the one nearest to that
-   of the last state [degrees]. */
+/*
+   Changes a rotation vector [degrees] by whole turns about its axis, which mean the same rotation, such that it is
+   nearest to that of the last state
+*/
 static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
 {
   const PetscReal turn = 360.0;
@@ -23,8 +25,10 @@ static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
   for (PetscInt i = 0; i < 3; ++i) rotation[i] = size * axis[i];
 }
 
-/* Of a body's points the one whose position is reported: on the axis that the scene gives; else the point of a rigid
-   surface; else the centre of the body */
+/*
+   Returns the point of a body whose position is reported: a point on the axis that the scene gives, or, without one,
+   the point of a rigid surface, or the centre of the body
+*/
 static const PetscReal *RigidPlacesFindPoint(Scene scene, PetscInt body, const BodyPose *pose)
 {
   const PetscReal *center = PoseFindCenter(scene, body);
@@ -33,7 +37,7 @@ static const PetscReal *RigidPlacesFindPoint(Scene scene, PetscInt body, const B
   return SceneBodyIsSurface(&scene->bodies[body]) ? scene->bodies[body].own + SURFACE_POINT : pose->from;
 }
 
-/* Positions and rotations at the last state */
+/* Computes positions and rotations at the last state */
 PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
 {
   const Bodies       bodies  = SimulationBodies(sim);

@@ -1,12 +1,12 @@
-/* Warns of bodies with a small-strain law that are strained or rotated far beyond its range. */
+/* Warns of bodies with a law of small strain that are strained or rotated far beyond its range */
 #include "measureimpl.h"
 #include "src/state/path.h"
 #include "src/state/results.h"
 
-#define STRAIN_LIMIT   0.25 /* principal strain, averaged over the body's strain energy */
-#define ROTATION_LIMIT 0.25 /* angle, mean over the body's volume [rad] */
+#define STRAIN_LIMIT   0.25 /* largest principal strain, in the mean over the body's strain energy */
+#define ROTATION_LIMIT 0.25 /* largest rotation angle, in the mean over the body's volume [rad] */
 
-/* Bodies that may be warned of yet */
+/* Returns whether there are bodies of which no warning has been printed yet */
 static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
 {
   PetscBool any = PETSC_FALSE;
@@ -19,8 +19,10 @@ static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
   return any;
 }
 
-/* Collective. Measures the last state and warns once for each body, in the first load step beyond the range of its
-   law. Rigid bodies may turn. */
+/*
+   Measures the last state, and warns once of each body, in the first load step in which it is beyond the range of its
+   law. Rigid bodies may rotate. Collective.
+*/
 PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;

@@ -1,10 +1,12 @@
-/* Work of external forces (dead loads, reactions at prescribed displacements) and of contact forces. */
+/* Computes the work of external forces (dead loads, reactions at prescribed displacements) and of contact forces */
 #include "measureimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/path.h"
 
-/* Adds to work the product of part x force now + (1 - part) x force before (NULL: zero) with the displacement since
-   then. `now` then becomes `before`. */
+/*
+   Adds the work of a force over the displacement since the last state: (1 - part) x before . increment[0] + part x now
+   . increment[1], where a NULL force counts as zero. `now` then becomes `before`.
+*/
 static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before, Vec *now, PetscReal *work)
 {
   const PetscReal parts[2]  = {1.0 - part, part};
@@ -23,13 +25,15 @@ static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before
   PetscFunctionReturn(0);
 }
 
-/* Updates the energy balance after a solve: the loads did `work`, contact took up `taken`. rounding: work of rounding
-   errors of the forces */
+/*
+   Updates the energy balance after a solve. work: work of the loads in this solve; taken: energy that contact took up;
+   rounding: work of rounding errors of the forces.
+*/
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, PetscReal rounding,
   StepReport *report)
 {
   const PetscReal at_rest = 1e-2; /* if the turnover of a step is below this fraction of the energy, its imbalance is
-                                     related to this fraction instead */
+                                     relative to this fraction instead */
   const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
@@ -43,7 +47,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   PetscFunctionReturn(0);
 }
 
-/* Warns at the end of a load step, once per run */
+/* Warns of an energy balance that is not met, at the end of a load step, once per run */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
   const PetscReal allowed = 1e-2;
@@ -58,7 +62,7 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Adds the work of reactions in the impact scheme, which are those of the step as a whole; they are zero then */
+/* Adds the work of reactions in the impact scheme, which are those of the step as a whole, and sets them to zero */
 static PetscErrorCode WorkAddMean(Simulation sim, Vec increment[2], Vec reaction, PetscReal *work)
 {
   const PetscReal share = SchemeShare(&sim->scene->dynamics);
@@ -94,9 +98,9 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 }
 
 /*
-   Adds the work from the last state to u. unbalanced: internal - contact - dead forces, i.e. reactions in prescribed
-   rows; rigid: forces on rigid bodies driven by forces, NULL: none; contact: contact forces if there is friction
-   (consumed here), NULL: none
+   Adds the work from the last state to u. unbalanced: internal - contact - dead forces, which are the reactions in
+   prescribed rows; rigid: forces on rigid bodies that are driven by forces, or NULL; contact: contact forces if there
+   is friction, which this function takes over, or NULL.
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
 {
@@ -121,7 +125,9 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   PetscCall(VecNorm(u, NORM_INFINITY, &place));
   PetscCall(VecNorm(increment[0], NORM_INFINITY, &way));
   PetscCall(WorkAddForce(increment, 0.5, &path->outside, &outside, &path->work));
-  if (*contact) PetscCall(VecScale(*contact, -1.0)); /* on the contacts, not on the bodies */
+  if (*contact)
+    PetscCall(VecScale(*contact, -1.0)); /* the forces on the contacts are opposite to those on the
+                                                        bodies */
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
   PetscCall(WorkAddBolts(sim, u, report));

@@ -1,7 +1,10 @@
-/* Ends a run before it computes if an option is misspelt, or has no value or a wrong one. */
+/* Ends a run before it computes anything if an option is misspelt, or has no value or a wrong one */
 #include "optionsimpl.h"
 
-/* guess: the name that may have been meant; after an object's prefix one of its options */
+/*
+   Finds the known name nearest to a misspelt one. If that begins with an object's prefix, the options of that object
+   are compared.
+*/
 static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[])
 {
   const char  *known[512], *nearest;
@@ -16,7 +19,7 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
   PetscFunctionReturn(0);
 }
 
-/* good: whether PETSc reads the value as one of this kind */
+/* Finds whether PETSc can read the value as one of this kind */
 static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], PetscBool *good)
 {
   PetscErrorCode ierr = 0;
@@ -34,7 +37,7 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
   PetscFunctionReturn(0);
 }
 
-/* The value is one of the words, where an option has such */
+/* Checks that the value is one of the words that the option allows, if it allows a few words only */
 static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char name[], const char value[])
 {
   const char *const *words;

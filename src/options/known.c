@@ -1,9 +1,9 @@
-/* Names of options that are known in advance. */
+/* Names of the options that are known in advance */
 #include "optionsimpl.h"
 #include <string.h>
 #include <strings.h>
 
-/* All options of pc_amgf, tao_ipfilter, src and apps; tests/doc/options.py compares the list with the sources */
+/* All options of pc_amgf, tao_ipfilter, src and apps. tests/doc/options.py compares the list with the sources. */
 const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
   "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
   "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
@@ -19,7 +19,10 @@ const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_ma
   "tao_ipfilter_proximal", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
   "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tol", "traceback", NULL};
 
-/* Boolean options among them; without a value true. Options in none of the lists below need a number */
+/*
+   Those of our options that are Boolean, and true without a value. Options in none of this and the next two lists need
+   a number.
+*/
 static const char *const OptionsSwitches[] = {"accuracy_adaptive", "accuracy_view", "contact_free", "contact_smooth",
   "effects_view", "error_estimate", "load_warm_start", "output_gauss", "quiet", "scene_check", "tao_ipfilter_direct",
   "tao_ipfilter_monitor", "traceback", NULL};
@@ -36,7 +39,7 @@ static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact
   "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
   "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
 
-/* Options whose value is one of a few words. tests/doc/options.py holds them against the sources */
+/* Options whose value is one of a few words. tests/doc/options.py compares the list with the sources. */
 static const struct {
   const char *name, *words[5];
 } OptionsChoices[] = {
@@ -55,11 +58,11 @@ static const struct {
   {"tao_ipfilter_subspace", {"false", "true", "auto", NULL}},
 };
 
-/* Prefixes of PETSc objects that are created later */
+/* Options prefixes of PETSc objects that are created later */
 static const char *const OptionsPrefixes[] = {"tao_ipfilter_augmented_", "tao_ipfilter_direct_", "tao_ipfilter_",
   "amgf_amg_", "amgf_factor_", "amgf_filter_", "elasticity_", "penalty_", NULL};
 
-/* Beginnings of PETSc's own options, which are too many to list; a misspelt one is found by -options_left */
+/* Beginnings of PETSc's own options, which are too many to list. A misspelt one is found by -options_left. */
 static const char *const OptionsKinds[] = {"adapt", "ao_", "blas_", "characteristic_", "check_pointer",
   "checkfunctionlist", "citations", "coarse_", "cuda", "debug", "default_device", "device_", "display", "dll_", "dm_",
   "draw_", "error_output", "esteig_", "fieldsplit_", "fp_trap", "get_total_flops", "help", "hip", "history", "info",
@@ -68,7 +71,7 @@ static const char *const OptionsKinds[] = {"adapt", "ao_", "blas_", "characteris
   "root_device", "saws", "sf_", "shared_tmp", "skip_petscrc", "snes_", "start_in_debugger", "stop_for_debugger", "sub_",
   "sycl", "tao_", "thread", "tmp", "ts_", "use_gpu", "vec", "version", "viewer", "x_", "xml", NULL};
 
-/* PETSc options that are suggested for misspelt names */
+/* Options of PETSc that are suggested for misspelt names */
 const char *const OptionsUsual[] = {"help", "info", "ksp_max_it", "ksp_monitor", "ksp_rtol", "ksp_type", "ksp_view",
   "log_view", "malloc_debug", "mat_type", "options_file", "options_left", "options_view", "pc_type", "snes_rtol",
   "tao_gatol", "tao_max_it", "tao_monitor", "tao_type", "tao_view", "version", NULL};
@@ -81,7 +84,7 @@ static PetscBool OptionIsOneOf(const char name[], const char *const list[])
   return PETSC_FALSE;
 }
 
-/* Length of the first entry of the list with which the name begins; 0: none */
+/* Returns the length of the first entry of the list with which the name begins; 0: it begins with none */
 static size_t OptionBeginning(const char name[], const char *const list[])
 {
   for (; *list; ++list) {
@@ -107,8 +110,10 @@ size_t OptionPrefixLength(const char name[])
   return OptionBeginning(name + all, OptionsAMGF) ? all : 0;
 }
 
-/* Whether a name is known, also with -no_. After the prefix of an object PETSc's options are allowed, and of ours
-   those of PCAMGF */
+/*
+   Returns whether a name is known, also with no_ before it. After the prefix of an object the options of PETSc and
+   those of PCAMGF are allowed.
+*/
 PetscBool OptionIsKnown(const char name[])
 {
   const char *rest = name + OptionAllPrefixes(name);
@@ -131,7 +136,7 @@ PetscBool OptionGetKind(const char name[], OptionKind *kind)
   return OptionIsOneOf(ours, OptionsOurs);
 }
 
-/* The words that an option has one of */
+/* Gets the words of which the option's value must be one. Returns false if the option allows any value. */
 PetscBool OptionGetChoices(const char name[], const char *const **words)
 {
   const char *ours = name + OptionPrefixLength(name);

@@ -1,7 +1,7 @@
-/* Finds the name that was meant by a misspelt one. */
+/* Finds the known name that is most similar to a misspelt one */
 #include "optionsimpl.h"
 
-/* Computes the Levenshtein distance of two names: the number of letters to insert, delete or replace. */
+/* Computes the Levenshtein distance of two names: the number of letters to insert, delete or replace */
 PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
 {
   size_t na, nb, *row;
@@ -27,8 +27,10 @@ PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance)
   PetscFunctionReturn(0);
 }
 
-/* Finds the known name with the smallest Levenshtein distance from another name. n: number of known names; nearest: one
-   of the known names, "" if there are none. */
+/*
+   Finds the known name with the smallest Levenshtein distance from another name. n: number of known names; nearest: one
+   of the known names, or "" if there are none.
+*/
 PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[], const char **nearest)
 {
   size_t best = PETSC_MAX_OPTION_NAME, distance = 0;

@@ -1,4 +1,4 @@
-/* src/options: names without their dash; lists end with NULL. */
+/* Private header of options. Names have no dash; lists end with NULL. */
 #ifndef OPTIONSIMPL_H
 #define OPTIONSIMPL_H
 
@@ -8,7 +8,7 @@
 
 /* known.c */
 typedef enum {
-  OPTION_SWITCH, /* true or false; no value means true */
+  OPTION_SWITCH, /* true or false; true if there is no value */
   OPTION_COUNT,  /* an integer */
   OPTION_NUMBER,
   OPTION_WORD, /* one of several words, or a name */
@@ -17,10 +17,12 @@ typedef enum {
 
 PETSC_INTERN const char *const OptionsOurs[], *const OptionsUsual[];
 PETSC_INTERN PetscBool OptionIsKnown(const char name[]);
-PETSC_INTERN PetscBool OptionGetKind(const char name[], OptionKind *); /* returns false if the option is not ours */
-PETSC_INTERN PetscBool OptionGetChoices(const char name[], const char *const **words); /* false: any word is right */
-PETSC_INTERN size_t    OptionPrefixLength(const char name[]); /* length of an object's prefix before an option of
-                                                                 PCAMGF */
+/* returns false if the option is not one of OptionsOurs */
+PETSC_INTERN PetscBool OptionGetKind(const char name[], OptionKind *);
+/* returns false if any value is allowed */
+PETSC_INTERN PetscBool OptionGetChoices(const char name[], const char *const **words);
+PETSC_INTERN size_t    OptionPrefixLength(const char name[]); /* returns the length of an object's prefix before an
+                                                                 option of PCAMGF; 0: there is none */
 
 /* check.c: only public functions */
 

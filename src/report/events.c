@@ -1,4 +1,4 @@
-/* PETSc's log events of a run, and times of its phases from them. */
+/* Log events of a run, and the times of its phases, which are computed from them */
 #include "reportimpl.h"
 #include <petsctime.h>
 
@@ -6,7 +6,10 @@ PetscLogEvent SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forc
 
 #define NO_PHASE (-1)
 
-/* The events of the phases, and the phase that an event is a part of, whose time it does not count to */
+/*
+   The events of the phases. within: the phase of which an event is a part, and whose time does not include that of the
+   event.
+*/
 static const struct {
   const char *event;
   PetscInt    time, within;
@@ -55,7 +58,10 @@ PetscErrorCode StepEventsRegister(void)
   PetscFunctionReturn(0);
 }
 
-/* Reads the clock (total), and the time of each phase since PETSc's start, on this rank; 0 without PETSc's logging */
+/*
+   Reads the clock (total) and the time of each phase since PETSc's start, on this rank. The times of phases are 0
+   without PETSc's logging.
+*/
 PetscErrorCode StepEventsRead(RunTimes *times)
 {
   PetscBool logs;
@@ -77,7 +83,10 @@ PetscErrorCode StepEventsRead(RunTimes *times)
   PetscFunctionReturn(0);
 }
 
-/* Times since `start`, largest over the ranks; "other" is the rest of the total */
+/*
+   Computes the times since `start`, the largest over the ranks. "other" is the part of the total that belongs to no
+   phase.
+*/
 PetscErrorCode StepEventsGetTimes(MPI_Comm comm, const RunTimes *start, RunTimes *times)
 {
   const PetscInt        n   = sizeof(*times) / sizeof(PetscLogDouble);
@@ -90,7 +99,7 @@ PetscErrorCode StepEventsGetTimes(MPI_Comm comm, const RunTimes *start, RunTimes
     now[i] = PetscMax(now[i] - was[i], 0.0);
     sum += now[i];
   }
-  times->other = PetscMax(0.0, 2.0 * times->total - sum); /* the total is in the sum */
+  times->other = PetscMax(0.0, 2.0 * times->total - sum); /* sum includes the total */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, times, (PetscMPIInt)(sizeof(*times) / sizeof(PetscLogDouble)), MPI_DOUBLE,
     MPI_MAX, comm));
   PetscFunctionReturn(0);

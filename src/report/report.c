@@ -1,8 +1,8 @@
-/* Adds the results of a solve to the report of its load step. */
+/* Adds the results of a solve to the report of its load step */
 #include "reportimpl.h"
 #include <stdarg.h>
 
-/* Collective. Issues a warning: printed on stderr at once, and kept for the summary */
+/* Prints a warning on stderr, and stores it for the summary. Collective. */
 PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
 {
   char    sentence[512];
@@ -18,7 +18,7 @@ PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[],
   PetscFunctionReturn(0);
 }
 
-/* Sets convergence and reason; those of the last solve are the load step's */
+/* Sets whether the load step converged, and the reason. The values of its last solve remain. */
 PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])
 {
   PetscFunctionBegin;
@@ -28,7 +28,7 @@ PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char 
   PetscFunctionReturn(0);
 }
 
-/* Appends */
+/* Appends the numbers of Krylov iterations of n linear solves */
 PetscErrorCode ReportIterations(StepReport *report, PetscInt n, const PetscInt iterations[])
 {
   PetscFunctionBegin;
@@ -38,7 +38,7 @@ PetscErrorCode ReportIterations(StepReport *report, PetscInt n, const PetscInt i
   PetscFunctionReturn(0);
 }
 
-/* Counts of the preconditioner so far; zeros if it does not count */
+/* Gets what the preconditioner has counted so far; zeros if it is not a PCAMGF */
 PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
 {
   PC        pc;
@@ -52,7 +52,10 @@ PetscErrorCode ReportGetCounts(KSP ksp, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-/* Adds what the preconditioner did since `before`: amgf counts; any other PC is applied once per iteration */
+/*
+   Adds what the preconditioner did since `before`. A PCAMGF counts its applications; any other PC is applied once per
+   iteration.
+*/
 PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepReport *report)
 {
   PC           pc;

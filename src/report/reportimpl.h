@@ -1,6 +1,4 @@
-/*
-   Private header of the report: functions that add to it, and PETSc's log events for the times of its phases.
-*/
+/* Private header of the report: functions that add to it, and log events for the times of its phases */
 #ifndef REPORTIMPL_H
 #define REPORTIMPL_H
 

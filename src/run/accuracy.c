@@ -1,26 +1,27 @@
-/* Chooses tolerances and mesh for a requested accuracy. */
+/* Chooses tolerances and mesh for a requested accuracy */
 #include <accuracy.h>
 #include <vector3.h>
 #include <math.h>
 
 #define ACCURACY_RATE \
-  4.0 /* factor by which a uniform refinement reduces the error in energy of trilinear elements for smooth solutions */
+  4.0 /* largest factor by which a uniform refinement reduces the error in energy: that of trilinear elements for
+         smooth solutions */
 #define ACCURACY_RAISED \
-  16.0 /* the same for order 2 instead of 1; measured: 11 on a ball, limited by the edge of contact; 26 on a
-          cantilever; 80 on a cylinder */
+  16.0 /* largest factor by which order 2 instead of order 1 reduces the error in energy. Measured: 11 on a ball,
+          limited by the edge of contact; 26 on a cantilever; 80 on a cylinder. */
 #define ACCURACY_UPDATES 20
 #define ACCURACY_REGULAR \
-  1.05 /* relative to the best rate of order 1 elements, error ~ unknowns^(-2/3): if the recovered error falls by
-          less, the solution has a singularity */
+  1.05 /* limit relative to the best rate of order 1 elements, error ~ unknowns^(-2/3): if the recovered error falls
+          by less, the solution has a singularity */
 #define ACCURACY_UNSEEN \
-  2.0 /* relative to the recovered errors of both meshes: a larger difference of the results shows an error that
-         recovery does not see */
-#define ACCURACY_MINOR 1e-2 /* relative to the largest pair's force: smaller forces are compared with this value */
+  2.0 /* limit relative to the sum of the recovered errors of two meshes: a larger difference of their results shows
+         an error that stress recovery does not include */
+#define ACCURACY_MINOR 1e-2 /* fraction of the largest pair's force; a smaller force is compared with this fraction */
 #define ACCURACY_MARGIN \
-  0.5 /* fraction of its share at which the solver aims, since it leaves up to 1.3 times its tolerance, and a second
-         run costs more than a Newton step */
+  0.5 /* fraction of the allowed error at which the solver's tolerance aims, since the solver leaves up to 1.3 times
+         its tolerance, and a second run costs more than a Newton step */
 
-/* What -accuracy_of names; force includes the energy, pressure both, displacement the energy */
+/* Values of -accuracy_of. `force` and `displacement` include the energy; `pressure` includes energy and force. */
 typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
@@ -94,8 +95,10 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscFunctionReturn(0);
 }
 
-/* Checks that -accuracy_order can be used (bodies of order 1, no element that exists for order 1 only), and that
-   there are probes if displacements must be accurate */
+/*
+   Checks that the scene is suitable. With -accuracy_order bodies must have order 1 and an element that also exists for
+   order 2. If pressures or displacements must be accurate, there must be contact pairs or probes.
+*/
 static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
 {
   PetscInt npoints = 0;
@@ -125,12 +128,14 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Chooses the tolerances of the next run. scene: the scene; its contact_updates is raised, unless
-   -contact_updates was given; tolerances: those of the run; they stay where no accuracy is asked for. Contact is
-   updated until the gap is consistent, so that load steps of any size end in the same state. With -contact_updates 1
-   the accuracy refers to the problem with one linearization per load step. The optimizer's tolerance starts at half of
-   share x target and is tightened if the solver's error is too large. Tolerances given by the user as options take
-   precedence; AccuracyAssess() reads them after the run. */
+/*
+   Chooses the tolerances of the next run. Collective. scene: the scene, whose contact_updates is raised unless
+   -contact_updates was given; tolerances: those of the run, unchanged if no accuracy is requested.
+   Contact is updated until the gap is consistent, so that load steps of any size end in the same state. With
+   -contact_updates 1 the accuracy refers to the problem with one linearization per load step. The optimizer's tolerance
+   starts at half of share x target, and is tightened if the solver's error is too large. Tolerances that the user has
+   given as options take precedence; AccuracyAssess() reads them after the run.
+*/
 PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *tolerances)
 {
   PetscBool given;
@@ -150,7 +155,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
   PetscFunctionReturn(0);
 }
 
-/* Largest difference over the load steps, relative to the largest value, which is taken as at least `least` */
+/* Returns the largest difference over the load steps, relative to the largest value, or to `least` if that is larger */
 static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[],
   PetscReal least)
 {
@@ -163,7 +168,7 @@ static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscR
   return size > 0.0 ? difference / size : 0.0;
 }
 
-/* Largest relative change of the magnitude of each probe's displacement */
+/* Returns the largest change of a probe's displacement vector, relative to the largest magnitude of its displacement */
 static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt nprobes)
 {
@@ -183,8 +188,10 @@ static PetscReal AccuracyDisplacementChange(const AccuracyLevel *now, const Accu
   return change;
 }
 
-/* Largest relative change of the energy, and of each pair's force (its magnitude, and the sum of its rows'), as far
-   as requested */
+/*
+   Returns the largest relative change of the energy and, depending on `of`, of the probes' displacements or of each
+   pair's force (its magnitude, and the sum of its rows' forces)
+*/
 static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
 {
@@ -199,7 +206,7 @@ static PetscReal AccuracyChange(PetscInt of, const AccuracyLevel *now, const Acc
   return change;
 }
 
-/* Largest relative change of each pair's largest pressure */
+/* Returns the largest relative change of a pair's largest pressure */
 static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs)
 {
@@ -210,7 +217,7 @@ static PetscReal AccuracyPressureChange(const AccuracyLevel *now, const Accuracy
   return change;
 }
 
-/* The last run on a coarser mesh than that of the last run; NULL: none */
+/* Returns the last run on a coarser mesh than that of the last run; NULL: there is none */
 static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
@@ -221,8 +228,10 @@ static const AccuracyLevel *AccuracyCoarser(const Accuracy *acc)
   return NULL;
 }
 
-/* Guaranteed reduction of the error: by the cell size of uniform meshes, as for the strongest singularity considered
-   (crack, edge of a punch) */
+/*
+   Returns the factor by which the error falls at least: the ratio of the cell sizes, as for the strongest singularity
+   considered (crack, edge of a punch)
+*/
 static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *now)
 {
   return acc->adaptive ? PetscCbrtReal(PetscMax(now->growth, 1.25)) : 2.0;
@@ -230,10 +239,11 @@ static PetscReal AccuracyLeastRatio(const Accuracy *acc, const AccuracyLevel *no
 
 /*
    Estimates the error of the finer mesh from the difference of the results on two meshes. The ratio of the errors is
-   that of the recovered errors, limited by the best possible rate, since recovery may fall faster on meshes that are
-   too coarse for it. The estimate is at least a quarter of the recovered error, in case results agree by chance, and at
-   least all of it if the solution is singular. If results differ by more than recovery can explain, the whole
-   difference is the estimate. The error of pressures is that of the stress, the square root of that of the energy
+   taken from the recovered errors, but limited by the best possible rate, since on coarse meshes the recovered error
+   may fall faster than the error. The estimate is at least a quarter of the recovered error, in case the results agree
+   by chance, and at least the recovered error if the solution is singular. If the results differ by more than recovery
+   can explain, the whole difference is the estimate. The error of pressures is that of the stress, the square root of
+   that of the energy.
 */
 static void AccuracyAssessMesh(const Accuracy *acc, AccuracyLevel *now, const AccuracyLevel *before, PetscInt nsteps,
   PetscInt npairs, PetscInt nprobes)
@@ -262,7 +272,7 @@ static void AccuracyRecordProbes(const StepReport *step, PetscReal displaced[])
   for (PetscInt i = 0; i < 3 * step->nprobes; ++i) displaced[i] = step->probes[i / 3].displacement[i % 3];
 }
 
-/* force, pressure: of each pair in a load step */
+/* Records force and largest pressure of each pair in a load step */
 static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npairs, PetscReal force[],
   PetscReal pressure[])
 {
@@ -277,8 +287,10 @@ static PetscErrorCode AccuracyRecordForces(const StepReport *step, PetscInt npai
   PetscFunctionReturn(0);
 }
 
-/* Error of the solver in the energy. With one contact update per load step the gap error is not included, because no
-   tolerance reduces it */
+/*
+   Returns the error in energy that the solver leaves. With one contact update per load step the gap error is not
+   included, since no tolerance reduces it.
+*/
 static PetscReal AccuracySolverError(const Accuracy *acc, const StepReport *step)
 {
   return acc->updates == 1 ? step->algebraic_error - step->gap_error : step->algebraic_error;
@@ -321,8 +333,10 @@ static PetscErrorCode AccuracyRecord(Accuracy *acc, const RunReport *report, Pet
   PetscFunctionReturn(0);
 }
 
-/* Refines again, unless two meshes show an error within a factor 2 of the target, or the limit of unknowns is
-   reached */
+/*
+   Decides whether to refine again: unless the results of two meshes show an error within a factor of 2 of the target,
+   or the next mesh would exceed the limit of unknowns
+*/
 static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
 {
   const AccuracyLevel *now    = &acc->levels[acc->nlevels - 1];
@@ -340,7 +354,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   PetscFunctionReturn(0);
 }
 
-/* Adopts tolerances that options have set */
+/* Adopts the tolerances of the run, which options may have set */
 static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
 {
   const PetscReal solver = acc->contact ? used->optimizer : used->linear;
@@ -350,7 +364,10 @@ static void AccuracyAdopt(Accuracy *acc, const StepTolerances *used)
   acc->update_tolerance = used->gap_change;
 }
 
-/* If the solver's error exceeds its share, tightens the tolerance, at most twice per mesh */
+/*
+   Decides whether to tighten the solver's tolerance, at most twice per mesh, because the solver's error exceeds its
+   share
+*/
 static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighten)
 {
   const AccuracyLevel *now     = &acc->levels[acc->nlevels - 1];
@@ -371,7 +388,7 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   PetscFunctionReturn(0);
 }
 
-/* Sets the order of all bodies with an elastic law */
+/* Sets the order of all bodies that are not rigid */
 static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 {
   PetscFunctionBegin;
@@ -381,33 +398,36 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Estimates the error of a run, and chooses the next refinement if it is too large. tolerances: the
-   tolerances of the run; report: the report of the run; scene: the scene; its refinement is set to that of the next
-   run; again: whether the scene is to be run again.
+/*
+   Collective. Estimates the error of a run, and chooses the next refinement if it is too large. tolerances: the
+   tolerances of the run; report: the report of the run; scene: the scene, whose refinement is set to that of the next
+   run; again: whether the scene must be run again.
 
-   The first mesh's error in energy is estimated by stress recovery, which does not include the errors of faceted curved
+   The first mesh's error in energy is estimated by stress recovery. This does not include the errors of faceted curved
    surfaces and of the edge of contact. Therefore a second mesh is always run. From then on the error is extrapolated
    from the change of energy and of each pair's force between two meshes, whichever is largest, with the convergence
-   rate of the recovery estimate, at most a factor of 4, the rate of trilinear elements. The result is at least a
-   quarter of the recovery estimate, and at least all of it if the estimate falls more slowly than for a regular
-   solution, as near singular edges. If the change is larger than the recovery estimates of both meshes explain, the
-   change itself is taken as the error. A pair's force enters with two values: its magnitude, relative to the largest of
-   all pairs, and the sum of the magnitudes of its rows' forces.
+   rate of the recovered error, at most a factor of 4, the rate of trilinear elements. The result is at least a quarter
+   of the recovered error. It is at least the recovered error if that falls more slowly than for a regular solution, as
+   near singular edges. If the change is larger than the recovered errors of both meshes explain, the change is the
+   error. A pair's force enters with two values: its magnitude, relative to the largest of all pairs, and the sum of the
+   magnitudes of its rows' forces.
 
-   A mesh is fine enough when its error is within a factor 2 of the target: uniform refinement divides it by 4, and
-   costs 8 times as much, so that all the coarser meshes together cost a seventh of the last. If the first mesh already
+   A mesh is fine enough when its error is within a factor of 2 of the target. Uniform refinement divides the error by 4
+   and costs 8 times as much, so that all coarser meshes together cost a seventh of the last. If the first mesh already
    meets the target, the second one makes the cost 8 times that of the first.
 
-   Load steps of each mesh except the first start from the states at their ends on the previous mesh, see
+   The load steps of each mesh except the first start from the states at their ends on the previous mesh, see
    SimulationSetForecast().
 
-   Adaptive refinement uses at least two meshes too; each refines the cells chosen by SimulationPropose(). The error is
+   Adaptive refinement also uses at least two meshes. Each refines the cells chosen by SimulationPropose(). The error is
    extrapolated with the same rates, where the ratio of cell sizes is at least the cube root of the ratio of unknowns.
-   With -accuracy_order the second mesh is the first with bodies of that order, six to eight times its unknowns too, and
-   the error is extrapolated with a factor of 16 at most; later ones are refined.
 
-   If the solver's error exceeds its share, its tolerance is tightened, unless the user has given it; on the finest mesh
-   the run is repeated with the new tolerance. */
+   With -accuracy_order the second mesh is the first one with bodies of that order. It has six to eight times as many
+   unknowns, and the error is extrapolated with a factor of at most 16. Later meshes are refined.
+
+   If the solver's error exceeds its share, its tolerance is tightened, unless the user has given it. On the finest mesh
+   the run is repeated with the new tolerance.
+*/
 PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, const RunReport *report, Scene scene,
   PetscBool *again)
 {

@@ -1,15 +1,19 @@
-/* Chooses the cells to refine for the next mesh: those with the largest errors over all load steps, and those at the
-   contact in the last one */
+/*
+   Chooses the cells to refine for the next mesh: those with the largest errors over all load steps, and those at the
+   contact in the last load step
+*/
 #include "runimpl.h"
 #include "src/state/run.h"
 
 #define ADAPT_SHARE \
-  0.8 /* fraction of the squared error in the refined cells; after refinement about 0.4 of it
-                           remains */
+  0.8 /* fraction of the squared error that the refined cells have; after refinement about 0.4 of the squared error
+         remains */
 
-/* Collective. Makes a simulation record the error of every cell and refine the cells marked before. sim: the
-   simulation, before SimulationSetUp(); marks: the marks, which must exist until the simulation is set up; initially
-   empty. */
+/*
+   Collective. Makes a simulation record the error of every cell, and refine the cells marked before. sim: the
+   simulation, before SimulationSetUp(); marks: the marks, initially empty, which must exist until the simulation is set
+   up.
+*/
 PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
 {
   Scene scene = sim->scene;
@@ -34,7 +38,7 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* sum: errors of cells above a threshold, over all ranks */
+/* Sums the errors of cells whose error is at least `threshold`, over all ranks */
 static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
 {
   PetscFunctionBegin;
@@ -44,8 +48,10 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
   PetscFunctionReturn(0);
 }
 
-/* Marks the cells with the largest errors (Doerfler 1996). Thresholds are fractions of the largest error, not errors
-   of cells, so that cells which are equal by symmetry are treated equally on any number of ranks */
+/*
+   Marks the cells with the largest errors (Doerfler 1996). Thresholds are fixed fractions of the largest error instead
+   of errors of cells, so that cells which are equal by symmetry are treated equally on any number of ranks.
+*/
 static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
 {
   const PetscReal step    = PetscPowReal(2.0, -0.125);
@@ -65,11 +71,13 @@ static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Chooses the cells to be refined in the next mesh. sim: the simulation, with marks and after its load
-   steps; growth: approximate ratio of the next mesh's unknowns to the present ones. Chooses the cells with the largest
-   errors, which together have 0.8 of the squared recovery estimate over all load steps. Because recovery does not
+/*
+   Collective. Chooses the cells to be refined in the next mesh. sim: the simulation, with marks and after its load
+   steps; growth: approximate ratio of the next mesh's unknowns to the present ones. The cells with the largest errors
+   are chosen, which together have 0.8 of the squared recovered error over all load steps. Since recovery does not
    include the errors of contact, cells on both sides of the contact area of the last load step are added: on curved
-   faces all of them, on plane faces those at the edge of contact. */
+   faces all of them, on plane faces those at the edge of contact.
+*/
 PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 {
   PetscInt cstart, cend, counts[2] = {0, 0};
@@ -85,8 +93,10 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Marks the cells chosen by SimulationPropose(). sim: the simulation, after SimulationPropose(); marks: the
-   marks of the present mesh; the marks for the next mesh are added. */
+/*
+   Collective. Marks the cells chosen by SimulationPropose(). sim: the simulation, after SimulationPropose(); marks: the
+   marks of the present mesh, to which the marks for the next mesh are added.
+*/
 PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
 {
   PetscFunctionBegin;

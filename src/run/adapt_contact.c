@@ -1,19 +1,25 @@
-/* Chooses cells at the contact in the last load step. Stress recovery sees neither the facets of curved surfaces nor
-   the edge of contact */
+/*
+   Chooses cells at the contact in the last load step. Stress recovery includes neither the error of faceted curved
+   surfaces nor that of the edge of contact.
+*/
 #include "runimpl.h"
 #include <vector3.h>
 #include "src/state/contact_state.h"
 #include "src/state/run.h"
 
-/* Values at each vertex of a face, in its local vector */
+/* Values of each vertex of a face, in a vector with three values per vertex */
 typedef enum {
   VERTEX_CLOSED, /* 1 if the pair has pressure there */
   VERTEX_ANGLE,  /* sum of the facets' angles there [rad]: 2 pi inside a plane face */
   VERTEX_HANGS   /* 1 for a hanging vertex */
 } VertexFact;
 
-#define ADAPT_PLANE  1e-9 /* a face is plane if its facets' area vectors add up to its area, within this fraction */
-#define ADAPT_INSIDE (1.9 * PETSC_PI) /* angle around a vertex that is not on the border of a face */
+#define ADAPT_PLANE \
+  1e-9 /* a face is plane if the magnitude of the sum of its facets' area vectors equals its area
+                             within this fraction */
+#define ADAPT_INSIDE \
+  (1.9 * PETSC_PI) /* an angle around a vertex of at least this value means that the vertex is not
+                                         on the border of its face [rad] */
 
 static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
 {
@@ -57,7 +63,7 @@ static PetscErrorCode AdaptSetHanging(Simulation sim, Vec facts)
   PetscFunctionReturn(0);
 }
 
-/* Angle at corner a of an undeformed facet */
+/* Returns the angle at corner a of an undeformed facet [rad] */
 static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
 {
   PetscReal ab = 0.0, aa = 0.0, bb = 0.0;
@@ -72,7 +78,7 @@ static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
   return aa > 0.0 && bb > 0.0 ? PetscAcosReal(PetscClipInterval(ab / PetscSqrtReal(aa * bb), -1.0, 1.0)) : 0.0;
 }
 
-/* area: twice the area vector of an undeformed facet */
+/* Computes twice the area vector of an undeformed facet */
 static void FacetArea(PetscReal x[4][3], PetscReal area[3])
 {
   PetscReal d[3], e[3];
@@ -84,7 +90,7 @@ static void FacetArea(PetscReal x[4][3], PetscReal area[3])
   VectorCross(d, e, area);
 }
 
-/* Adds the angles around a face's vertices, and finds whether the face is plane */
+/* Adds the facets' angles at a face's vertices, and finds whether the face is plane */
 static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec facts, PetscBool *plane)
 {
   PetscSection    section;
@@ -129,7 +135,10 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscFunctionReturn(0);
 }
 
-/* errs: whether a facet is in contact and, on a plane face, at the edge of contact or of the face */
+/*
+   Finds whether a facet needs refinement: it is in contact and, if the face is plane, at the edge of contact or of the
+   face
+*/
 static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar facts[], const PetscInt vertices[4],
   PetscBool plane, PetscBool *errs)
 {
@@ -151,7 +160,7 @@ static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar fac
   PetscFunctionReturn(0);
 }
 
-/* Marks the cells of deformable bodies behind such facets */
+/* Marks the cells of deformable bodies behind facets that need refinement */
 static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local, PetscBool plane)
 {
   PetscSection       section;
@@ -185,8 +194,10 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
   PetscFunctionReturn(0);
 }
 
-/* Marks cells on both sides of each pair. Under a plane face only cells at the edge of contact are marked; otherwise
-   most cells would be there */
+/*
+   Marks cells on both sides of each pair. Below a plane face only cells at the edge of contact are marked, since
+   otherwise most refined cells would be there.
+*/
 PetscErrorCode AdaptMarkContact(Simulation sim)
 {
   PetscFunctionBegin;

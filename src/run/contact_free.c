@@ -1,9 +1,9 @@
-/* Reference cost: the same mesh and the same AMG without contact. */
+/* Solves the first load step without contact, with the same mesh and the same AMG, to measure the cost of contact */
 #include "runimpl.h"
 #include <petsctime.h>
 #include "src/state/path.h"
 
-/* Solver like the optimizer's, with its options; PCAMGF without a subspace is its AMG alone */
+/* Creates a solver like the optimizer's, with its options. PCAMGF without a subspace is its AMG alone. */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
   Tao tao;
@@ -26,8 +26,8 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 }
 
 /*
-   Load of the comparison: the first step's forces due to prescribed displacements, and a uniform pressure on the
-   contact faces with the same norm, so that every body is loaded as by contact
+   Computes the load of the comparison: the first load step's forces due to prescribed displacements, and a uniform
+   pressure on the contact faces with an equal norm, so that every body is loaded as by contact
 */
 static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 {

@@ -1,4 +1,4 @@
-/* Effects of a scene: which are on, why, and their cost. */
+/* Effects of a scene: which are active, why, and what they cost */
 #include "runimpl.h"
 #include <math.h>
 #include "src/state/results.h"
@@ -155,7 +155,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Sets the times. Whether the filter is used is known after the solve only */
+/* Sets the times of the effects. Whether the filter was used is known only after the solve. */
 PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
 {
   PetscInt systems = 0, filtered = 0;

@@ -1,8 +1,8 @@
-/* Memory of the program: resident set size now, and its peak. */
+/* Memory of the program: present resident set size, and its peak */
 #include "runimpl.h"
 #include <sys/resource.h>
 
-/* Resident set size now, summed over ranks */
+/* Gets the present resident set size, summed over the ranks [bytes] */
 PetscErrorCode MemoryUsageGet(MPI_Comm comm, PetscLogDouble *bytes)
 {
   PetscFunctionBegin;
@@ -11,8 +11,10 @@ PetscErrorCode MemoryUsageGet(MPI_Comm comm, PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-/* Peak resident set size of this process. Linux gives it as VmHWM; elsewhere getrusage() may give the peak of the
-   parent process */
+/*
+   Gets the peak resident set size of this process [bytes]. On Linux it is read as VmHWM; elsewhere getrusage() is used,
+   which may give the peak of the parent process.
+*/
 static PetscErrorCode MemoryUsagePeakOfRank(PetscLogDouble *bytes)
 {
   FILE         *status = fopen("/proc/self/status", "r");
@@ -31,7 +33,7 @@ static PetscErrorCode MemoryUsagePeakOfRank(PetscLogDouble *bytes)
   PetscFunctionReturn(0);
 }
 
-/* Peak resident set size, summed over ranks */
+/* Gets the peak resident set size, summed over the ranks [bytes] */
 PetscErrorCode MemoryUsageGetPeak(MPI_Comm comm, PetscLogDouble *bytes)
 {
   PetscFunctionBegin;

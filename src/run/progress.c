@@ -1,4 +1,4 @@
-/* Prints the progress of a run at intervals: load step, elapsed time, estimated remaining time. */
+/* Prints the progress of a run at intervals: load step, elapsed time, estimated remaining time */
 #include "runimpl.h"
 #include <petsctime.h>
 #include "src/state/control.h"
@@ -19,7 +19,7 @@ static PetscErrorCode ProgressDuration(PetscLogDouble seconds, char text[PROGRES
   PetscFunctionReturn(0);
 }
 
-/* Whether a report is due, by the clock of the first rank, which prints it */
+/* Finds whether a progress message is due. The clock of the first rank counts, which prints the message. */
 static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBool *due)
 {
   PetscFunctionBegin;
@@ -30,17 +30,17 @@ static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Records the duration of a whole load step */
+/* Records the duration of a complete load step [s] */
 void ProgressRecord(Progress *p, PetscLogDouble duration)
 {
   p->last[p->nsteps++ % PROGRESS_STEPS] = duration;
 }
 
 /*
-   Estimates the remaining time. The bounds are the durations of the fastest and the slowest of the last load steps.
-   Their mean is within a factor of two of both if the slower is at most three times the faster. Otherwise, or if the
-   current step takes longer than the earlier ones, or if less than a second is left, there is no estimate (returns
-   false). elapsed: time in the current load step; later: number of load steps after it
+   Estimates the remaining time *left [s]. elapsed: time spent in the current load step; later: number of load steps
+   after it. The bounds are the durations of the fastest and the slowest of the last load steps. If the slower bound is
+   at most three times the faster one, their mean is within a factor of two of both. Otherwise, or if the current step
+   takes longer than the earlier ones, or if less than a second is left, returns false, and there is no estimate.
 */
 PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *left)
 {
@@ -56,7 +56,7 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
   return (PetscBool)(p->nsteps >= 2 && elapsed <= most && high <= 3.0 * low && *left >= 1.0);
 }
 
-/* Prints a line. With -accuracy there is no estimate, since a finer mesh may follow */
+/* Prints a progress message. With -accuracy there is no estimate, since a finer mesh may follow. */
 static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
   const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path->time) + 1, nsteps);
@@ -74,7 +74,7 @@ static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const ch
   PetscFunctionReturn(0);
 }
 
-/* Called before a load step; after a restart the first may be partly done */
+/* Starts the clock before a load step. After a restart the first load step may be partly complete. */
 static PetscErrorCode ProgressBegin(Simulation sim)
 {
   PetscFunctionBegin;
@@ -83,7 +83,7 @@ static PetscErrorCode ProgressBegin(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Called after each converged attempt */
+/* Prints a progress message after a converged attempt if one is due */
 static PetscErrorCode ProgressReach(Simulation sim)
 {
   const PetscBool end        = (PetscBool)(sim->path->time == PetscFloorReal(sim->path->time));
@@ -101,7 +101,7 @@ static PetscErrorCode ProgressReach(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Called during a solve; goal: the error at which it ends */
+/* Prints a progress message during a solve if one is due. goal: the error at which the solve ends. */
 static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscReal error, PetscReal goal)
 {
   char           inside[96];

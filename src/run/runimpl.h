@@ -1,6 +1,4 @@
-/*
-   Private header of the analysis: set-up, progress, effects and mesh adaptation around the load steps.
-*/
+/* Private header of run: set-up, progress, effects and mesh adaptation around the load steps */
 #ifndef RUNIMPL_H
 #define RUNIMPL_H
 

@@ -1,4 +1,4 @@
-/* Sets up a scene: mesh, elasticity, loads, contact, report. */
+/* Sets up the simulation of a scene: mesh, elasticity, loads, contact, report */
 #include "runimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/control.h"

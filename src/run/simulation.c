@@ -1,4 +1,4 @@
-/* Creation and destruction of a simulation, and its settings. */
+/* Creates and destroys a simulation, and sets its parameters */
 #include "runimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
@@ -7,7 +7,7 @@
 #include "src/state/results.h"
 #include "src/state/run.h"
 
-/* The simulation and its parts, in one piece of memory */
+/* The simulation and its parts, in one block of memory */
 typedef struct {
   struct _n_Simulation simulation;
   LoadPath             path;
