@@ -121,7 +121,7 @@ static PetscErrorCode SolverCreate(Tao tao)
                                                               H_ii for some i; 0: always
 . -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for linear constraints that
                                                               touch few unknowns
-. -tao_ipfilter_subspace_max <0>                            - directions that it keeps, of two vectors each; 0: 80 to
+. -tao_ipfilter_subspace_max <0>                            - directions that it keeps, in single precision; 0: 80 to
                                                               160, by memory, 48 where the objective is not quadratic
 . -tao_ipfilter_ksp_max_it <10000>                          - limit of Krylov iterations in a linear solve, and of all
                                                               directions

@@ -39,23 +39,23 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
   }
 }
 
-VEC4_CLONES static void SweepDown3(const BlockLevel *l)
+AMGF_CLONES static void SweepDown3(const BlockLevel *l)
 {
   for (int i = 0; i < l->nb; i++) SweepRow(l, i, Vec4Load(l->b + 4 * (size_t)i), 3, 1);
 }
 
-VEC4_CLONES static void SweepDown4(const BlockLevel *l)
+AMGF_CLONES static void SweepDown4(const BlockLevel *l)
 {
   for (int i = 0; i < l->nb; i++) SweepRow(l, i, Vec4Load(l->b + 4 * (size_t)i), 4, 1);
 }
 
-VEC4_CLONES static void SweepUp3(const BlockLevel *l)
+AMGF_CLONES static void SweepUp3(const BlockLevel *l)
 {
   for (int i = l->nb - 1; i >= 0; i--)
     SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 3, -1);
 }
 
-VEC4_CLONES static void SweepUp4(const BlockLevel *l)
+AMGF_CLONES static void SweepUp4(const BlockLevel *l)
 {
   for (int i = l->nb - 1; i >= 0; i--)
     SweepRow(l, i, Vec4Subtract(Vec4Load(l->b + 4 * (size_t)i), Vec4Load(l->t + 4 * (size_t)i)), 4, -1);
@@ -78,7 +78,7 @@ void BlockSweepUp_Private(const BlockLevel *l)
 }
 
 /* BlockRestrict_Private - subtracts P^T t from coarse, including the ghosts of coarse */
-VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
+AMGF_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
 {
   const BlockInterpolation *P = &l->P;
 
@@ -90,7 +90,7 @@ VEC4_CLONES void BlockRestrict_Private(const BlockLevel *l, float coarse[])
 }
 
 /* BlockInterpolateAdd_Private - adds P coarse to x; the ghosts of coarse must be up to date */
-VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float coarse[])
+AMGF_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float coarse[])
 {
   const BlockInterpolation *P = &l->P;
 
@@ -103,7 +103,7 @@ VEC4_CLONES void BlockInterpolateAdd_Private(const BlockLevel *l, const float co
 }
 
 /* BlockDenseMultiply_Private - computes entries first, ..., first + n - 1 of the product W^T W b, where W is N x N */
-VEC4_CLONES void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[])
+AMGF_CLONES void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[])
 {
   for (int i = 0; i < n; i++) x[i] = 0.0f;
   for (int k = 0; k < N; k++) {

@@ -2,6 +2,7 @@
 #ifndef AMGF_VEC4_H
 #define AMGF_VEC4_H
 
+#include "pc_amgf/clones.h"
 #include <string.h>
 
 #if defined(__GNUC__) && !defined(AMGF_PLAIN_C)
@@ -107,16 +108,5 @@ VEC4_INLINE void Vec4Store(float *p, Vec4 a)
 {
   memcpy(p, &a, sizeof(a));
 }
-
-/*
-   Compiles a function for several instruction sets, among which the loader chooses. Sanitizers do not work with this,
-   since they are not yet initialized when the loader chooses.
-*/
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__gnu_linux__) && \
-  !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(AMGF_PLAIN_C)
-  #define VEC4_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-  #define VEC4_CLONES
-#endif
 
 #endif

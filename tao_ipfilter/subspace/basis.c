@@ -1,116 +1,255 @@
 /*
    The directions P of the filtered subspace, which later solves reuse. They are zero on the constraints' unknowns W.
-   The products Q = K P and the Gram matrix P^T K P are stored with them. A new direction is made K-orthonormal to the
-   others. If W changes, the entries on the new W are set to zero, and Q and the Gram matrix are corrected.
+   Directions are stored in single precision. The Gram matrix P^T K P and the entries W of K P are computed in double
+   precision from the rounded directions. The reduced problem is therefore exact for the rounded directions.
+
+   Directions are not made orthogonal. They are preconditioned residuals, which are almost K-orthogonal to each other
+   if the preconditioner is good. Only a direction that almost depends on the others is made K-orthogonal to them.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
 
-PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *b)
+/* Creates an empty basis with room for max directions. like: a vector of the unknowns */
+PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *b)
 {
   PetscFunctionBegin;
   b->n   = 0;
   b->max = max;
   b->generation++;
-  PetscCall(PetscCalloc4(max, &b->p, max, &b->q, max * max, &b->gram, max * max, &b->factor));
+  PetscCall(VecGetLocalSize(like, &b->nlocal));
+  PetscCall(VecDuplicate(like, &b->d));
+  PetscCall(VecDuplicate(like, &b->Kd));
+  PetscCall(PetscCalloc5(max, &b->p, max, &b->size, max, &b->q, max * max, &b->gram, max * max, &b->factor));
+  PetscFunctionReturn(0);
+}
+
+/* Frees the entries W of K times the directions */
+static PetscErrorCode BasisForgetW(IPBasis *b)
+{
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < b->max; j++) PetscCall(PetscFree(b->q[j]));
+  PetscCall(ISDestroy(&b->W));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode IPBasisDestroy(IPBasis *b)
 {
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < b->max; j++) {
-    PetscCall(VecDestroy(&b->p[j]));
-    PetscCall(VecDestroy(&b->q[j]));
-  }
-  PetscCall(PetscFree4(b->p, b->q, b->gram, b->factor));
+  PetscCall(BasisForgetW(b));
+  for (PetscInt j = 0; j < b->max; j++) PetscCall(PetscFree(b->p[j]));
+  PetscCall(PetscFree5(b->p, b->size, b->q, b->gram, b->factor));
+  PetscCall(VecDestroy(&b->d));
+  PetscCall(VecDestroy(&b->Kd));
   b->n = b->max = 0;
   PetscFunctionReturn(0);
 }
 
-/* Replaces h by (P^T K P)^-1 h */
-static PetscErrorCode BasisSolve(const IPBasis *b, PetscReal h[])
+/* Computes s = P^T v for the first k directions. Collective. */
+static PetscErrorCode BasisDots(const IPBasis *b, PetscInt k, Vec v, PetscReal s[])
 {
-  PetscBLASInt n, ld, one = 1, info;
+  const PetscScalar *a;
 
   PetscFunctionBegin;
-  PetscCall(PetscBLASIntCast(b->n, &n));
-  PetscCall(PetscBLASIntCast(b->max, &ld));
-  PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &n, &one, b->factor, &ld, h, &ld, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs returned %d for %d directions", (int)info, (int)n);
+  PetscCall(VecGetArrayRead(v, &a));
+  IPSingleDots(b->nlocal, k, b->p, a, s);
+  PetscCall(VecRestoreArrayRead(v, &a));
+  for (PetscInt j = 0; j < k; j++) s[j] *= b->size[j];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s, (PetscMPIInt)k, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  PetscFunctionReturn(0);
+}
+
+/* Computes P^T v for the directions from `first` on. Collective. */
+PetscErrorCode IPBasisDots(const IPBasis *b, PetscInt first, Vec v, PetscReal s[])
+{
+  IPBasis later = *b;
+
+  PetscFunctionBegin;
+  later.p    = b->p + first;
+  later.size = b->size + first;
+  PetscCall(BasisDots(&later, b->n - first, v, s));
+  PetscFunctionReturn(0);
+}
+
+/* Adds P y to v */
+PetscErrorCode IPBasisAdd(const IPBasis *b, const PetscReal y[], Vec v)
+{
+  PetscScalar *a;
+  PetscReal   *factors;
+
+  PetscFunctionBegin;
+  if (!b->n) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(b->n, &factors));
+  for (PetscInt j = 0; j < b->n; j++) factors[j] = y[j] * b->size[j];
+  PetscCall(VecGetArray(v, &a));
+  IPSingleCombine(b->nlocal, b->n, factors, b->p, a);
+  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(PetscFree(factors));
+  PetscFunctionReturn(0);
+}
+
+/* Copies the entries W of K times direction j to q. The other entries of q are unchanged. */
+PetscErrorCode IPBasisGetForces(const IPBasis *b, PetscInt j, Vec q)
+{
+  const PetscInt *w;
+  PetscScalar    *a;
+  PetscInt        n, start;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(b->W, &n));
+  PetscCall(ISGetIndices(b->W, &w));
+  PetscCall(VecGetOwnershipRange(q, &start, NULL));
+  PetscCall(VecGetArray(q, &a));
+  for (PetscInt i = 0; i < n; i++) a[w[i] - start] = b->q[j][i];
+  PetscCall(VecRestoreArray(q, &a));
+  PetscCall(ISRestoreIndices(b->W, &w));
+  PetscFunctionReturn(0);
+}
+
+/* Copies direction j to b->d, in double precision */
+static PetscErrorCode BasisExpand(IPBasis *b, PetscInt j)
+{
+  PetscScalar *d;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(b->d));
+  PetscCall(VecGetArray(b->d, &d));
+  IPSingleAdd(b->nlocal, b->size[j], b->p[j], d);
+  PetscCall(VecRestoreArray(b->d, &d));
+  PetscFunctionReturn(0);
+}
+
+/* Stores v, rounded, as direction j and copies the rounded direction to b->d. *stored: false if v is zero or not finite */
+static PetscErrorCode BasisStore(IPBasis *b, PetscInt j, Vec v, PetscBool *stored)
+{
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(v, NORM_INFINITY, &b->size[j]));
+  *stored = (PetscBool)(b->size[j] > 0.0 && !PetscIsInfOrNanReal(b->size[j]));
+  if (!*stored) PetscFunctionReturn(0);
+  if (!b->p[j]) PetscCall(PetscMalloc1(b->nlocal, &b->p[j]));
+  PetscCall(VecGetArrayRead(v, &a));
+  IPSingleRound(b->nlocal, a, b->size[j], b->p[j]);
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCall(BasisExpand(b, j));
+  PetscFunctionReturn(0);
+}
+
+/* Computes b->Kd = K b->d and stores its entries W for direction j */
+static PetscErrorCode BasisMultiply(IPBasis *b, Mat K, PetscInt j)
+{
+  const PetscInt    *w;
+  const PetscScalar *a;
+  PetscInt           n, start;
+
+  PetscFunctionBegin;
+  PetscCall(MatMult(K, b->d, b->Kd));
+  PetscCall(ISGetLocalSize(b->W, &n));
+  PetscCall(ISGetIndices(b->W, &w));
+  PetscCall(VecGetOwnershipRange(b->Kd, &start, NULL));
+  if (!b->q[j]) PetscCall(PetscMalloc1(n, &b->q[j]));
+  PetscCall(VecGetArrayRead(b->Kd, &a));
+  for (PetscInt i = 0; i < n; i++) b->q[j][i] = a[w[i] - start];
+  PetscCall(VecRestoreArrayRead(b->Kd, &a));
+  PetscCall(ISRestoreIndices(b->W, &w));
   PetscFunctionReturn(0);
 }
 
 /*
-   Makes d K-orthogonal to P: d -= P h and, unless Kd is NULL, Kd -= Q h, with h = (P^T K P)^-1 Q^T d. *removed: energy
-   h^T P^T K P h of the removed part.
+   Scales direction j to unit energy. energy: its energy before. s: its products P^T K d with the earlier directions,
+   which are scaled with it.
 */
-static PetscErrorCode BasisProject(const IPBasis *b, Vec d, Vec Kd, PetscReal *removed)
+static PetscErrorCode BasisScale(IPBasis *b, PetscInt j, PetscReal energy, PetscReal s[])
 {
-  PetscReal *h, *s;
+  const PetscReal scale = 1.0 / PetscSqrtReal(energy);
+  PetscInt        n;
 
   PetscFunctionBegin;
-  *removed = 0.0;
-  if (!b->n) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(b->max, &h, b->max, &s));
-  PetscCall(VecMDot(d, b->n, b->q, s));
-  PetscCall(PetscArraycpy(h, s, b->n));
-  PetscCall(BasisSolve(b, h));
-  for (PetscInt j = 0; j < b->n; j++) {
-    *removed += h[j] * s[j];
-    h[j] = -h[j];
-  }
-  PetscCall(VecMAXPY(d, b->n, h, b->p));
-  if (Kd) PetscCall(VecMAXPY(Kd, b->n, h, b->q));
-  PetscCall(PetscFree2(h, s));
+  PetscCall(ISGetLocalSize(b->W, &n));
+  b->size[j] *= scale;
+  for (PetscInt i = 0; i < n; i++) b->q[j][i] *= scale;
+  for (PetscInt i = 0; i < j; i++) s[i] *= scale;
   PetscFunctionReturn(0);
 }
 
-/* Creates the vectors of direction n if they do not exist, and copies d into it */
-static PetscErrorCode BasisTake(IPBasis *b, Vec d)
+/*
+   Solves L l = s with the Cholesky factor L of the Gram matrix. If s = P^T K d, *square = l^T l is the energy of the
+   part of d in the span of P.
+*/
+static void BasisForward(const IPBasis *b, const PetscReal s[], PetscReal l[], PetscReal *square)
+{
+  *square = 0.0;
+  for (PetscInt j = 0; j < b->n; j++) {
+    PetscReal sum = s[j];
+
+    for (PetscInt i = 0; i < j; i++) sum -= b->factor[j + i * b->max] * l[i];
+    l[j] = sum / b->factor[j + j * b->max];
+    *square += l[j] * l[j];
+  }
+}
+
+/* Makes v K-orthogonal to P: v -= P (P^T K P)^-1 s, with s = P^T K v. l: L^-1 s, which is overwritten */
+static PetscErrorCode BasisProject(const IPBasis *b, PetscReal l[], Vec v)
+{
+  PetscFunctionBegin;
+  for (PetscInt j = b->n - 1; j >= 0; j--) {
+    for (PetscInt i = j + 1; i < b->n; i++) l[j] -= b->factor[i + j * b->max] * l[i];
+    l[j] /= b->factor[j + j * b->max];
+  }
+  for (PetscInt j = 0; j < b->n; j++) l[j] = -l[j];
+  PetscCall(IPBasisAdd(b, l, v));
+  PetscFunctionReturn(0);
+}
+
+/* Appends direction n, which is stored, to the Gram matrix and its factor. s, l, square: see BasisForward() */
+static void BasisTake(IPBasis *b, const PetscReal s[], const PetscReal l[], PetscReal square)
 {
   const PetscInt n = b->n;
 
-  PetscFunctionBegin;
-  if (!b->p[n]) PetscCall(VecDuplicate(d, &b->p[n]));
-  if (!b->q[n]) PetscCall(VecDuplicate(d, &b->q[n]));
-  PetscCall(VecCopy(d, b->p[n]));
-  PetscFunctionReturn(0);
+  for (PetscInt j = 0; j < n; j++) {
+    b->gram[j + n * b->max] = b->gram[n + j * b->max] = s[j];
+    b->factor[n + j * b->max]                         = l[j];
+  }
+  b->gram[n + n * b->max]   = 1.0;
+  b->factor[n + n * b->max] = PetscSqrtReal(1.0 - square);
+  b->n++;
 }
 
 /*
-   Makes d, which is zero on W, K-orthonormal to the other directions and appends it. It is projected twice if the first
-   projection removed half of its energy. *appended: false if d depends on the other directions up to rounding, or K is
-   not positive along it.
+   Scales d, which is zero on W, to unit energy and appends it. If less than 1 % of its energy is outside of the span of
+   P, d is first made K-orthogonal to P. *appended: false if d depends on P up to rounding, or K is not positive along
+   d. d is overwritten.
 */
 PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 {
-  const PetscInt  n   = b->n;
-  const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
-  PetscReal       removed, again = 0.0;
+  const PetscReal independent = 1e-2, eps = 1e3 * PETSC_MACHINE_EPSILON;
+  const PetscInt  attempts = 3;
+  PetscReal      *s, *l, square = 1.0;
   PetscScalar     energy;
+  PetscBool       stored;
 
   PetscFunctionBegin;
-  PetscCheck(n < b->max, PetscObjectComm((PetscObject)d), PETSC_ERR_PLIB,
+  PetscCheck(b->n < b->max, PetscObjectComm((PetscObject)d), PETSC_ERR_PLIB,
     "There is room for %" PetscInt_FMT " directions only", b->max);
-  PetscCall(BasisTake(b, d));
-  PetscCall(BasisProject(b, b->p[n], NULL, &removed));
-  PetscCall(MatMult(K, b->p[n], b->q[n]));
-  PetscCall(VecDot(b->p[n], b->q[n], &energy));
-  if (PetscRealPart(energy) < removed) {
-    PetscCall(BasisProject(b, b->p[n], b->q[n], &again));
-    PetscCall(VecDot(b->p[n], b->q[n], &energy));
+  *appended = PETSC_FALSE;
+  PetscCall(PetscMalloc2(b->max, &s, b->max, &l));
+  for (PetscInt k = 0; k < attempts && !*appended; k++) {
+    PetscCall(BasisStore(b, b->n, d, &stored));
+    if (!stored) break;
+    PetscCall(BasisMultiply(b, K, b->n));
+    PetscCall(VecDot(b->d, b->Kd, &energy));
+    if (!(PetscRealPart(energy) > (k ? eps : 0.0)) || PetscIsInfOrNanReal(PetscRealPart(energy))) break;
+    PetscCall(BasisDots(b, b->n, b->Kd, s));
+    PetscCall(BasisScale(b, b->n, PetscRealPart(energy), s));
+    BasisForward(b, s, l, &square);
+    *appended = (PetscBool)(square < 1.0 - independent);
+    if (*appended) BasisTake(b, s, l, square);
+    else {
+      PetscCall(VecAXPBY(d, 1.0 / PetscSqrtReal(PetscRealPart(energy)), 0.0, b->d));
+      PetscCall(BasisProject(b, l, d));
+    }
   }
-  *appended = (PetscBool)(PetscRealPart(energy) > eps * removed && !PetscIsInfOrNanReal(PetscRealPart(energy)) &&
-                          again <= removed);
-  if (!*appended) PetscFunctionReturn(0);
-  PetscCall(VecScale(b->p[n], 1.0 / PetscSqrtReal(PetscRealPart(energy))));
-  PetscCall(VecScale(b->q[n], 1.0 / PetscSqrtReal(PetscRealPart(energy))));
-  for (PetscInt j = 0; j <= n; j++) {
-    b->gram[j + n * b->max] = b->gram[n + j * b->max] = j == n ? 1.0 : 0.0;
-    b->factor[n + j * b->max]                         = j == n ? 1.0 : 0.0;
-  }
-  b->n++;
+  PetscCall(PetscFree2(s, l));
   PetscFunctionReturn(0);
 }
 
@@ -124,13 +263,15 @@ static PetscErrorCode BasisSelect(IPBasis *b, const PetscBool keep[])
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < b->n; j++) {
-    Vec p = b->p[j], q = b->q[j];
+    float       *p = b->p[j];
+    PetscScalar *q = b->q[j];
 
     if (!keep[j]) continue;
-    b->p[j] = b->p[n];
-    b->q[j] = b->q[n];
-    b->p[n] = p;
-    b->q[n] = q;
+    b->p[j]    = b->p[n];
+    b->q[j]    = b->q[n];
+    b->p[n]    = p;
+    b->q[n]    = q;
+    b->size[n] = b->size[j];
     for (PetscInt i = 0; i < b->n; i++) b->gram[i + n * b->max] = b->gram[i + j * b->max];
     for (PetscInt i = 0; i < b->n; i++) b->gram[n + i * b->max] = b->gram[j + i * b->max];
     n++;
@@ -208,7 +349,7 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
   PetscCall(PetscBLASIntCast((PetscInt)size, &lwork));
   PetscCall(PetscMalloc1(lwork, &work));
   PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, work, &lwork, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv returned %d for %d directions", (int)info, (int)nb);
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv said %d of %d directions", (int)info, (int)nb);
   for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(T + j * n, E + (n - 1 - j) * b->max, n));
   PetscCall(PetscFree(work));
   PetscCall(PetscFree2(G, values));
@@ -216,31 +357,51 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
 }
 
 /*
-   Replaces the first k of n vectors by their combinations with the columns of T (length n). The vectors are processed
-   in blocks of entries to save memory.
+   Replaces the first k of n directions by their combinations with the columns of T (length n). The vectors are
+   processed in blocks of entries to save memory.
 */
-static PetscErrorCode BasisCombine(PetscInt n, PetscInt k, const PetscReal T[], Vec v[])
+static PetscErrorCode BasisCombine(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
-  const PetscInt  chunk = 128;
-  const PetscReal one = 1.0, zero = 0.0;
-  PetscBLASInt    nb, kb, rows;
-  PetscScalar   **a, *old, *new;
-  PetscInt        local;
+  const PetscInt chunk = 128;
+  PetscReal     *size, *row;
 
   PetscFunctionBegin;
-  PetscCall(PetscBLASIntCast(n, &nb));
-  PetscCall(PetscBLASIntCast(k, &kb));
-  PetscCall(VecGetLocalSize(v[0], &local));
-  PetscCall(PetscMalloc2(chunk * n, &old, chunk * k, &new));
-  PetscCall(VecGetArrays(v, n, &a));
-  for (PetscInt start = 0; start < local; start += chunk) {
-    PetscCall(PetscBLASIntCast(PetscMin(chunk, local - start), &rows));
-    for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(old + j * rows, a[j] + start, rows));
-    PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &rows, &kb, &nb, &one, old, &rows, T, &nb, &zero, new, &rows));
-    for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(a[j] + start, new + j *rows, rows));
+  PetscCall(PetscMalloc2(k, &size, chunk * k, &row));
+  for (PetscInt c = 0; c < k; c++) { /* a bound of the largest entry */
+    size[c] = 0.0;
+    for (PetscInt j = 0; j < n; j++) size[c] += PetscAbsReal(T[j + c * n]) * b->size[j];
   }
-  PetscCall(VecRestoreArrays(v, n, &a));
-  PetscCall(PetscFree2(old, new));
+  for (PetscInt start = 0; start < b->nlocal; start += chunk) {
+    const PetscInt rows = PetscMin(chunk, b->nlocal - start);
+
+    PetscCall(PetscArrayzero(row, chunk * k));
+    for (PetscInt c = 0; c < k; c++) {
+      for (PetscInt j = 0; j < n; j++) IPSingleAdd(rows, T[j + c * n] * b->size[j], b->p[j] + start, row + c * chunk);
+    }
+    for (PetscInt c = 0; c < k; c++) IPSingleRound(rows, row + c * chunk, size[c], b->p[c] + start);
+  }
+  PetscCall(PetscArraycpy(b->size, size, k));
+  PetscCall(PetscFree2(size, row));
+  PetscFunctionReturn(0);
+}
+
+/* Replaces the entries W of K times the first k of n directions by their combinations with the columns of T */
+static PetscErrorCode BasisCombineForces(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
+{
+  PetscReal *sum;
+  PetscInt   nw;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(b->W, &nw));
+  PetscCall(PetscMalloc1(k, &sum));
+  for (PetscInt i = 0; i < nw; i++) {
+    for (PetscInt c = 0; c < k; c++) {
+      sum[c] = 0.0;
+      for (PetscInt j = 0; j < n; j++) sum[c] += T[j + c * n] * b->q[j][i];
+    }
+    for (PetscInt c = 0; c < k; c++) b->q[c][i] = sum[c];
+  }
+  PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
 
@@ -278,9 +439,9 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(n * n, &T, b->n, &keep));
   PetscCall(BasisRotation(b, n, E, T));
-  PetscCallMPI(MPI_Bcast(T, (PetscMPIInt)(n * n), MPIU_REAL, 0, PetscObjectComm((PetscObject)b->p[0])));
-  PetscCall(BasisCombine(n, best, T, b->p));
-  PetscCall(BasisCombine(n, best, T, b->q));
+  PetscCallMPI(MPI_Bcast(T, (PetscMPIInt)(n * n), MPIU_REAL, 0, PetscObjectComm((PetscObject)b->d)));
+  PetscCall(BasisCombine(b, n, best, T));
+  PetscCall(BasisCombineForces(b, n, best, T));
   PetscCall(BasisCombineGram(b, n, best, T));
   for (PetscInt j = 0; j < b->n; j++) keep[j] = (PetscBool)(j < best || j >= n);
   PetscCall(BasisSelect(b, keep));
@@ -289,129 +450,84 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Computes Q = K P and the Gram matrix for a new K */
-PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
+/* Computes the entries W of K P, and the Gram matrix */
+static PetscErrorCode BasisMultiplyAll(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
   for (PetscInt j = 0; j < b->n; j++) {
-    PetscCall(MatMult(K, b->p[j], b->q[j]));
-    PetscCall(VecMDot(b->q[j], j + 1, b->p, &b->gram[j * b->max]));
+    PetscCall(BasisExpand(b, j));
+    PetscCall(BasisMultiply(b, K, j));
+    PetscCall(BasisDots(b, j + 1, b->Kd, &b->gram[j * b->max]));
     for (PetscInt i = 0; i < j; i++) b->gram[j + i * b->max] = b->gram[i + j * b->max];
   }
   PetscCall(BasisFactor(b));
   PetscFunctionReturn(0);
 }
 
-/* Copies the entries of v in n local rows to entries[]. cut: sets them to zero in v. */
-static PetscErrorCode BasisEntries(Vec v, PetscInt n, const PetscInt rows[], PetscReal entries[], PetscBool cut)
+/* Sets the directions to zero on a set of unknowns. *cut becomes true if an entry of this rank was not zero. */
+static PetscErrorCode BasisCut(IPBasis *b, IS set, PetscBool *cut)
 {
-  PetscScalar *a;
-  PetscInt     start;
+  const PetscInt *rows;
+  PetscInt        n, start;
 
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(v, &start, NULL));
-  PetscCall(VecGetArray(v, &a));
-  for (PetscInt i = 0; i < n; i++) {
-    entries[i] = PetscRealPart(a[rows[i] - start]);
-    if (cut) a[rows[i] - start] = 0.0;
-  }
-  PetscCall(VecRestoreArray(v, &a));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Sets direction j to zero in the given rows: p -= E a, q -= K E a, where E a is its part there. Returns the entries a
-   of p, those of the old q, and those of K E a in these rows.
-*/
-static PetscErrorCode BasisCut(IPBasis *b, Mat K, PetscInt j, PetscInt n, const PetscInt rows[], PetscReal a[],
-  PetscReal q[], PetscReal Ka[], Vec work[2])
-{
-  PetscFunctionBegin;
-  PetscCall(VecCopy(b->p[j], work[0]));
-  PetscCall(BasisEntries(b->p[j], n, rows, a, PETSC_TRUE));
-  PetscCall(BasisEntries(b->q[j], n, rows, q, PETSC_FALSE));
-  PetscCall(VecAXPY(work[0], -1.0, b->p[j]));
-  PetscCall(MatMult(K, work[0], work[1]));
-  PetscCall(BasisEntries(work[1], n, rows, Ka, PETSC_FALSE));
-  PetscCall(VecAXPY(b->q[j], -1.0, work[1]));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Corrects the Gram matrix after p -= E a: G_ij - a_i^T q_j - a_j^T q_i + a_i^T K a_j, from the entries in n local rows
-*/
-static PetscErrorCode BasisCorrectGram(IPBasis *b, PetscInt n, const PetscReal a[], const PetscReal q[],
-  const PetscReal Ka[])
-{
-  PetscReal *change;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(b->n * b->n, &change));
+  PetscCall(ISGetLocalSize(set, &n));
+  PetscCall(ISGetIndices(set, &rows));
+  PetscCall(VecGetOwnershipRange(b->d, &start, NULL));
   for (PetscInt j = 0; j < b->n; j++) {
-    for (PetscInt i = 0; i < b->n; i++) {
-      for (PetscInt k = 0; k < n; k++)
-        change[i + j * b->n] += a[k + i * n] * (Ka[k + j * n] - q[k + j * n]) - a[k + j * n] * q[k + i * n];
+    for (PetscInt i = 0; i < n; i++) {
+      *cut                     = (PetscBool)(*cut || b->p[j][rows[i] - start] != 0.0f);
+      b->p[j][rows[i] - start] = 0.0f;
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, change, (PetscMPIInt)(b->n * b->n), MPIU_REAL, MPIU_SUM,
-    PetscObjectComm((PetscObject)b->p[0])));
-  for (PetscInt j = 0; j < b->n; j++) {
-    for (PetscInt i = 0; i < b->n; i++) b->gram[i + j * b->max] += 0.5 * (change[i + j * b->n] + change[j + i * b->n]);
-  }
-  PetscCall(PetscFree(change));
+  PetscCall(ISRestoreIndices(set, &rows));
   PetscFunctionReturn(0);
 }
 
-/* Finds the local rows of W in which some direction is not zero. *all: number of these rows on all ranks. */
-static PetscErrorCode BasisFindRows(const IPBasis *b, IS W, PetscInt *n, PetscInt **rows, PetscInt *all)
+/* Selects the entries W of K P from those of the W before. *found: false if W has other entries on this rank */
+static PetscErrorCode BasisSelectForces(IPBasis *b, IS W, PetscBool *found)
 {
-  const PetscInt *w;
-  PetscInt        nw, start;
-  PetscBool      *touched;
+  const PetscInt *old, *now;
+  PetscInt        nold, nnow, *place;
 
   PetscFunctionBegin;
-  PetscCall(ISGetLocalSize(W, &nw));
-  PetscCall(ISGetIndices(W, &w));
-  PetscCall(PetscCalloc1(nw, &touched));
-  PetscCall(PetscMalloc1(nw, rows));
-  PetscCall(VecGetOwnershipRange(b->p[0], &start, NULL));
-  for (PetscInt j = 0; j < b->n; j++) {
-    const PetscScalar *p;
-
-    PetscCall(VecGetArrayRead(b->p[j], &p));
-    for (PetscInt i = 0; i < nw; i++) touched[i] = (PetscBool)(touched[i] || p[w[i] - start] != 0.0);
-    PetscCall(VecRestoreArrayRead(b->p[j], &p));
+  PetscCall(ISGetLocalSize(b->W, &nold));
+  PetscCall(ISGetLocalSize(W, &nnow));
+  PetscCall(ISGetIndices(b->W, &old));
+  PetscCall(ISGetIndices(W, &now));
+  PetscCall(PetscMalloc1(nnow, &place));
+  for (PetscInt i = 0; i < nnow && *found; i++) {
+    PetscCall(PetscFindInt(now[i], nold, old, &place[i]));
+    *found = (PetscBool)(place[i] >= 0);
   }
-  *n = 0;
-  for (PetscInt i = 0; i < nw; i++)
-    if (touched[i]) (*rows)[(*n)++] = w[i];
-  PetscCallMPI(MPI_Allreduce(n, all, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)W)));
-  PetscCall(PetscFree(touched));
-  PetscCall(ISRestoreIndices(W, &w));
+  for (PetscInt j = 0; j < b->n && *found; j++) {
+    for (PetscInt i = 0; i < nnow; i++) b->q[j][i] = b->q[j][place[i]]; /* both sets are sorted: place[i] >= i */
+  }
+  PetscCall(PetscFree(place));
+  PetscCall(ISRestoreIndices(W, &now));
+  PetscCall(ISRestoreIndices(b->W, &old));
   PetscFunctionReturn(0);
 }
 
-/* Sets the directions to zero on W, and updates Q and the Gram matrix */
-PetscErrorCode IPBasisRestrict(IPBasis *b, Mat K, IS W)
+/*
+   Sets the directions to zero on W and on the unknowns `fixed` (NULL: none). The Gram matrix and the entries W of K P
+   are computed again if K is new, if a direction changed, or if W has entries that the W before did not have.
+*/
+PetscErrorCode IPBasisUpdate(IPBasis *b, Mat K, PetscBool new_K, IS fixed, IS W)
 {
-  PetscInt   n, all, *rows;
-  PetscReal *a, *q, *Ka;
-  Vec        work[2];
+  PetscBool valid, same = PETSC_FALSE, cut = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!b->n) PetscFunctionReturn(0);
-  PetscCall(BasisFindRows(b, W, &n, &rows, &all));
-  if (!all) {
-    PetscCall(PetscFree(rows));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(PetscMalloc3(n * b->n, &a, n * b->n, &q, n * b->n, &Ka));
-  for (PetscInt k = 0; k < 2; k++) PetscCall(VecDuplicate(b->p[0], &work[k]));
-  for (PetscInt j = 0; j < b->n; j++) PetscCall(BasisCut(b, K, j, n, rows, &a[j * n], &q[j * n], &Ka[j * n], work));
-  for (PetscInt k = 0; k < 2; k++) PetscCall(VecDestroy(&work[k]));
-  PetscCall(BasisCorrectGram(b, n, a, q, Ka));
-  PetscCall(PetscFree3(a, q, Ka));
-  PetscCall(PetscFree(rows));
-  PetscCall(BasisFactor(b));
+  if (fixed) PetscCall(BasisCut(b, fixed, &cut));
+  PetscCall(BasisCut(b, W, &cut));
+  valid = (PetscBool)(!new_K && !cut && b->W);
+  if (b->W) PetscCall(ISEqual(b->W, W, &same));
+  if (valid && !same) PetscCall(BasisSelectForces(b, W, &valid));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &valid, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)W)));
+  PetscCall(PetscObjectReference((PetscObject)W));
+  if (valid) PetscCall(ISDestroy(&b->W));
+  else PetscCall(BasisForgetW(b));
+  b->W = W;
+  if (!valid && b->n) PetscCall(BasisMultiplyAll(b, K));
   PetscFunctionReturn(0);
 }

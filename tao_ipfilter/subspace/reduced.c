@@ -564,7 +564,8 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
     for (PetscInt j = 0; j < n; j++) {
       PetscReal *T = &s->T[(k + j) * s->kmax];
 
-      PetscCall(ReducedFetch(r->to_W, basis->q[k + j - before], r->on_W, r->n, &Q[(size_t)j * (size_t)r->n]));
+      PetscCall(IPBasisGetForces(basis, k + j - before, basis->Kd));
+      PetscCall(ReducedFetch(r->to_W, basis->Kd, r->on_W, r->n, &Q[(size_t)j * (size_t)r->n]));
       PetscCall(PetscArrayzero(T, before));
       PetscCall(PetscArraycpy(T + before, &basis->gram[(k + j - before) * basis->max], k + n - before));
     }
@@ -735,6 +736,6 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
   PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
   if (r->scale) PetscCall(VecPointwiseMult(force, force, r->scale));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)v)));
-  if (basis->n) PetscCall(VecMAXPY(v, basis->n, s->y + r->companions.n, basis->p));
+  PetscCall(IPBasisAdd(basis, s->y + r->companions.n, v));
   PetscFunctionReturn(0);
 }

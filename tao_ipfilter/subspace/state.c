@@ -271,14 +271,14 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
 }
 
 /*
-   Computes the largest number of directions to keep. The default is what fits into 15 % of the memory of AMG and
-   stiffness matrix, within fixed limits. With more directions a projection would cost more than the AMG. Newton's
-   method keeps fewer, since each direction needs a product with every new K.
+   Computes the largest number of directions to keep. The default is what fits into 4 % of the memory of AMG and
+   stiffness matrix, within fixed limits. Newton's method keeps fewer, since each direction needs a product with every
+   new K.
 */
 static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
 {
-  const PetscReal held = 4300.0, share = 0.15, spare = 64e6,
-                  direction = 2.0 * sizeof(PetscScalar); /* bytes per unknown: AMG and stiffness matrix; a direction */
+  const PetscReal held = 4300.0, share = 0.04, spare = 16e6,
+                  direction = sizeof(float); /* bytes per unknown: AMG and stiffness matrix; a direction */
   const PetscReal fewest = 80.0, limit = 160.0;
   const PetscInt  newton = 48;
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
@@ -304,6 +304,7 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
   PC               pc;
   PetscObjectState state;
   PetscInt         max;
+  PetscBool        new_K = PETSC_FALSE;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
@@ -314,21 +315,18 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
     PetscCall(IPSubspaceStateReset(kept));
     PetscCall(PetscObjectReference((PetscObject)pc));
     kept->pc = pc;
-    PetscCall(IPBasisCreate(max, &kept->basis));
+    PetscCall(IPBasisCreate(max, tao->solution, &kept->basis));
   }
   if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
     kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
     if (!kept->held || kept->negative) PetscCall(KeptSetUpFree(tao, kept, K, possible));
     if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));
-    PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
-    PetscCall(IPBasisMultiply(&kept->basis, K));
-    PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
+    new_K = PETSC_TRUE;
   } else PetscCall(IPSubspaceStateReconsider(tao, kept, kept->napplications, possible));
   kept->K_id    = ((PetscObject)K)->id;
   kept->K_state = state;
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
-  if (ip->fixed) PetscCall(IPBasisRestrict(&kept->basis, K, ip->fixed));
-  PetscCall(IPBasisRestrict(&kept->basis, K, IPFilteredOf(tao)->W));
+  PetscCall(IPBasisUpdate(&kept->basis, K, new_K, ip->fixed, IPFilteredOf(tao)->W));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -436,9 +434,9 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
-- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, two vectors each; 0: 80 to 160, as many
-                                                     as 64 MB and 15 % of an AMG's memory hold, 48 where the objective
-                                                     is not quadratic
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, in single precision; 0: 80 to 160, as
+                                                     many as 16 MB and 4 % of an AMG's memory hold, 48 where the
+                                                     objective is not quadratic
 
   Level: advanced
 

@@ -80,7 +80,7 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscCall(VecCopy(centre, f->centre));
   PetscCall(VecCopy(gradient, f->gradient));
   PetscCall(VecCopy(c, f->c));
-  if (basis->n) PetscCall(VecMDot(f->gradient, basis->n, basis->p, f->pg));
+  PetscCall(IPBasisDots(basis, 0, f->gradient, f->pg));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedCenter(f->reduced, f->gradient, f->c, value, f->pg));
   PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
@@ -121,7 +121,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   if (!*solved) PetscFunctionReturn(0);
   ip->rec->nreduced++;
   ip->rec->npivots += f->reduced->nsteps;
-  if (basis->n) PetscCall(VecMAXPY(v, basis->n, f->y, basis->p));
+  PetscCall(IPBasisAdd(basis, f->y, v));
   PetscFunctionReturn(0);
 }
 
@@ -277,7 +277,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
   if (!*extended) PetscFunctionReturn(0);
-  PetscCall(VecDot(f->gradient, basis->p[basis->n - 1], &f->pg[basis->n - 1]));
+  PetscCall(IPBasisDots(basis, basis->n - 1, f->gradient, &f->pg[basis->n - 1]));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));

@@ -10,10 +10,15 @@
 
 /* Directions P of the filtered subspace, the oldest first. They are zero on the constraints' unknowns W. */
 typedef struct {
-  PetscInt   n, max;
-  Vec       *p, *q;         /* the direction p_j, and K p_j; NULL if not created yet */
-  PetscReal *gram, *factor; /* P^T K P, in columns of length max; the lower triangle of its Cholesky factor */
-  PetscInt   generation;    /* number that increases when directions change, but not when one is appended */
+  PetscInt      n, max;
+  PetscInt      nlocal; /* number of unknowns of this rank */
+  float       **p;      /* direction j is size[j] p[j], with nlocal entries; NULL if not created yet */
+  PetscReal    *size;
+  IS            W;             /* NULL before the first IPBasisUpdate() */
+  PetscScalar **q;             /* the local entries W of K times direction j; NULL if not created yet */
+  Vec           d, Kd;         /* work vectors: a direction, and K d */
+  PetscReal    *gram, *factor; /* P^T K P, in columns of length max; the lower triangle of its Cholesky factor */
+  PetscInt      generation;    /* number that increases when directions change, but not when one is appended */
 } IPBasis;
 
 /* Compliance C = J_W K_WW^-1 J_W^T of the constraints, on the first rank */
@@ -147,13 +152,21 @@ typedef struct {
 
 #define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)
 
+/* single.c */
+PETSC_INTERN void IPSingleRound(PetscInt n, const PetscScalar *v, PetscReal size, float *p);
+PETSC_INTERN void IPSingleAdd(PetscInt n, PetscReal a, const float *p, PetscScalar *v);
+PETSC_INTERN void IPSingleDots(PetscInt n, PetscInt k, float *const p[], const PetscScalar *v, PetscReal s[]);
+PETSC_INTERN void IPSingleCombine(PetscInt n, PetscInt k, const PetscReal a[], float *const p[], PetscScalar *v);
+
 /* basis.c */
-PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, IPBasis *);
+PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
 PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
-PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
-PETSC_INTERN PetscErrorCode IPBasisRestrict(IPBasis *, Mat K, IS W);
+PETSC_INTERN PetscErrorCode IPBasisUpdate(IPBasis *, Mat K, PetscBool new_K, IS fixed, IS W);
+PETSC_INTERN PetscErrorCode IPBasisDots(const IPBasis *, PetscInt first, Vec, PetscReal[]);
+PETSC_INTERN PetscErrorCode IPBasisAdd(const IPBasis *, const PetscReal[], Vec);
+PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
 PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
