@@ -118,7 +118,7 @@ static PetscErrorCode BasisExpand(IPBasis *b, PetscInt j)
   PetscFunctionReturn(0);
 }
 
-/* Stores v, rounded, as direction j and copies the rounded direction to b->d. *stored: false if v is zero or not finite */
+/* Stores v, rounded, as direction j, and copies that direction to b->d. *stored: false if v is zero or not finite */
 static PetscErrorCode BasisStore(IPBasis *b, PetscInt j, Vec v, PetscBool *stored)
 {
   const PetscScalar *a;
