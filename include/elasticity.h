@@ -94,6 +94,7 @@ PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal
    equivalent, means over local cells; the points themselves */
 PETSC_EXTERN PetscErrorCode ElasticityCommit(Elasticity, Vec u);
 PETSC_EXTERN PetscErrorCode ElasticityHasYielded(Elasticity, PetscBool *);
+PETSC_EXTERN void           ElasticitySetSecant(Elasticity, PetscReal share);
 PETSC_EXTERN PetscErrorCode ElasticityPlasticWork(Elasticity, PetscReal *work, PetscReal largest[]);
 PETSC_EXTERN PetscErrorCode ElasticityPlasticFlow(Elasticity, Vec u, PetscReal *stored, PetscReal *work,
   PetscInt *body);

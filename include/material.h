@@ -71,6 +71,7 @@ typedef struct {
   PetscReal                own[MATERIAL_OWN];
   const MaterialHardening *hardening; /* j2, j2_finite: of the Material, which must stay where it is */
   const PetscReal         *history;   /* of the point, from the law's advance(); NULL: elastic, without any */
+  PetscReal                secant;    /* share of the secant in the tangent of metal that flows; 0: the tangent */
 } MaterialModuli;
 
 /* A constant of a law in scenes: one or more numbers of a Material, with bounds */

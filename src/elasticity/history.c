@@ -46,6 +46,14 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   PetscFunctionReturn(0);
 }
 
+/* Sets the share of the secant in the tangents of metal that flows, 0 to 1; 0: the tangent. This alone has almost no
+   stiffness along the flow, so that steps of Newton's method are too long far from the solution. */
+void ElasticitySetSecant(Elasticity e, PetscReal share)
+{
+  for (PetscInt b = 0; e->yields && b < e->nbodies; ++b)
+    e->bodies[b].material.moduli.secant = e->bodies[b].material.isochoric.secant = share;
+}
+
 /* Collective. Finds whether any quadrature point has a plastic strain. yielded: the same on every rank. */
 PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
 {

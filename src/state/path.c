@@ -4,12 +4,14 @@
 
 /*
    ratio: the next increment as a multiple of the last one. It is the projection of the change of all ramps on their
-   last change, so that a load program that turns (press, then slide) is not continued in its old direction.
+   last change, so that a load program that turns (press, then slide) is not continued in its old direction. A path on
+   which metal yielded is not gone back: the bodies unload elastically.
 */
 static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio)
 {
   const LoadPath *path    = sim->path;
   PetscReal       product = 0.0, square = 0.0;
+  PetscBool       yielded = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt r = 0; r < sim->scene->nramps; ++r) {
@@ -22,6 +24,8 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
     square += (now - before) * (now - before);
   }
   *ratio = square > 0.0 ? product / square : 0.0;
+  if (*ratio < 0.0) PetscCall(ElasticityHasYielded(sim->elasticity, &yielded));
+  if (yielded) *ratio = 0.0;
   PetscFunctionReturn(0);
 }
 

@@ -89,17 +89,24 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
+/* Where metal flows and the last step was too long, far from the solution, tangents have a part of the secant */
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
   StepProblem      *p           = (StepProblem *)ctx;
   const Constraints constraints = SimulationConstraints(p->sim);
+  const PetscReal   most = 0.95, far = 0.03, secant = 0.4;
+  PetscReal         error, length;
+  PetscInt          its;
   Vec               u;
 
   PetscFunctionBegin;
-  (void)tao, (void)Hpre;
+  (void)Hpre;
+  PetscCall(TaoGetSolutionStatus(tao, &its, NULL, &error, NULL, &length, NULL));
+  ElasticitySetSecant(p->sim->elasticity, its && length < most && error > far ? secant : 0.0);
   PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(TiesTangent(&constraints, u, H));
+  ElasticitySetSecant(p->sim->elasticity, 0.0);
   PetscCall(ProximalAddStiffness(p, H));
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

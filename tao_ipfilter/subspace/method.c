@@ -367,6 +367,7 @@ static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *f
   PetscFunctionBegin;
   f->nfutile = f->ncentred = 0;
   f->halved                = PETSC_INFINITY;
+  f->residual              = 0.0;
   ip->mu                   = 0.0;
   if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   else {

@@ -107,6 +107,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal
     PetscCall(NewtonAddDirection(tao, kept, d, r, &added));
     *solved = (PetscBool)(added || norm <= enough);
   } while (added);
+  if (*solved) IPFilteredOf(tao)->promised = norm;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   PetscFunctionReturn(0);
 }
@@ -191,46 +192,101 @@ static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal 
   PetscFunctionReturn(0);
 }
 
+/* What the line search needs along d: the penalty weight, and the model's own violation and error in the laws of norm
+   terms at d, which are subtracted in proportion to the step */
+typedef struct {
+  Vec       d, force;
+  PetscReal nu, left, slack;
+} NewtonLine;
+
+/* The penalized objective after the step alpha d, with the norm terms for the model's multipliers; the trial point is
+   there. Infinite where the objective is undefined */
+static PetscErrorCode NewtonTry(Tao tao, const NewtonLine *line, PetscReal alpha, PetscReal *merit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     violation, terms;
+
+  PetscFunctionBegin;
+  ip->search->alpha = ip->search->alpha_dual = alpha;
+  PetscCall(VecWAXPY(ip->trial.x, alpha, line->d, tao->solution));
+  PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
+  *merit = PETSC_INFINITY;
+  if (IPUndefined(ip->trial.f)) PetscFunctionReturn(0);
+  PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
+  PetscCall(NewtonViolation(tao, ip->trial.c, &violation));
+  PetscCall(IPTermsSum(tao, ip->trial.x, line->force, &terms));
+  *merit = ip->trial.f + line->nu * (violation - alpha * line->left) + terms - alpha * line->slack;
+  PetscFunctionReturn(0);
+}
+
+/* The step at which a parabola has its minimum, through the merit's values before and after the step alpha and the
+   slope at its start; at most twice alpha */
+static PetscReal NewtonInterpolate(PetscReal alpha, PetscReal slope, PetscReal change)
+{
+  const PetscReal curved = change - alpha * slope;
+
+  return curved > -0.25 * alpha * slope ? -0.5 * slope * alpha * alpha / curved : 2.0 * alpha;
+}
+
 /*
-   Line search: halves the step until the penalized objective falls. The objective includes the norm terms, with the
-   bounds that follow from the model's multipliers. The model's own violation at d and its own error in the laws of norm
-   terms are subtracted in proportion to the step length. *ok: false if the objective does not fall, or the model is not
-   convex along d.
+   Shortens a step that goes well beyond the minimum along d, as it does where metal begins to yield: to the minimum of
+   a parabola, as long as the merit falls. merit, at the step alpha; before: at its start; slope: there
+*/
+static PetscErrorCode NewtonShorten(Tao tao, const NewtonLine *line, PetscReal before, PetscReal slope, PetscReal merit)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal well = 0.9, least = 0.1;
+  const PetscInt  most = 6;
+  PetscReal       trial, alpha = ip->search->alpha, next = NewtonInterpolate(alpha, slope, merit - before);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < most && next < well * alpha; k++) {
+    next = PetscMax(next, least * alpha);
+    ip->search->ntrials++;
+    PetscCall(NewtonTry(tao, line, next, &trial));
+    if (!(trial < merit)) {
+      PetscCall(NewtonTry(tao, line, alpha, &merit));
+      break;
+    }
+    merit = trial;
+    alpha = next;
+    next  = NewtonInterpolate(alpha, slope, merit - before);
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Line search: shortens the step until the penalized objective falls, then further where it is lower before the end of
+   the step. *ok: false if the objective does not fall, or the model is not convex along d
 */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal armijo = 1e-4, least = 1e-4;
-  PetscReal       nu = 0.0, violation, left, slack, rounding = 0.0, terms[2], slope, alpha;
+  const PetscReal armijo = 1e-4, least = 1e-4, noise = 1e3;
+  NewtonLine      line = {.d = d, .force = force, .nu = 0.0};
+  PetscReal       violation, rounding = 0.0, terms[2], slope, before, merit = 0.0;
   PetscScalar     gd;
 
   PetscFunctionBegin;
-  PetscCall(NewtonPenalty(tao, force, &nu));
+  PetscCall(NewtonPenalty(tao, force, &line.nu));
   PetscCall(NewtonRounding(tao, &rounding));
   PetscCall(NewtonViolation(tao, ip->at.c, &violation));
-  PetscCall(NewtonModelViolation(tao, d, &left));
+  PetscCall(NewtonModelViolation(tao, d, &line.left));
   PetscCall(VecDot(tao->gradient, d, &gd));
   PetscCall(IPTermsSum(tao, tao->solution, force, &terms[0]));
   PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
   PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-  PetscCall(NewtonModelSlack(tao, ip->trial.x, terms[1], &slack));
-  slope               = PetscRealPart(gd) - nu * violation + terms[1] - terms[0] - slack;
+  PetscCall(NewtonModelSlack(tao, ip->trial.x, terms[1], &line.slack));
+  slope               = PetscRealPart(gd) - line.nu * violation + terms[1] - terms[0] - line.slack;
+  before              = ip->at.f + line.nu * violation + terms[0];
   ip->search->ntrials = 0;
   *ok                 = PETSC_FALSE;
-  for (alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
-    PetscReal rest;
-
+  for (PetscReal alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
     ip->search->ntrials++;
-    ip->search->alpha = ip->search->alpha_dual = alpha;
-    PetscCall(VecWAXPY(ip->trial.x, alpha, d, tao->solution));
-    PetscCall(TaoComputeObjective(tao, ip->trial.x, &ip->trial.f));
-    if (IPUndefined(ip->trial.f)) continue;
-    PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
-    PetscCall(NewtonViolation(tao, ip->trial.c, &rest));
-    PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
-    *ok = (PetscBool)(ip->trial.f + nu * (rest - alpha * left) + terms[1] - alpha * slack <=
-                      ip->at.f + nu * violation + terms[0] + armijo * alpha * slope + rounding);
+    PetscCall(NewtonTry(tao, &line, alpha, &merit));
+    *ok = (PetscBool)(merit < PETSC_INFINITY && merit <= before + armijo * alpha * slope + rounding);
   }
+  if (*ok && -slope * ip->search->alpha > noise * rounding) PetscCall(NewtonShorten(tao, &line, before, slope, merit));
   PetscFunctionReturn(0);
 }
 
@@ -255,14 +311,22 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
 }
 
 /*
-   Returns the tolerance of the model's residual: a fraction of the present residual. The fraction is smaller near the
-   solution, so that Newton's method converges fast there. The tolerance is not smaller than convergence requires.
+   Tolerance for the model's residual: a fraction of the present residual. The fraction is smaller near the solution,
+   where Newton's method then converges fast. It is larger where the last model was far from the truth, as where metal
+   begins to yield (Eisenstat and Walker 1996): the error of its residual over the residual before. The tolerance is
+   never smaller than convergence requires.
 */
-static PetscReal NewtonTarget(const TAO_IPFILTER *ip)
+static PetscReal NewtonTarget(const TAO_IPFILTER *ip, const IPFiltered *f)
 {
-  const PetscReal largest = 0.1, smallest = 1e-3;
-  const PetscReal fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
+  const PetscReal largest = 0.1, smallest = 1e-3, loose = 0.3;
+  const PetscReal alpha    = ip->search->alpha;
+  PetscReal       fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
 
+  if (f->residual > 0.0) {
+    const PetscReal expected = (1.0 - alpha) * f->residual + alpha * f->promised;
+
+    fraction = PetscMax(fraction, PetscMin(loose, PetscAbsReal(ip->kkt->dual_norm - expected) / f->residual));
+  }
   return PetscMax(fraction * ip->kkt->dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
 }
 
@@ -293,7 +357,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscInt  shifts = 6;
-  const PetscReal target = NewtonTarget(ip);
+  const PetscReal target = NewtonTarget(ip, IPFilteredOf(tao));
 
   PetscFunctionBegin;
   *found           = PETSC_TRUE;
@@ -310,6 +374,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
     if (*found) break;
   }
   if (*found) IPRegularized(ip);
+  if (*found) IPFilteredOf(tao)->residual = ip->kkt->dual_norm;
   PetscFunctionReturn(0);
 }
 

@@ -148,6 +148,7 @@ typedef struct {
   PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
   PetscReal      halved;              /* KKT error when it was last halved */
   PetscReal      begin;               /* KKT error after the first reduced problem */
+  PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
 #define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)

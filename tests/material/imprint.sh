@@ -1,4 +1,4 @@
-# A rigid ball is pressed into a block that yields and taken away again: its imprint stays; the same on two ranks.
+# A rigid ball is pressed into a block that yields and taken away again: its imprint stays; the same on two ranks; applications of the AMG beside those of an elastic block.
 contact=$AMGF_DIR/bin/contact
 cat > brinell.yaml <<'YAML'
 problem: brinell
@@ -18,6 +18,11 @@ YAML
 for n in 1 2; do
   mpiexec --oversubscribe -n $n "$contact" brinell.yaml -quiet -summary ranks$n.json 2> /dev/null || echo "$n ranks: exit code $?"
 done
+sed 's/material: j2,/material: j2_finite,/' brinell.yaml > finite.yaml
+sed -e 's/material: j2,/material: neohookean,/' -e 's/, yield: 200//' brinell.yaml > elastic.yaml
+for scene in finite elastic; do
+  "$contact" $scene.yaml -quiet -tao_ipfilter_pc_amgf_factor false -error_estimate 0 -summary $scene.json 2> /dev/null || echo "$scene: exit code $?"
+done
 "$PYTHON" - <<'PY'
 from summaries import load, say
 one, two = (load("ranks%d" % n)["steps"] for n in (1, 2))
@@ -28,4 +33,7 @@ say("most of the imprint stays, and some springs back", 0.8 * depth[1] < depth[2
 say("taken away without plastic work, to 1 %", abs(one[2]["plastic_work"] / one[1]["plastic_work"] - 1) < 1e-2, [step["plastic_work"] for step in one])
 say("mean pressure 2 to 4 times the yield stress", 2 < force[1] / one[1]["pairs"][0]["area"] / 200 < 4, force[1] / one[1]["pairs"][0]["area"] / 200)
 say("two ranks: the same", all(abs(a[key] / b[key] - 1) < 1e-5 for a, b in zip(one, two) for key in ("plastic_work", "plastic_strain")), [[s["plastic_work"] for s in run] for run in (one, two)])
+finite, elastic = ([step["amg_applications"] for step in load(name)["steps"]] for name in ("finite", "elastic"))
+say("pressed in: at most 3 times the AMG applications of an elastic block", max(a / b for a, b in zip(finite[:2], elastic)) < 3, (finite, elastic))
+say("taken away: no more than pressed in", finite[2] <= finite[1], (finite, elastic))
 PY

@@ -113,14 +113,16 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
   PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {
   const PetscReal negligible = 1e-26, fraction = 1e-4;
+  BodyMaterial    exact = *m;
 
+  exact.moduli.secant = 0;
   CondensedSetPoints(basis, X, U, c);
   for (int k = 0; k < MODES; ++k) c->a[k] = 0;
   CondensedMove(c);
   for (int it = 0; it < 50; ++it) {
     PetscReal step[MODES], promised = 0, t = 1, before[MODES];
 
-    CondensedEvaluate(m, c);
+    CondensedEvaluate(&exact, c);
     for (int k = 0; k < MODES; ++k) {
       step[k]   = -c->force[k];
       before[k] = c->a[k];
