@@ -175,8 +175,10 @@ static PetscBool MaterialStress_J2(const MaterialModuli *m, const PetscReal H[9]
   return PETSC_TRUE;
 }
 
-/* Computes A, the elastic tangent minus 2 mu (b I_dev + c n (x) n), b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y') - b. With c = 0 it
-   is the secant, for a strain that grows in its direction; m->secant is the share of it */
+/*
+   Computes A, the elastic tangent minus 2 mu (b I_dev + c n (x) n), with b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y')
+   - b. With c = 0 this is the secant, for a strain that grows in its direction; m->secant is the share of it.
+*/
 static PetscBool MaterialTangent_J2(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
   static const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
