@@ -1,4 +1,4 @@
-/* Prints what -accuracy chose and reached */
+/* Prints how `-accuracy` divided the requested accuracy between mesh and solver, and the errors that were reached. */
 #include "outputimpl.h"
 
 /*@C
@@ -43,7 +43,10 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the state of an adapted mesh; how: text on how the error of the mesh is known */
+/*
+   Prints one line about the last mesh: its number of unknowns, its discretization error, the error of the solver, the
+   time so far and what is done next. how: text after the error that says how it was estimated.
+*/
 static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[], PetscViewer viewer)
 {
   const AccuracyLevel *now  = &acc->levels[acc->nlevels - 1];

@@ -1,13 +1,21 @@
-/* Cells for ParaView: hexahedra with 8 nodes, tetrahedra with 4 or 10. The nodes of a hexahedron of order 2 divide
-   it into 8, which all get its cell values */
+/*
+   Cells for ParaView are hexahedra with 8 nodes or tetrahedra with 4 or 10 nodes. A hexahedron of order 2 has 27 nodes
+   and is written as 8 hexahedra, which all have the cell values of the original cell.
+*/
 #include "outputimpl.h"
 #include <mesh.h>
 
-/* VTK's order: around the bottom, then around the top */
+/*
+   positions of the nodes of a hexahedron in the order of VTK: first the nodes around the bottom face, then those around
+   the top face
+*/
 static const PetscInt around[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},
   {0, 1, 1}};
 
-/* Divides a cell into pieces, as mesh points with nodes, in VTK's order */
+/*
+   Divides a cell into the pieces that are written. pieces->nodes: mesh points of the nodes of each piece in the order
+   of VTK.
+*/
 PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *pieces)
 {
   PetscInt nnodes, nodes[MESH_MAX_NODES], width;
@@ -26,8 +34,11 @@ PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *piece
   PetscFunctionReturn(0);
 }
 
-/* Counts the pieces of this rank's cells, whether there are other cells than hexahedra on any rank, and the integers
-   needed to describe them (for mixed cells a kind before each) */
+/*
+   Counts the pieces of this rank's cells and the integers that describe the pieces, and finds whether any rank has
+   other cells than hexahedra (output->mixed). In a mixed mesh the kind of each piece precedes its nodes, which takes
+   one more integer per piece.
+*/
 PetscErrorCode OutputCountPieces(Output output)
 {
   PetscInt     cstart, cend, total = 0;
@@ -49,13 +60,16 @@ PetscErrorCode OutputCountPieces(Output output)
   PetscFunctionReturn(0);
 }
 
-/* Name of the dataset of cells */
+/* Returns the name of the dataset that contains the cells. */
 const char *OutputCellsName(Output output)
 {
   return output->mixed ? "mixed_cells" : "cells";
 }
 
-/* Kind: XDMF's number for a piece with this many nodes. Nodes: number of nodes of a kind, 0: unknown */
+/*
+   OutputPieceKind() returns the number with which XDMF denotes a cell of `nnodes` nodes. OutputKindNodes() returns the
+   number of nodes of a cell of this kind; 0: the kind is unknown.
+*/
 PetscInt OutputPieceKind(PetscInt nnodes)
 {
   return nnodes == 4 ? 6 : nnodes == 10 ? 38 : 9;

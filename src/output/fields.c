@@ -1,10 +1,13 @@
-/* Mesh and fields as HDF5 datasets: nodes in the order of the DM's global vectors, cells rank by rank */
+/*
+   Writes mesh and fields as HDF5 datasets. Nodes have the order of the DM's global vectors. The cells of rank 0 come
+   first, then those of rank 1, and so on.
+*/
 #include "outputimpl.h"
 #include <mesh.h>
 #include <rankerror.h>
 #include <math.h>
 
-/* Global number of a local node */
+/* Finds the global number of the node at a mesh point. */
 static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, PetscInt *number)
 {
   PetscInt offset;
@@ -15,7 +18,7 @@ static PetscErrorCode FieldsGetVertex(PetscSection global, PetscInt point, Petsc
   PetscFunctionReturn(0);
 }
 
-/* body: of each node of this rank, from a cell that contains it */
+/* Finds the number of the body to which each node of this rank belongs. body: [output->nowned]. */
 static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
 {
   PetscSection global;
@@ -37,7 +40,10 @@ static PetscErrorCode FieldsGetBodies(Output output, PetscInt body[])
   PetscFunctionReturn(0);
 }
 
-/* field: undeformed coordinates of this rank's nodes; body: of each, or NULL */
+/*
+   field: undeformed coordinates of this rank's nodes [length]; body: number of the body of each of these nodes; NULL:
+   not needed
+*/
 PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
 {
   Vec coordinates, global;
@@ -53,7 +59,7 @@ PetscErrorCode FieldsGetVertices(Output output, Vec *field, PetscInt body[])
   PetscFunctionReturn(0);
 }
 
-/* Writes the nodes; the mesh keeps them for the next file */
+/* Writes the coordinates of the nodes. The dataset is attached to the DM, so that the next file reuses it. */
 static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
 {
   Vec field;
@@ -69,8 +75,10 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Stores indices for the next file. The number of columns is taken from the block size; ISSetBlockSize() would keep
-   it only for blocks of consecutive indices */
+/*
+   Attaches indices to the DM, so that the next file reuses them. The number of columns of the dataset is the block size
+   of the layout. ISSetBlockSize() cannot be used, because it requires blocks of consecutive indices.
+*/
 static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscInt n, PetscInt components,
   PetscInt *indices)
 {
@@ -128,7 +136,7 @@ static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* ctx: the output */
+/* Writes nodes and cells of the mesh to an open HDF5 file. ctx: the Output. */
 PetscErrorCode FieldsWriteMesh(PetscViewer viewer, void *ctx)
 {
   PetscFunctionBegin;
@@ -152,18 +160,21 @@ static PetscErrorCode FieldsWriteGlobal(Output output, const char name[], Vec va
   Vec field;
 
   PetscFunctionBegin;
-  /* a plain vector, since those of a DMPlex are written in PETSc's own layout */
+  /* The field is copied to a plain vector, since PETSc writes vectors of a DMPlex in a layout of its own. */
   PetscCall(DatasetCreate(output->comm, name, output->nowned, 3, &field));
   PetscCall(VecCopy(values, field));
   PetscCall(DatasetWrite(&field, viewer));
   PetscFunctionReturn(0);
 }
 
-/* Contact fields at nodes: of all pairs together, and of each pair if there are several */
+/*
+   Contact fields at the nodes of this rank, either of all pairs together or of one pair, and the arrays of these
+   vectors.
+*/
 typedef struct {
   Vec          pressure, gap, area, status, force;
   PetscScalar *p, *g, *a, *s, *f;
-  Vec          shear, slip, path; /* NULL without friction */
+  Vec          shear, slip, path; /* friction force, slip and length of the slip path; NULL without friction */
   PetscScalar *t, *d, *l;
 } FieldsContact;
 
@@ -180,7 +191,10 @@ static PetscErrorCode FieldsCreateContact(Output output, const char name[], cons
   PetscFunctionReturn(0);
 }
 
-/* Adds a point at a vertex, which may already have one of another pair */
+/*
+   Adds the values of a contact point to the fields at node v. If the node already has a point of another pair, the
+   pressure becomes the mean weighted by the areas, and the gap becomes the smaller of the two gaps.
+*/
 static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint *point)
 {
   const PetscReal area = PetscRealPart(fields->a[v]) + point->area;
@@ -198,7 +212,10 @@ static void FieldsAddPoint(FieldsContact *fields, PetscInt v, const ContactPoint
   fields->l[v] = point->slip_path;
 }
 
-/* Fills the fields at this rank's vertices with the points of a pair, or of all pairs (negative) */
+/*
+   Fills the fields at this rank's nodes with the contact points of a pair. pair: number of the pair; negative: all
+   pairs.
+*/
 static PetscErrorCode FieldsFillPair(Output output, const StepState *state, PetscInt pair, FieldsContact *fields)
 {
   PetscSection global;
@@ -218,7 +235,7 @@ static PetscErrorCode FieldsFillPair(Output output, const StepState *state, Pets
   PetscFunctionReturn(0);
 }
 
-/* Creates the fields of friction if any pair has friction */
+/* Creates the fields that are written only if any pair has friction. */
 static PetscErrorCode FieldsCreateFriction(Output output, const char suffix[], FieldsContact *fields)
 {
   PetscFunctionBegin;
@@ -240,7 +257,10 @@ static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer vie
   PetscFunctionReturn(0);
 }
 
-/* Writes the fields of a pair, with its name as suffix, or of all pairs (negative) */
+/*
+   Writes the fields of a pair, or those of all pairs together. pair: number of the pair; negative: all pairs. suffix:
+   name of the pair, which is appended to the names of its fields; NULL for all pairs.
+*/
 static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[],
   PetscViewer viewer)
 {

@@ -1,28 +1,37 @@
-/* The history of a run: a CSV table with a row per load step and a column for each number of its report. */
-#define _POSIX_C_SOURCE 200809L /* getline() */
+/*
+   Writes the history of a run: a CSV table with one row per load step and one column for each number of the step's
+   report.
+*/
+#define _POSIX_C_SOURCE 200809L /* for getline() */
 #include "outputimpl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Context of a row: names of columns, or values of a step */
+/*
+   Context with which a row is written. The row contains the names of the columns if `heading` is true, otherwise the
+   values of a load step.
+*/
 typedef struct {
   Output             output;
   const StepReport  *report;
   FILE              *stream;
   PetscBool          heading;
-  PetscBool          first;   /* nothing has been written to the row yet */
+  PetscBool          first;   /* true while nothing has been written to the row */
   PetscInt           npoints; /* number of points of a line probe */
   const ProbeReport *points;
 } HistoryLine;
 
-/* The table of an earlier run, and the number of its load steps to keep */
+/* Table of an earlier run, and the last load step whose row is copied from it. */
 typedef struct {
   const char *file;
   PetscInt    step;
 } HistoryOlder;
 
-/* Writes a column's name, quoted if it contains a comma or a quote, which is possible in Gmsh files */
+/*
+   Writes the name of a column, in quotes if the name of the owner contains a comma, a quote or a line break, which is
+   possible for names from Gmsh files.
+*/
 static void HistoryPutName(HistoryLine *line, const char owner[], const char name[], const char component[])
 {
   const char *const pieces[] = {owner, owner[0] ? "." : "", name, component[0] ? "_" : "", component};
@@ -57,7 +66,10 @@ static double HistorySum(PetscInt n, const PetscInt values[])
 
 static void HistoryPutRecord(HistoryLine *, const ReportRecord *, const void *record, const char owner[]);
 
-/* owner: the pair, face, body, ... of the value; "": none */
+/*
+   Writes one column for a scalar field and several columns for a vector or a list. owner: name of the pair, face or
+   body to which the value belongs; "" if it belongs to the load step.
+*/
 static void HistoryPutField(HistoryLine *line, const ReportField *field, const void *record, const char owner[])
 {
   const void *value = SchemaAt(field, record);
@@ -80,7 +92,7 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
         *(const PetscReal *const *)value ? (double)(*(const PetscReal *const *)value)[b] : NAN);
     break;
   case FIELD_LIST:
-    if (field->record == &SchemaLines) break; /* lines have files of their own */
+    if (field->record == &SchemaLines) break; /* the values of line probes are written to files of their own */
     for (PetscInt i = 0; i < SchemaCount(field, record); ++i) {
       const char *item = *(const char *const *)value + (size_t)i * field->record->size;
 
@@ -88,11 +100,14 @@ static void HistoryPutField(HistoryLine *line, const ReportField *field, const v
     }
     break;
   case FIELD_RECORD: HistoryPutRecord(line, field->record, value, field->name); break;
-  default: /* texts are not numbers */ break;
+  default: /* texts are not written, since the table has only numbers */ break;
   }
 }
 
-/* Writes the fields of a record; records of a list begin with their names */
+/*
+   Writes all fields of a record. owner: name of the pair, face or body, which precedes the names of the columns; "" for
+   the load step.
+*/
 static void HistoryPutRecord(HistoryLine *line, const ReportRecord *type, const void *record, const char owner[])
 {
   for (const ReportField *field = type->fields; field->name; ++field) HistoryPutField(line, field, record, owner);
@@ -126,7 +141,7 @@ static PetscErrorCode HistoryBegin(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* Writes a point of a line: its load step and all its values */
+/* Writes the row of one point of a line probe: the load step, its time and all values at the point. */
 static void HistoryPutPoint(HistoryLine *line, const ProbeReport *point)
 {
   line->first = PETSC_TRUE;
@@ -158,7 +173,10 @@ static PetscErrorCode HistoryBeginLine(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* Copies the rows of load steps that an earlier run has finished; on the first rank only */
+/*
+   Copies the heading of an earlier table and the rows of all load steps up to older->step. FileWriteText() calls this
+   function on rank 0 only.
+*/
 static PetscErrorCode HistoryCopyOlder(FILE *to, const void *ctx)
 {
   const HistoryOlder *older   = (const HistoryOlder *)ctx;
@@ -177,7 +195,10 @@ static PetscErrorCode HistoryCopyOlder(FILE *to, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* goes_on: whether the table of an earlier run is continued; its rows of later load steps are removed */
+/*
+   Finds whether rows are appended to an existing table, and removes the rows of later load steps from the table of an
+   earlier run. *goes_on: true if rows are appended; false if a new table is begun.
+*/
 static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBool *goes_on)
 {
   const HistoryOlder older = {.file = file, .step = output->continued};
@@ -191,7 +212,10 @@ static PetscErrorCode HistoryContinue(Output output, const char file[], PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* Writes a row; the first step of an output starts a new file unless it continues an earlier run */
+/*
+   Writes rows to a table. The first load step of an output begins a new table unless the run continues an earlier one.
+   begin: writes the heading and the first rows; append: writes the rows.
+*/
 static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[],
   PetscErrorCode (*begin)(FILE *, const void *), PetscErrorCode (*append)(FILE *, const void *))
 {
@@ -206,7 +230,10 @@ static PetscErrorCode HistoryWriteFile(const HistoryLine *line, const char name[
   PetscFunctionReturn(0);
 }
 
-/* Writes the history; the points of a line are consecutive */
+/*
+   Writes a row to the table of load steps, and rows to the tables of line probes. The points of a line probe are
+   consecutive in report->lines[].
+*/
 PetscErrorCode OutputWriteHistory(Output output, const StepReport *report)
 {
   HistoryLine line = {.output = output, .report = report};

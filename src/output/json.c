@@ -1,4 +1,4 @@
-/* The report of a run as JSON, with the fields of the schema. */
+/* Writes the report of a run as JSON, with the fields that schema.c lists. */
 #include "outputimpl.h"
 #include <math.h>
 
@@ -13,7 +13,7 @@ static void JSONString(FILE *stream, const char text[])
   fputc('"', stream);
 }
 
-/* Writes a number; JSON has neither NaN nor infinity */
+/* Writes a number; NaN and infinity, which JSON does not have, are written as null. */
 static void JSONNumber(FILE *stream, double value)
 {
   if (PetscIsInfOrNanReal((PetscReal)value)) fputs("null", stream);
@@ -46,7 +46,10 @@ static void JSONTexts(FILE *stream, PetscInt n, const char *const text[])
   fputc(']', stream);
 }
 
-/* Writes an object with the bodies' names as keys; integers or reals, which may be missing */
+/*
+   Writes an object with one value per body, whose keys are the names of the bodies. ints: the values; NULL: `reals` are
+   written. reals: the values; NULL: they are not known and written as null.
+*/
 static void JSONBodies(FILE *stream, const RunReport *run, const PetscInt ints[], const PetscReal reals[])
 {
   fputc('{', stream);
@@ -97,7 +100,10 @@ static void JSONValue(FILE *stream, const RunReport *run, const ReportField *fie
   }
 }
 
-/* Writes a record on one line, or with a line per field; a missing record leaves out its key */
+/*
+   Writes a record as an object, on one line if type->one_line is true, otherwise with one line per field. A
+   FIELD_POINTER that is NULL is omitted together with its key. indent: number of blanks before the closing brace.
+*/
 static void JSONRecord(FILE *stream, const RunReport *run, const ReportRecord *type, const void *record, int indent)
 {
   PetscBool first = PETSC_TRUE;

@@ -1,7 +1,7 @@
-/* Layout of an output's mesh */
+/* Creates an output that has a mesh but no files yet. */
 #include "outputimpl.h"
 
-/* Counts nodes and cells; nodes are numbered as in the DM's global vectors */
+/* Counts nodes and cells of the mesh. Nodes have the numbers of the DM's global vectors. */
 static PetscErrorCode OutputCount(Output output)
 {
   Vec      global;

@@ -1,8 +1,8 @@
-/* Names of the files of an output */
+/* Determines the names of the files of an output. */
 #include "outputimpl.h"
 #include <string.h>
 
-/* Error if the base name is a folder: the files would have no name */
+/* Stops with an error if `base` is the name of a folder, since a file name must begin with other characters. */
 PetscErrorCode OutputCheckBase(MPI_Comm comm, const char base[])
 {
   const char     *slash = strrchr(base, '/'), *last = slash ? slash + 1 : base;

@@ -1,9 +1,12 @@
-/* An output: a mesh file, a file per load step, and an XDMF file that refers to them */
-#define _POSIX_C_SOURCE 200809L /* lstat() */
+/*
+   Creates an output and writes the results of load steps to it: one file with the mesh, one file per load step, and an
+   XDMF file that refers to these files.
+*/
+#define _POSIX_C_SOURCE 200809L /* for lstat() */
 #include "outputimpl.h"
 #include <sys/stat.h>
 
-/* exists: whether the first rank finds the file */
+/* *exists: true on all ranks if rank 0 can read the file. */
 static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool *exists)
 {
   PetscFunctionBegin;
@@ -12,7 +15,7 @@ static PetscErrorCode OutputTestFile(MPI_Comm comm, const char file[], PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Writes the mesh, replacing that of an earlier run */
+/* Writes the mesh and locks its file. The mesh of an earlier run with this base name is replaced. */
 static PetscErrorCode OutputBegin(Output output)
 {
   char file[PETSC_MAX_PATH_LEN];
@@ -104,7 +107,10 @@ PetscErrorCode OutputSetUnits(Output output, const char units[])
   PetscFunctionReturn(0);
 }
 
-/* Determines the fields of all steps from the first step. A single pair has fields without its name */
+/*
+   Determines from the first load step which fields are written in all load steps. If there is only one contact pair, no
+   fields of single pairs are written, since they would be equal to the fields of all pairs together.
+*/
 static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
 {
   const StepReport *report = state->report;
@@ -169,8 +175,10 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscReal increment,
   PetscFunctionReturn(0);
 }
 
-/* Removes files of later steps of an older run with the same name, on the first rank only. Links and devices are
-   kept, because somebody created them */
+/*
+   Removes the files that an earlier run with this base name has written for load steps after the present one. Only rank
+   0 removes files. Links and devices remain, because a user has created them.
+*/
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
   char        file[PETSC_MAX_PATH_LEN];

@@ -1,4 +1,7 @@
-/* The HTML page of a run: share/report/report.py writes it from the files and the summary of the run. */
+/*
+   Creates the HTML page of a run. The script share/report/report.py writes the page from the files and the summary of
+   the run.
+*/
 #include "src/output/outputimpl.h"
 
 /*@C

@@ -1,16 +1,19 @@
 /*
-   The fields of a report: keys, units, members and types, and their columns in printed tables. The summary has them in
-   this order. A new field is a member in report.h and a line here.
+   Lists the fields of each report: key, unit, member and type, and the columns in printed tables. The summary has the
+   fields in the order of these lists. To add a field, add a member in report.h and a line in this file.
 */
 #include "outputimpl.h"
 #include <math.h>
 
-/* The last arguments are the unit and further members */
+/* Describes a field; the last arguments are the unit and initializers of further members of ReportField. */
 #define FIELD(record, member, stored, ...) \
   { \
     .name = #member, .offset = offsetof(record, member), .type = stored, .unit = __VA_ARGS__ \
   }
-/* After the heading: width, then further members */
+/*
+   Describes a column; the arguments after the two lines of the heading are the width and initializers of further
+   members of ReportColumn.
+*/
 #define COLUMN(place, above, below, ...) \
   { \
     .table = place, .head = {above, below}, .width = __VA_ARGS__ \
@@ -345,7 +348,7 @@ const void *SchemaAt(const ReportField *field, const void *record)
   return (const char *)record + field->offset;
 }
 
-/* Value of a numeric or boolean field */
+/* Returns the value of a numeric or boolean field as a double; NaN for a field of another type. */
 double SchemaNumber(const ReportField *field, const void *record)
 {
   const void *value = SchemaAt(field, record);
@@ -366,7 +369,7 @@ const char *SchemaText(const ReportField *field, const void *record)
   return field->type == FIELD_CHARS ? (const char *)value : *(const char *const *)value;
 }
 
-/* Number of values of a list */
+/* Returns the number of values of a counted field. */
 PetscInt SchemaCount(const ReportField *field, const void *record)
 {
   return *(const PetscInt *)((const char *)record + field->count);

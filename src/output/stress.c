@@ -1,8 +1,11 @@
-/* Stress and strain energy as datasets of a load step's file */
+/* Writes stress and strain energy as datasets of the file of a load step. */
 #include "outputimpl.h"
 #include <mesh.h>
 
-/* Writes n values of each record in the dataset's order; `stride`: length of a record */
+/*
+   Writes a dataset with n rows. Component k of row i is values[stride * i + order[k]]. stride: number of values per
+   record.
+*/
 static PetscErrorCode StressWriteValues(Output output, const char name[], PetscInt n, PetscInt components,
   const int order[], PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
@@ -21,11 +24,15 @@ static PetscErrorCode StressWriteValues(Output output, const char name[], PetscI
 }
 
 static const int identity[] = {0, 1, 2, 3, 4, 5};
-static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* XDMF's order xx xy xz yy yz zz in terms of xx yy zz xy yz zx */
+static const int tensor6[]  = {0, 3, 5, 1, 4, 2}; /* order of XDMF (xx xy xz yy yz zz) as indices into xx yy zz xy yz
+                                                     zx */
 static const int mises[]    = {6};
 static const int highest[]  = {7, 8, 9};
 
-/* As StressWriteValues(), from records of the mesh's cells; all pieces of a cell get its values */
+/*
+   Writes a dataset with one row per piece. values: one record per cell of this rank; all pieces of a cell get the
+   values of the cell. The other arguments are those of StressWriteValues().
+*/
 static PetscErrorCode StressWritePieces(Output output, const char name[], PetscInt components, const int order[],
   PetscInt stride, const PetscReal values[], PetscViewer viewer)
 {
@@ -72,7 +79,7 @@ PetscErrorCode StressWriteNodes(Output output, const StepState *state, PetscView
   PetscFunctionReturn(0);
 }
 
-/* Writes a cell for each point, since ParaView only shows points that are cells */
+/* Writes n cells that consist of one point each, since ParaView shows only points that belong to a cell. */
 static PetscErrorCode StressWritePointCells(Output output, PetscInt n, PetscViewer viewer)
 {
   IS        is;

@@ -1,4 +1,4 @@
-/* A printed table: a row per record, columns from the schema. */
+/* Prints a table with one row per record. schema.c describes the columns. */
 #include "outputimpl.h"
 #include <math.h>
 #include <string.h>
@@ -43,7 +43,7 @@ static void TableVector(const char format[], const PetscReal v[3], char text[], 
   (void)snprintf(text, length, "%s %s %s", number[0], number[1], number[2]);
 }
 
-/* Text of a cell, in `text` if it is a number; NULL: empty */
+/* Returns the text of a cell of the table; a number is printed to `text`. NULL: the cell is empty. */
 static const char *TableText(const RunReport *run, const ReportField *field, const ReportColumn *column,
   const void *record, char text[], size_t length)
 {
@@ -63,7 +63,10 @@ static const char *TableText(const RunReport *run, const ReportField *field, con
   return text;
 }
 
-/* Prints a cell; a column as wide as its text leaves no blanks if that is empty */
+/*
+   Prints a cell of the table. Nothing is printed, not even blanks, if the text is empty and the column has the width of
+   its text (width 0).
+*/
 static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int width, const char text[],
   PetscViewer viewer)
 {
@@ -73,7 +76,10 @@ static PetscErrorCode TablePut(const ReportColumn *column, PetscBool first, int 
   PetscFunctionReturn(0);
 }
 
-/* Prints a column per body, headed by its name; record NULL: the heading */
+/*
+   Prints one column per body. record: the record with the values; NULL: the names of the bodies are printed as the
+   heading.
+*/
 static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field, const ReportColumn *column,
   const void *record, PetscViewer viewer)
 {
@@ -103,7 +109,10 @@ static PetscErrorCode TableHead(const ReportField *field, const ReportColumn *co
   PetscFunctionReturn(0);
 }
 
-/* Prints the row of a record; NULL: a line of the heading */
+/*
+   Prints one line of a table. record: the record whose row is printed; NULL: line `line` (0 or 1) of the heading is
+   printed.
+*/
 static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const ReportField fields[], const void *record,
   PetscInt line, PetscViewer viewer)
 {
@@ -147,7 +156,10 @@ PetscErrorCode TableViewRows(const RunReport *run, ReportTable table, const Repo
   PetscFunctionReturn(0);
 }
 
-/* Text of the only column that a field has in a table; NULL: no column, or empty */
+/*
+   Returns the text of the first column of a field if this column belongs to `table`. NULL: the column belongs to
+   another table, or the cell is empty.
+*/
 const char *TableGetText(const RunReport *run, ReportTable table, const ReportField *field, const void *record,
   char text[], size_t length)
 {

@@ -1,7 +1,7 @@
-/* The printed report of a run: tables, and sentences between them. */
+/* Prints the report of a run as tables with sentences between them. */
 #include "outputimpl.h"
 
-/* Prints a table of the load steps under one or two heading lines */
+/* Prints a table with one row per load step. lines: number of lines of the heading, 1 or 2. */
 static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, PetscInt lines, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -10,7 +10,10 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
-/* Prints forces at the end: a row per contact pair, and per face that is held or driven */
+/*
+   Prints the forces of each load step, and tables of the forces at the end of the last load step: on each contact pair,
+   face with prescribed displacements, connector and bolt.
+*/
 static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -47,7 +50,10 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints, if there is friction, the work of the loads since the start, where it went, and the imbalance of each step */
+/*
+   Prints for each load step the work of the loads since the start, the energy stored and dissipated, and the imbalance
+   between them. Nothing is printed if no pair has friction.
+*/
 static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
 {
   const StepReport *last       = report->nsteps ? &report->steps[report->nsteps - 1] : NULL;
@@ -61,7 +67,7 @@ static PetscErrorCode ViewBalance(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Where a body has yielded */
+/* Prints the plastic strains of each load step if any body has yielded at the end of the last one. */
 static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -71,7 +77,7 @@ static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer
   PetscFunctionReturn(0);
 }
 
-/* Prints load steps whose linear systems needed more than the Krylov method */
+/* Prints the load steps in which linear systems needed fallbacks after the Krylov method, and these fallbacks. */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -100,7 +106,10 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints load steps in which the column of AMG applications counts solves with factors */
+/*
+   Prints from which load step on MUMPS replaced AMG. From this step on the columns of AMG set-ups and applications
+   count factorizations and solves with the factors.
+*/
 static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 {
   PetscInt n = 0, first = 0;
@@ -117,7 +126,7 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Relative errors in energy of the solver and of the mesh */
+/* Prints the relative errors in energy that the solver and the mesh cause. */
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -128,7 +137,7 @@ static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the times: a row per phase, the total last */
+/* Prints the times with one row per phase; the last row is the total time. */
 static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -145,7 +154,10 @@ static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the cost without contact, compared with the largest count of any Newton system */
+/*
+   Prints the cost of the problem without contact next to the cost with contact. The number of PCG iterations is
+   compared with the largest number of any Newton system, the solve time with the mean solve time of a load step.
+*/
 static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewer)
 {
   PetscInt  largest = 0;
@@ -168,7 +180,7 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
   PetscFunctionReturn(0);
 }
 
-/* Prints the growth of resident memory in each phase, per unknown */
+/* Prints the growth of resident memory in each phase, divided by the number of unknowns. */
 static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
 {
   const double n = report->dofs ? 1e3 * (double)report->dofs : 1.0;

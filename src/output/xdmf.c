@@ -1,8 +1,8 @@
-/* The XDMF file: describes the HDF5 files, one grid per load step */
+/* Writes the XDMF file, which describes the HDF5 files with one grid per load step. */
 #include "outputimpl.h"
 #include <string.h>
 
-/* File name without folder, since all files are in the same folder */
+/* Returns the file name without its folder, since all files of an output are in one folder. */
 static const char *XDMFFileName(const char path[])
 {
   const char *slash = strrchr(path, '/');
@@ -10,7 +10,7 @@ static const char *XDMFFileName(const char path[])
   return slash ? slash + 1 : path;
 }
 
-/* Writes text for an XML attribute or element */
+/* Writes a text that is part of an XML attribute or element, with special characters replaced by XML entities. */
 static void XDMFWriteEscaped(FILE *stream, const char text[])
 {
   for (const char *c = text; *c; ++c) {
@@ -27,7 +27,7 @@ static void XDMFWriteDataItem(FILE *stream, const char file[], const char datase
 {
   fprintf(stream, "          <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%" PetscInt_FMT,
     integer ? "Int" : "Float", integer ? (int)sizeof(PetscInt) : (int)sizeof(PetscReal), n);
-  /* PETSc stores index sets with a second dimension, vectors of scalars without */
+  /* PETSc stores an index set with two dimensions, but a vector with one component per row with one dimension. */
   if (integer || components > 1) fprintf(stream, " %" PetscInt_FMT, components);
   fputs("\">", stream);
   XDMFWriteEscaped(stream, XDMFFileName(file));
@@ -54,7 +54,10 @@ static void XDMFWriteMeshGrid(FILE *stream, Output output, const char file[])
   XDMFWriteAttribute(stream, file, "body", "Scalar", "Cell", PETSC_TRUE, output->ncells, 1);
 }
 
-/* Writes the contact fields of all pairs together, or of one pair, whose name they contain */
+/*
+   Writes references to the contact fields. pair: name of the pair, which is part of the names of its fields; NULL for
+   the fields of all pairs together.
+*/
 static PetscErrorCode XDMFWriteContact(FILE *stream, Output output, const char file[], const char pair[])
 {
   static const struct {
@@ -145,7 +148,7 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* The quadrature points of each load step, undeformed */
+/* Writes an XDMF file with the quadrature points of each load step at their undeformed positions. ctx: the Output. */
 static PetscErrorCode XDMFWriteCloud(FILE *stream, const void *ctx)
 {
   Output output = (Output)ctx;

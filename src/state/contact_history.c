@@ -1,10 +1,14 @@
-/* Contact pressure, slack and friction force of each nonmortar vertex, carried from one load step to the next. */
+/*
+   Stores contact pressure, slack and friction force of each nonmortar vertex from one load step to the next. The start
+   of the next solve uses these values.
+*/
 #include "stateimpl.h"
 #include "src/state/contact_history.h"
 
-static const PetscReal negligible_pressure = 1e-3; /* relative to the largest pressure */
-static const PetscReal open_share          = 1e-3; /* A row is open if its force is below this fraction of (stiffness x
-                                                      slack). Such a force comes from the barrier term alone */
+static const PetscReal negligible_pressure = 1e-3; /* a row is under pressure if its pressure is above this fraction
+                                                      of the largest pressure */
+static const PetscReal open_share          = 1e-3; /* A row is open if its force is below this fraction of (stiffness
+                                                      x slack). Such a force comes from the barrier term alone. */
 
 PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
 {
@@ -30,7 +34,7 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   PetscFunctionReturn(0);
 }
 
-/* Index of a row's vertex in the history; this rank owns the vertex */
+/* Returns the index at which the history stores the values of a row. This rank owns the vertex of the row. */
 PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, PetscInt row)
 {
   PetscInt offset = m->first;
@@ -39,7 +43,10 @@ PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, 
   return lin->pair[row] * m->nowned + (offset - m->first) / 3;
 }
 
-/* Stores pressures and slacks of a solve by vertex; stiffness: of the bodies [force/length] */
+/*
+   Stores the pressures and slacks of a solve by vertex. slack: slacks of the rows of lin [length]; stiffness: stiffness
+   of the bodies [force/length].
+*/
 PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
   PetscReal stiffness)
 {
@@ -65,8 +72,9 @@ PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, 
 }
 
 /*
-   Start values for the rows of a new linearization: stored slacks, and stored pressures times scale. A vertex without a
-   stored row gets zeros, which the optimizer moves off the boundary. any: false if no pressure is stored on any rank
+   Sets start values for the rows of a new linearization: the stored slacks, and the stored pressures times `scale`. A
+   vertex without a stored row gets zeros, which the optimizer moves off the boundary. *any: true if a pressure is
+   stored on any rank.
 */
 PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearization lin, PetscReal scale, Vec slack,
   Vec pressure, PetscBool *any)
@@ -90,7 +98,7 @@ PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* The stored pressure; 0 if the row is open */
+/* Returns the stored pressure at index k; 0 if the row was open. */
 static PetscReal ContactHistoryPressure(const ContactHistory *m, PetscInt k)
 {
   return m->open[k] ? 0.0 : m->pressure[k];
@@ -106,8 +114,9 @@ static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm co
 }
 
 /*
-   change: largest difference between the gap of a new linearization and the slack stored for the same vertex, over rows
-   under pressure; over other rows the penetration, since their open gaps do not matter [length]
+   Measures how much the gap changed since the last solve. *change: the maximum over the rows of lin, on all ranks, of
+   |gap - slack stored for the vertex| in rows under pressure, and of the penetration -gap in the other rows, whose open
+   gaps do not matter [length].
 */
 PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearization lin, PetscReal *change)
 {
@@ -130,7 +139,10 @@ PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* 1 for the rows of a linearization whose vertices were under pressure, 0 for others */
+/*
+   Sets closed[r] = 1 in the rows r of lin whose vertices were under pressure in the last solve, and 0 in the other
+   rows.
+*/
 PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLinearization lin, Vec closed)
 {
   PetscScalar *c;
@@ -145,8 +157,11 @@ PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* row[r]: for row r of the last solve under pressure, the row of the same vertex in a new linearization;
-   PETSC_DECIDE for other rows or if there is none. The caller frees `row`. */
+/*
+   Relates the rows of the last solve to the rows of a new linearization. (*row)[r]: row of lin that belongs to the
+   vertex of row r of `solved`; PETSC_DECIDE if row r was not under pressure or lin has no row at this vertex. The
+   caller frees *row.
+*/
 PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLinearization solved, ContactLinearization lin,
   PetscInt **row)
 {
@@ -167,8 +182,10 @@ PetscErrorCode ContactHistoryFollowRows(const ContactHistory *m, ContactLineariz
   PetscFunctionReturn(0);
 }
 
-/* lost: vertices that had a pressure and have no row in a new linearization; nlost: their number on all ranks. The
-   caller frees `lost`. */
+/*
+   Finds the vertices that were under pressure in the last solve and have no row in lin. *lost: [npairs x nowned] true
+   for these vertices, freed by the caller; *nlost: their number on all ranks.
+*/
 PetscErrorCode ContactHistoryFindLostRows(const ContactHistory *m, ContactLinearization lin, PetscBool **lost,
   PetscInt *nlost)
 {
@@ -188,8 +205,10 @@ PetscErrorCode ContactHistoryFindLostRows(const ContactHistory *m, ContactLinear
   PetscFunctionReturn(0);
 }
 
-/* least: smallest gap of the lost vertices in a linearization with a larger search depth; 0 if they have no row
-   there either */
+/*
+   Finds the smallest gap of lost vertices in a linearization with a larger search depth. *least: this gap if it is
+   negative, otherwise 0; 0 also if the lost vertices have no row in lin [length].
+*/
 PetscErrorCode ContactHistoryLeastGap(const ContactHistory *m, const PetscBool lost[], ContactLinearization lin,
   PetscReal *least)
 {

@@ -4,19 +4,25 @@
 #include "src/state/stateimpl.h"
 #include "src/state/solution.h"
 
-/* contact_history.c: data of the last solve by nonmortar vertex, for the next start */
+/* contact_history.c: results of the last solve by nonmortar vertex, from which the next solve starts. */
 struct _n_ContactHistory {
-  PetscSection global;           /* the mesh's */
-  PetscInt     npairs, nowned;   /* number of pairs; of nodes that this rank owns */
-  PetscInt     first;            /* first global row of the owned nodes */
-  PetscReal   *pressure, *slack; /* [npairs x nowned]; pressure 0 where there was no row */
-  PetscBool   *open;             /* the gap is open and the pressure only the barrier's */
-  PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL: no
+  PetscSection global;           /* global section of the DM, which numbers the vertices */
+  PetscInt     npairs, nowned;   /* number of contact pairs, and of nodes that this rank owns */
+  PetscInt     first;            /* first global row of the displacement on this rank */
+  PetscReal   *pressure, *slack; /* [npairs x nowned] pressure [force/length^2] and slack [length]; the pressure is 0
+                                    if there was no row */
+  PetscBool   *open;             /* [npairs x nowned] true if the gap is open, so that the pressure comes from the
+                                    barrier term only */
+  PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
                                     friction */
-  PetscReal   *settled;          /* friction force at the last state of equilibrium [force] */
-  PetscReal   *friction;         /* friction forces on the vertices of both sides at that state [force] */
-  PetscReal   *slip_path;        /* [npairs x nowned] length of all slip up to that state [length] */
-  PetscReal   *dissipated;       /* work of friction up to that state [force length] */
+  PetscReal   *settled;          /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL
+                                    without friction */
+  PetscReal   *friction;         /* friction forces on the vertices of both faces at this state [force]; NULL without
+                                    friction */
+  PetscReal   *slip_path;        /* [npairs x nowned] length of the path along which the vertex slipped until this
+                                    state [length]; NULL without friction */
+  PetscReal   *dissipated;       /* [npairs x nowned] work of the friction forces until this state [force length];
+                                    NULL without friction */
 };
 
 PETSC_INTERN PetscErrorCode ContactHistoryCreate(DM, Scene, ContactHistory *);

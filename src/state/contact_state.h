@@ -3,13 +3,15 @@
 
 #include "src/state/stateimpl.h"
 
-/* The contact rows of the last solve, and their results */
+/* Contact rows of the last solve, and the results at these rows. */
 struct _n_ContactState {
-  PetscContainer       subspace;      /* kept by the optimizer from one load step to the next; NULL before the first */
-  ContactLinearization linearization; /* the contact linearization of the last solve */
-  ContactLinearization upcoming;      /* the linearization at path->u, without ramps of initial overlaps */
+  PetscContainer       subspace;      /* subspace, which the optimizer reuses in later load steps; NULL before the
+                                         first solve */
+  ContactLinearization linearization; /* linearization with which the last solve was done */
+  ContactLinearization upcoming;      /* linearization at path->u for the next load step, in which initial overlaps
+                                         are applied fully; NULL: not computed */
   PetscReal           *pressure, *gap;
-  PetscReal           *shear, *slip; /* two per contact row; NULL without friction */
+  PetscReal           *shear, *slip; /* two components per contact row, along its tangents; NULL without friction */
   PetscInt             npoints;
   ContactPoint        *points;
 };

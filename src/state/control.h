@@ -3,15 +3,16 @@
 
 #include "src/state/stateimpl.h"
 
-/* forecast.c: states at the end of load steps on another mesh, interpolated to this one; empty if there is no
-   forecast */
+/* forecast.c: states at the end of load steps that were computed on another mesh. `here` contains them interpolated to
+   the present mesh, and is empty if there is no forecast. */
 typedef struct {
-  StepForecast *found; /* given by the caller; NULL: none */
+  StepForecast *found; /* states on the other mesh, given by the caller; NULL if there is no forecast */
   StepForecast  here;
-  PetscBool     used, failed; /* used by the last attempt; failed in any attempt */
+  PetscBool     used, failed; /* `used`: true if the last attempt started from the forecast; `failed`: true if any
+                                 such attempt failed */
 } Forecast;
 
-/* Callbacks while a load step is solved (run/progress.c); any may be NULL */
+/* Callbacks that run/progress.c sets; each may be NULL. */
 typedef struct {
   PetscErrorCode (*begin)(Simulation); /* called before a load step */
   PetscErrorCode (*reach)(Simulation); /* called after each converged attempt */
@@ -19,23 +20,27 @@ typedef struct {
   PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
 } StepObserver;
 
-/* How load steps are solved, and what has stopped them */
+/* Settings for the solution of load steps, and the reasons for which load steps have failed. */
 struct _n_StepControl {
-  StepTolerances tolerances; /* updated with the solvers' options once these have been read */
-  PetscBool      warm;       /* start load steps from the path and pressures of the last ones */
-  PetscBool      monitor;    /* print cuts of load steps and contact updates */
-  PetscInt       maxcuts;    /* limit of cuts in one load step */
-  PetscInt       first_step; /* first load step of this run; not 0 after a restart */
-  PetscReal      increment;  /* time increment of the next attempt within the current load step; 0: the rest of it */
-  PetscReal      penalty;    /* -contact_penalty: contact stiffness relative to that of the bodies; 0: constraints
-                                instead */
-  KSP            ksp;        /* for quadratic steps without contact */
+  StepTolerances tolerances; /* updated with the options of the solvers as soon as these have been read */
+  PetscBool      warm;       /* true if load steps start from the extrapolated path and from the pressures of the
+                                last load step */
+  PetscBool      monitor;    /* true if cuts of load steps and contact updates are printed */
+  PetscInt       maxcuts;    /* largest number of cuts in a load step */
+  PetscInt       first_step; /* first load step of this run, counted from 0; positive after a restart */
+  PetscReal      increment;  /* time increment of the next attempt within the current load step; 0: the rest of the
+                                load step */
+  PetscReal      penalty;    /* value of -contact_penalty: contact stiffness divided by the stiffness of the bodies;
+                                0: contact is a constraint */
+  KSP            ksp;        /* linear solver for quadratic load steps without contact; NULL until it is needed */
   Forecast       forecast;
   StepObserver   observer;
-  PetscInt       unheld;      /* consecutive attempts at this load step that contact could not hold */
-  char          *cause;       /* reason of the first of these; NULL: none */
-  PetscReal      weak_share;  /* stiffness of the proximal term of bodies on weak springs; 0: none is needed */
-  int            interrupted; /* the signal that was caught; 0: none */
+  PetscInt       unheld;      /* number of consecutive attempts at this load step that failed because contact cannot
+                                 hold the loads; a proven failure counts 2 */
+  char          *cause;       /* reason of the first of these attempts; NULL if there is none */
+  PetscReal      weak_share;  /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
+                                 of the bodies; 0: no such term */
+  int            interrupted; /* signal that was caught; 0: none */
 };
 
 #endif

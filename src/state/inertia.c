@@ -1,4 +1,4 @@
-/* Inertia in a load step, which is a time step then. */
+/* Applies inertia in a dynamic analysis, in which each load step is a time step. */
 #include "stateimpl.h"
 #include "src/state/path.h"
 
@@ -7,7 +7,10 @@ static PetscReal InertiaStep(Simulation sim, PetscReal time)
   return (time - sim->path->time) * SceneTimeStep(sim->scene);
 }
 
-/* Sets the inertia term for this step. changed: its tangent differs from that of the step before */
+/*
+   Sets the inertia term for the time step that ends at `time`. *changed: true if the tangent of the term differs from
+   that of the previous time step.
+*/
 PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
 {
   Dynamics *d = &sim->dynamics;
@@ -18,11 +21,14 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-/* Whether rounding of elastic forces is as large as what a solver may leave of the forces of inertia by the same
-   displacements */
+/*
+   Finds whether the inertia forces are small compared with rounding errors of elastic forces. *small: true if the
+   rounding error of K u is as large as the error that a solver may leave in the inertia forces c M u, with c M the
+   inertia term. Always false in a static analysis.
+*/
 PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
 {
-  const PetscReal left = 1e-11; /* relative, with a margin of a hundred */
+  const PetscReal left = 1e-11; /* relative error that a solver may leave, with a safety factor of 100 */
   PetscReal       mass;
   Vec             diagonal;
 
@@ -38,7 +44,10 @@ PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
   PetscFunctionReturn(0);
 }
 
-/* Sets the excess of the mean internal force to that of a step to u */
+/*
+   Sets d->excess to twice the difference that makes the internal force of the step from path->u to u the mean force,
+   which conserves energy (mean_force.c).
+*/
 PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
 {
   Dynamics *d = &sim->dynamics;
@@ -51,8 +60,10 @@ PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Forces of inertia and damping at u, in a new vector; NULL in a static analysis. In the impact scheme they exclude
-   the part of the contact forces that is not in the multipliers */
+/*
+   Computes the forces of inertia and damping at u in a new vector; *force is NULL in a static analysis. In the impact
+   scheme the multipliers are only a share of the contact forces (SchemeShare()); the rest is not part of *force.
+*/
 PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
 {
   PetscReal energy = 0.0;
@@ -67,8 +78,11 @@ PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
   PetscFunctionReturn(0);
 }
 
-/* change: of the excess, on free rows, to that of a step to u, relative to the larger of the internal forces at both
-   ends; 0 where it is below their rounding */
+/*
+   Measures how much the excess of the mean force changes if it is evaluated for the step to u. *change: 2-norm of this
+   change on the rows that are not prescribed, divided by the larger of the 2-norms of the internal forces at the start
+   and at the end of the step; 0 if the norm of the change is below `rounding` [force].
+*/
 PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, PetscReal *change)
 {
   Dynamics *d = &sim->dynamics;
@@ -91,7 +105,10 @@ PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, P
   PetscFunctionReturn(0);
 }
 
-/* The state moves on to u, where the path does so next */
+/*
+   Advances the dynamic state to the displacement u at `time`. Call this before PathAdvance(), because path->u must
+   still be the old displacement.
+*/
 PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
 {
   const Constraints constraints = SimulationConstraints(sim);

@@ -1,11 +1,12 @@
-/* The path of equilibrium states, and its extrapolation. */
+/* Stores the last two equilibrium states of the path, and extrapolates the path from them. */
 #include "stateimpl.h"
 #include "src/state/path.h"
 
 /*
-   ratio: the next increment as a multiple of the last one. It is the projection of the change of all ramps on their
-   last change, so that a load program that turns (press, then slide) is not continued in its old direction. A path on
-   which metal yielded is not gone back: the bodies unload elastically.
+   Computes the next increment of the path as a multiple of the last one. *ratio: projection of the change of all ramps
+   on their last change. If a load program changes its direction (for example from pressing to sliding), the ratio is
+   thus small. It is 0 instead of negative if metal has yielded: the bodies then unload elastically, so the path back
+   differs from the path on which they yielded.
 */
 static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio)
 {
@@ -29,8 +30,10 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
   PetscFunctionReturn(0);
 }
 
-/* u: the path extrapolated to a time (in dynamics by velocities and accelerations), with the prescribed displacements
-   of that time */
+/*
+   Extrapolates the path to `time`. u: extrapolated displacement, with the prescribed displacements of this time. A
+   dynamic analysis extrapolates with velocities and accelerations.
+*/
 PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 {
   PetscReal ratio = 0.0;
@@ -49,8 +52,10 @@ PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* scale: factor for stored pressures. With a single ramp pressures are proportional to it; with several they are not
-   scaled. */
+/*
+   Computes the factor for the stored pressures at the start of a load step. *scale: ratio of the ramp factors at `time`
+   and at the last state if there is only one ramp, because pressures are then about proportional to it; otherwise 1.
+*/
 PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scale)
 {
   PetscReal now, next;
@@ -64,7 +69,7 @@ PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scal
   PetscFunctionReturn(0);
 }
 
-/* Advances the path to the state u; *u becomes the vector of the oldest state, for reuse */
+/* Advances the path to the state u. On exit *u is the vector of the oldest state, whose memory is reused. */
 PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
 {
   Vec       oldest = path->previous_u;
@@ -82,8 +87,11 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
   PetscFunctionReturn(0);
 }
 
-/* n: solves with the present stiffness until the end of the load program, including this one; with contact updates
-   at least one per load step is assumed */
+/*
+   Estimates how many solves with the present stiffness follow until the end of the load program. *n: number of these
+   solves, including the present one; at least two solves per load step are assumed if the gap is linearized more than
+   once. If the bodies are not linear, only the present load step counts.
+*/
 PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
 {
   const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;

@@ -3,19 +3,20 @@
 
 #include "src/state/stateimpl.h"
 
-/* path.c: the last two states of equilibrium. Load step k ends at time k. */
+/* path.c: the last two equilibrium states. Load step k ends at time k. */
 struct _n_LoadPath {
   PetscReal time, previous_time;
   Vec       u, previous_u;
-  PetscReal largest_increment;    /* of any displacement component in any step so far [length] */
-  Vec       outside;              /* external forces at u [force]; NULL at the start: zero */
-  PetscReal work;                 /* work of the external forces [force length] */
-  Vec       contact;              /* contact forces at u, with friction only; NULL: zero [force] */
-  PetscReal contact_work;         /* work of the contact forces [force length] */
-  PetscReal energy;               /* of the bodies at u, with the plastic work [force length] */
-  PetscReal unbalanced, turnover; /* in the present load step: work that is neither stored as energy nor taken up by
-                                     contact; and the sum over solves of the largest of these three [force length] */
-  PetscBool warned;               /* the imbalance has been warned of */
+  PetscReal largest_increment;    /* largest increment of any displacement component in any load step so far [length] */
+  Vec       outside;              /* external forces at u [force]; NULL at the start, where they are zero */
+  PetscReal work;                 /* work of the external forces since the start [force length] */
+  Vec       contact;              /* contact forces at u [force]; computed only with friction; NULL: zero */
+  PetscReal contact_work;         /* work of the contact forces since the start [force length] */
+  PetscReal energy;               /* strain energy of the bodies at u plus the plastic work [force length] */
+  PetscReal unbalanced, turnover; /* `unbalanced`: work in the present load step that is neither stored as energy nor
+                                     taken up by contact [force length]; `turnover`: sum over the solves of this load
+                                     step of the largest of external work, energy and contact work [force length] */
+  PetscBool warned;               /* true after a warning about the imbalance */
 };
 
 /* path.c */

@@ -1,8 +1,11 @@
-/* The solution at the contact rows. */
+/* Creates and destroys the solution at the contact rows. */
 #include "stateimpl.h"
 #include "src/state/solution.h"
 
-/* Creates the vectors, in place of existing ones; rows: a vector with the layout of the rows */
+/*
+   Creates the vectors of a solution; existing vectors are destroyed first. rows: a vector with one entry per contact
+   row.
+*/
 PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *sol)
 {
   PetscFunctionBegin;

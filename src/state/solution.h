@@ -3,12 +3,13 @@
 
 #include "src/state/stateimpl.h"
 
-/* solution.c: the solution at the contact rows of one solve */
+/* solution.c: solution at the contact rows of one solve. */
 struct _n_ContactSolution {
-  Vec pressure; /* one per row [force/length^2] */
-  Vec gap;      /* linearized gap, one per row [length] */
-  Vec shear;    /* friction forces along the two tangents of each row [force]; NULL: no friction */
-  Vec slip;     /* slip since the last state along the two tangents of each row [length] */
+  Vec pressure; /* contact pressure of each row [force/length^2] */
+  Vec gap;      /* linearized gap of each row [length] */
+  Vec shear;    /* friction forces along the two tangents of each row [force]; NULL without friction */
+  Vec slip;     /* slip since the last equilibrium state along the two tangents of each row [length]; NULL without
+                   friction */
 };
 
 PETSC_INTERN PetscErrorCode ContactSolutionCreate(Vec rows, ContactSolution *);

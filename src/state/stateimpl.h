@@ -1,13 +1,11 @@
-/*
-   State of a simulation: its objects, and the data carried from one load step to the next.
-*/
+/* State of a simulation: its objects, and the data that are passed from one load step to the next. */
 #ifndef STATEIMPL_H
 #define STATEIMPL_H
 
 #include <step.h>
 #include "src/dynamics/dynamicsimpl.h"
 
-/* Parts of the simulation; the headers of this folder that the simulation names declare them */
+/* Parts of the simulation. Each is declared in a header of this folder, which the member of the simulation names. */
 typedef struct _n_LoadPath        LoadPath;
 typedef struct _n_ContactHistory  ContactHistory;
 typedef struct _n_ContactState    ContactState;
@@ -18,7 +16,7 @@ typedef struct _n_Results         Results;
 typedef struct _n_StepControl     StepControl;
 typedef struct _n_RunState        RunState;
 
-/* The simulation: the bodies and all that acts on them, and the parts that change */
+/* The simulation: the bodies, the loads and constraints that act on them, and the parts that change during a run. */
 struct _n_Simulation {
   MPI_Comm        comm;
   Scene           scene;
@@ -33,22 +31,24 @@ struct _n_Simulation {
   RigidBodies     rigid;
   Ties            ties;
   Dynamics        dynamics;
-  Mat             follows; /* derivative of the follower loads (followers.c); NULL until needed [force/length] */
+  Mat             follows; /* derivative of the follower loads (followers.c); NULL until it is needed [force/length] */
   VertexPlaces    places;
-  PetscBool       quadratic; /* load steps are quadratic programs: every body is linear, or the scene asks for it */
+  PetscBool       quadratic; /* true if load steps are quadratic programs: every body is linear, or the scene
+                                has model: quadratic */
   Mat             K;
   Vec             mass;
-  PetscReal       stiffness; /* largest of all bodies: Young's modulus times length [force/length] */
-  LoadPath       *path;      /* path.h: the last states of equilibrium */
-  ContactHistory *history;   /* contact_history.h: contact results by vertex, for the next start */
-  ContactState   *solved;    /* contact_state.h: the contact rows of the last solve, and their results */
-  Results        *results;   /* results.h: requested results, and their values */
-  StepControl    *control;   /* control.h: how load steps are solved */
-  RunState       *run;       /* run.h: progress, and cells to refine */
+  PetscReal       stiffness; /* largest stiffness of all bodies, estimated as Young's modulus times length
+                                [force/length] */
+  LoadPath       *path;      /* last two equilibrium states (path.h) */
+  ContactHistory *history;   /* contact results by vertex, from which the next solve starts (contact_history.h) */
+  ContactState   *solved;    /* contact rows of the last solve, and the results there (contact_state.h) */
+  Results        *results;   /* requested results and their values (results.h) */
+  StepControl    *control;   /* settings for the solution of load steps (control.h) */
+  RunState       *run;       /* progress, and cells to refine (run.h) */
   RunReport       report;
 };
 
-/* Parts of the simulation that loads and constraints work on */
+/* Return the parts of the simulation that the functions for loads and constraints need. */
 static inline Bodies SimulationBodies(Simulation sim)
 {
   return (Bodies){sim->comm, sim->scene, sim->dm, sim->elasticity, sim->places, sim->mass};
@@ -64,7 +64,7 @@ static inline PetscBool SimulationIsDynamic(Simulation sim)
   return (PetscBool)(sim->dynamics.mass != NULL);
 }
 
-/* inertia.c: of a load step that ends at this time */
+/* inertia.c: inertia forces of the load step that ends at `time` */
 PETSC_INTERN PetscErrorCode InertiaBegin(Simulation, PetscReal time, PetscBool *changed);
 PETSC_INTERN PetscErrorCode InertiaIsSmall(Simulation, PetscBool *);
 PETSC_INTERN PetscErrorCode InertiaSetExcess(Simulation, Vec u);

@@ -1,5 +1,7 @@
-/* One attempt to reach a time: solve the problem with linearized contact, then repeat with updated contact until the
-   linearized gap agrees with the gap of the deformed faces. */
+/*
+   Attempts to reach a time: solves the problem with linearized contact, then repeats the solve with an updated
+   linearization until the linearized gap agrees with the gap of the deformed faces.
+*/
 #include "stepimpl.h"
 #include <math.h>
 #include "src/state/contact_history.h"
@@ -7,10 +9,16 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* largest force of the term that holds bodies on weak springs at the end, relative to those of the deformation */
+/*
+   largest force at the end of the contact updates of the proximal term that holds bodies on weak springs, as a fraction
+   of the forces of the deformation
+*/
 #define ATTEMPT_HELD 1e-5
 
-/* The gap at u for a load step that ends at `time`. Ramps of initial overlaps need J */
+/*
+   Computes the gap at u for a load step that ends at `time`. The derivative of the gap is computed only if initial
+   overlaps follow ramps, since InterferenceAdd() needs it.
+*/
 static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscBool ramps = PETSC_FALSE;
@@ -25,7 +33,7 @@ static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, Cont
   PetscFunctionReturn(0);
 }
 
-/* Linearizes the gap at u for a load step that ends at `time`: ramps of initial overlaps are applied. */
+/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied. */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -67,9 +75,11 @@ static PetscErrorCode AttemptSolve(StepProblem *p, PetscBool resume, Vec u, Step
   PetscFunctionReturn(0);
 }
 
-/* Measures the gap of the deformed faces at u, and how much it differs from the linearized gap of the solve that gave
-   u. is_true: the difference is small enough to end the contact updates. report->gap_unconverged: it is too large for
-   a converged step. */
+/*
+   Measures the gap of the deformed faces at u, and how much it differs from the linearized gap of the solve whose
+   solution is u. *is_true: true if the difference is small enough to end the contact updates. report->gap_unconverged:
+   true if the difference is too large for a converged load step.
+*/
 static PetscErrorCode AttemptMeasureGap(const StepProblem *p, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
@@ -94,8 +104,11 @@ static PetscErrorCode AttemptMeasureGap(const StepProblem *p, Vec u, const Conta
   PetscFunctionReturn(0);
 }
 
-/* Allowed error of linearized rotations [length]: a fraction of the displacements, and at least the rounding of the
-   coordinates. In time steps energy and angular momentum depend on it (turn.c). */
+/*
+   Computes the allowed error of linearized rotations. *allowed: a fraction of the largest displacement, but at least 32
+   times the rounding error of the coordinates [length]. The fraction is small in time steps, because energy and angular
+   momentum depend on the rotations (turn.c).
+*/
 static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowed)
 {
   const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->control->tolerances.optimizer, 1e-12);
@@ -108,8 +121,10 @@ static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowe
   PetscFunctionReturn(0);
 }
 
-/* Solves without contact. Rotations of rigid bodies that turn freely are linearized again until the linearization
-   agrees with the finite rotation. */
+/*
+   Solves a problem without contact. Rotations of rigid bodies that turn freely are linearized again until the
+   linearized rotations agree with the finite ones. foreseen: true if u is a forecast on entry.
+*/
 static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
 {
   const PetscInt most    = 50;
@@ -130,7 +145,10 @@ static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, S
   PetscFunctionReturn(0);
 }
 
-/* What has moved since the linearization, and by how much at most */
+/*
+   Computes the displacement since the linearization. du: u - u_linearized, a new vector; *moved: its largest component
+   [length].
+*/
 static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal *moved)
 {
   PetscFunctionBegin;
@@ -140,7 +158,10 @@ static PetscErrorCode AttemptMotion(Vec u_linearized, Vec u, Vec *du, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* deepest = min(gap, 0): negative where a row is penetrated, 0 where none is or there are no rows */
+/*
+   Finds the largest penetration as a negative gap. *deepest: min(gap, 0) over the rows of all ranks; 0 if no row is
+   penetrated or there are no rows [length].
+*/
 static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 {
   PetscReal least = 0.0;
@@ -154,10 +175,11 @@ static PetscErrorCode AttemptDeepestGap(Vec gap, PetscReal *deepest)
 }
 
 /*
-   Searches again for faces that were farther apart than the search distance at u_linearized. They may have met if the
-   solution u moved by more than half that distance. If the linearized gap of any row of the wider search is more
-   negative at u than that of the present rows (a penalty method allows some penetration), the wider linearization
-   replaces sim->solved->linearization and missed is true.
+   Finds faces that were farther apart than the search distance at u_linearized but may have met at u, which is possible
+   if the solution moved by more than half of that distance. The search is then repeated with a larger distance *reach.
+   own: linearized gap of the present rows at u. *missed: true if a row of the wider search is penetrated at u more
+   deeply than any present row (present rows may be penetrated, for example with the penalty method); the wider
+   linearization then replaces sim->solved->linearization.
 */
 static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach,
   PetscBool *missed)
@@ -194,7 +216,10 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   PetscFunctionReturn(0);
 }
 
-/* Solves with the gap linearized at u_linearized. Repeats with a larger search distance until no face was missed. */
+/*
+   Solves with the gap linearized at u_linearized, and repeats the solve with a larger search distance until no face was
+   missed.
+*/
 static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol)
 {
@@ -214,8 +239,11 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
   PetscFunctionReturn(0);
 }
 
-/* States in the report how much the gap still changes. With contact_updates: 1 the step counts as converged; with
-   more updates allowed it has failed. */
+/*
+   Reports how much the gap still changes after the last contact update. The load step counts as converged if
+   contact_updates is 1, and as failed if more updates were allowed. slid: true if contact nodes still slide over the
+   edge of the opposite face.
+*/
 static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, StepReport *report)
 {
   char            reason[192];
@@ -242,9 +270,9 @@ static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, Step
 }
 
 /*
-   Finds vertices that had a contact pressure in the solve and have no contact row at u. A vertex loses its row if it
-   slid over the edge of the opposite face (slid: another update is needed) or if it lies deeper in the other body than
-   the search reaches (the step has failed).
+   Finds vertices that were under pressure in the solve but have no contact row at u. A vertex has no row if it slid
+   over the edge of the opposite face; *slid is then true, and another update is needed. A vertex also has no row if it
+   lies deeper in the other body than the contact search reaches; the load step has then failed.
 */
 static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
   StepReport *report, PetscBool *slid)
@@ -277,7 +305,7 @@ static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized
   PetscFunctionReturn(0);
 }
 
-/* Whether faces of a pair are within reach of each other at u */
+/* Finds whether any faces of a pair are within the search distance of each other at u. */
 static PetscErrorCode AttemptFindMet(Simulation sim, PetscReal time, PetscInt pair, Vec u, PetscBool *met)
 {
   ContactLinearization lin;
@@ -291,8 +319,10 @@ static PetscErrorCode AttemptFindMet(Simulation sim, PetscReal time, PetscInt pa
   PetscFunctionReturn(0);
 }
 
-/* Reports a face that turned by more than 90 degrees and has lost contact: it may have gone through the other face on
-   a curved way */
+/*
+   Reports a face that turned by more than 90 degrees and has lost contact. Such a face may have passed through the
+   opposite face on a curved path.
+*/
 static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt p, Vec u, StepReport *report)
 {
   const SceneContactPair *pair = &sim->scene->pairs[p];
@@ -311,8 +341,10 @@ static PetscErrorCode AttemptFindTurned(Simulation sim, PetscReal time, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Reports faces that went through one another since the last state. They have no contact at u. This is possible only
-   if they moved by at least the depth of the search. */
+/*
+   Reports faces that passed through each other since the last state and therefore have no contact at u. This is
+   possible only if they moved by at least the depth of the contact search.
+*/
 static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, StepReport *report)
 {
   PetscBool turned;
@@ -338,7 +370,7 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, S
   PetscFunctionReturn(0);
 }
 
-/* Once a run */
+/* Warns that contact updates are damped, but only once in a run. */
 static PetscErrorCode AttemptWarnDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
@@ -353,7 +385,10 @@ static PetscErrorCode AttemptWarnDamped(Simulation sim, const StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* Between displacements there is none of rigid bodies that turn */
+/*
+   Makes u a displacement in which rigid bodies that turn freely are rigid. An extrapolated u does not have this
+   property, because a combination of rotations is not a rotation.
+*/
 static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
 {
   const Constraints constraints = SimulationConstraints(p->sim);
@@ -367,8 +402,10 @@ static PetscErrorCode AttemptMakeRigid(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Moves u_linearized to the point at which the gap is linearized next, and linearizes it there. at_u: on entry the
-   linearization at the solution u, on exit the new one */
+/*
+   Moves u_linearized to the point at which the gap is linearized next, and linearizes the gap there. at_u: the
+   linearization at the solution u on entry, the new linearization on exit.
+*/
 static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSecants *secants,
   const ContactSolution *sol, Vec u, Vec u_linearized, StepReport *report, ContactLinearization *at_u)
 {
@@ -380,7 +417,8 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &next));
   if (!p->holds_weak) PetscCall(ContactUpdateNewton(p, sol, *at_u, u_linearized, u, next, report, &found));
-  PetscCall(ProximalMeasureHeld(p, u, &held)); /* falls with the motion of bodies on weak springs, the gap need not */
+  PetscCall(ProximalMeasureHeld(p, u, &held)); /* `held` decreases as bodies on weak springs come to rest, whereas
+                                                  the change of the gap need not decrease */
   PetscCall(
     ContactUpdateSecantsAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
   if (damped && ProximalMayHoldWeak(p)) {
@@ -406,9 +444,9 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
 }
 
 /*
-   One contact update: solves with sim->solved->linearization, then linearizes the gap at the solution u (`at_u`).
-   end: no further update is needed, because the gap agrees or the solve failed. slid: vertices with a pressure have
-   no row at u, so their gap is unknown.
+   Does one contact update: solves with sim->solved->linearization, then computes the gap at the solution u (*at_u).
+   *end: true if no further update is needed, because the gap agrees or the solve failed. *slid: true if vertices under
+   pressure have no row at u, so that their gap is not known.
 */
 static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
@@ -424,7 +462,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
-    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* where the gap is linearized next */
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* in this case the gap is linearized next at u */
   else PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
@@ -440,11 +478,15 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
 
 /*
    Sets p->tolerance, the relative KKT error to which the next linearized problem is solved; 0: the tolerance of the
-   load step. Early updates are solved to a tenth of the relative change of the gap in the update before; the first to
-   1e-3, or 1e-4 with friction. The tolerance falls by ten where the change of the gap fell by less than half, because
-   the inexact solve may be the cause. The full tolerance is used for the last update, for a start from a forecast, with
-   weak springs (which would carry the residual), and where the gap tolerance is near rounding (for reproducible
-   results). again: the same linearization is solved once more, to a smaller tolerance. end: this is the last solve.
+   load step. foreseen: u was a forecast; again: the same linearization is solved once more, to a smaller tolerance;
+   end: this is the last solve.
+
+     The first update has the tolerance 1e-3, or 1e-4 with friction. Later updates are solved to a tenth of the relative
+     change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
+     may be the cause, and the tolerance is at most a tenth of the previous one.
+
+     The tolerance of the load step is used for the last update, for a start from a forecast, with weak springs (which
+     would carry the residual), and if the gap tolerance is near rounding, so that results are reproducible.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)
@@ -470,8 +512,10 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   PetscFunctionReturn(0);
 }
 
-/* again: whether the linearization just solved inexactly must be solved further. That is so for the last update, and
-   for the first one if the change of the gap is below the tolerance of its solve. */
+/*
+   Finds whether the linearization that was just solved to p->tolerance must be solved to a smaller tolerance. *again:
+   true for the last update, and for the first update if the change of the gap is below the tolerance of the solve.
+*/
 static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
   PetscBool *again)
 {
@@ -484,8 +528,10 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
   PetscFunctionReturn(0);
 }
 
-/* Tries the undeformed bodies as the solution of a step to zero load. rests: they are the solution;
-   sim->solved->linearization and `at_u` are then those of the undeformed bodies. */
+/*
+   Tries whether the undeformed bodies are the solution of a load step to zero load. *rests: true if they are;
+   sim->solved->linearization and *at_u are then linearizations at u = 0.
+*/
 static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u, PetscBool *rests)
 {
@@ -513,9 +559,10 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
 }
 
 /*
-   Sets sim->solved->linearization, and creates u_linearized, the displacement that it is made at: u if u is a forecast;
-   an extrapolation of the path if the gap is linearized again; else the last state. In the first load step, after a cut
-   and with friction it is always the last state: with friction the tolerance's errors would add up over load steps.
+   Sets sim->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is a
+   forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
+   is always used in the first load step, after a cut and with friction, because with friction the errors that the
+   tolerance allows would add up over the load steps.
 */
 static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
@@ -540,8 +587,11 @@ static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, co
   PetscFunctionReturn(0);
 }
 
-/* Contact updates until the gap agrees, the solve fails or contact_updates is reached. On exit u was computed with
-   sim->solved->linearization, and `at_u` is the linearization at u. foreseen: u is a forecast. */
+/*
+   Updates the contact until the gap agrees, a solve fails or contact_updates is reached. On exit u is a solution of the
+   problem with sim->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
+   entry.
+*/
 static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u)
 {
@@ -582,7 +632,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
     PetscCall(ProximalMeasureHeld(p, u, &held));
     if (held > ATTEMPT_HELD) {
       PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
-      report->gap_unconverged = PETSC_FALSE; /* there is no equilibrium */
+      report->gap_unconverged = PETSC_FALSE; /* the gap is not the reason of the failure: there is no equilibrium */
     }
   }
   PetscFunctionReturn(0);
@@ -607,9 +657,11 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
   PetscFunctionReturn(0);
 }
 
-/* Counts attempts that failed because contact cannot hold the loads. At a count of 2 the step is not cut further. A
-   proven failure without prescribed motion counts 2, since smaller increments start from the same positions; others
-   count 1. */
+/*
+   Counts attempts that failed because contact cannot hold the loads. If the count is 2, the load step is not cut
+   further. A failure counts 2 if it is proven and no prescribed displacement moves, since smaller increments start from
+   the same positions. Other failures count 1.
+*/
 static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport *report)
 {
   Simulation sim = p->sim;
@@ -627,8 +679,8 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 }
 
 /*
-   Attempts to advance the state to `time`. On success sim->path, sim->solved->linearization, pressures and gaps become
-   those of the new state. On failure all of them stay as they were.
+   Attempts to advance the state to `time`. After success sim->path, sim->solved->linearization, pressures and gaps are
+   those of the new state. After a failure they are unchanged.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
 {
@@ -673,7 +725,8 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(PathAdvance(sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
-    if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u)); /* the next load step linearizes */
+    /* the gap alone is not enough for the next load step, which linearizes the gap itself */
+    if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u));
     sim->solved->upcoming = at_u;
     if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->solved->upcoming));
   } else if (sim->contact) {

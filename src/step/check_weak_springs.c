@@ -1,12 +1,17 @@
-/* Rejects solutions in which weak springs carry a notable load or a body moves far: nothing else holds that body. */
+/*
+   Rejects solutions in which weak springs carry a considerable part of the loads or a body moves far, because nothing
+   else holds that body.
+*/
 #include "stepimpl.h"
 #include <vector3.h>
 
-/* Largest force of a body's weak springs, as a fraction of the sum of the magnitudes of its nodal loads */
+/* largest force of the weak springs of a body, as a fraction of the sum of the magnitudes of its nodal loads */
 static const PetscReal weak_springs_share = 0.01;
 
-/* carried[4 b .. 4 b + 2]: resultant of the weak springs on body b [force]; carried[4 b + 3]: sum of the magnitudes
-   of its nodal loads [force] */
+/*
+   Measures the forces of the weak springs on each body b. carried[4 b .. 4 b + 2]: their resultant [force]; carried[4 b
+   + 3]: sum of the magnitudes of the body's nodal loads [force].
+*/
 static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscReal carried[])
 {
   const PetscScalar *v, *k, *f;
@@ -35,7 +40,7 @@ static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Marks the solve as failed if the weak springs of a body carry more than weak_springs_share of its loads */
+/* Reports the solve as failed if the weak springs of a body carry more than weak_springs_share of its loads. */
 PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
 {
   Scene      scene = p->sim->scene;
@@ -59,8 +64,10 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* moved[b]: square of the largest displacement between u0 and u of a vertex of body b with weak springs; 0 for
-   bodies without [length^2] */
+/*
+   Measures how far bodies on weak springs moved between u0 and u. moved[b]: square of the largest displacement of a
+   vertex of body b; 0 for bodies without weak springs [length^2].
+*/
 static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, PetscReal moved[])
 {
   const PetscScalar *k, *v0, *v;
@@ -86,8 +93,10 @@ static PetscErrorCode WeakSpringsMeasureMotion(Simulation sim, Vec u0, Vec u, Pe
   PetscFunctionReturn(0);
 }
 
-/* Marks a contact update as failed if a body on weak springs moved farther from u_linearized than the cube root of
-   its volume: tilted contact faces have pushed it out. */
+/*
+   Reports a contact update as failed if a body on weak springs moved farther from u_linearized than its size, the cube
+   root of its volume: tilted contact faces have pushed the body out.
+*/
 PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
   const Bodies bodies = SimulationBodies(p->sim);
@@ -113,8 +122,10 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
   PetscFunctionReturn(0);
 }
 
-/* Reports the body that moves farthest between u_linearized and u, relative to its size, after contact updates that do
-   not bring it to rest */
+/*
+   Reports that contact updates do not bring a body on weak springs to rest. The body that moved farthest between
+   u_linearized and u, relative to its size, is named.
+*/
 PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
   const Bodies bodies   = SimulationBodies(p->sim);

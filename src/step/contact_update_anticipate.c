@@ -1,13 +1,13 @@
 /*
-   Improves the contact update on smooth surfaces. The matrix J of the linearized gap uses fixed patches, so that its
-   transpose gives forces which are smooth over a body's facets. The exact derivative B of the gap also contains the
-   rotation of the normals and the bending of the patches. The difference would only show at the next contact update and
-   would decay slowly. Therefore the gap g of rows under pressure is replaced by g', for which the problem with J moves
-   these rows to where B predicts that they close. The bodies' response is approximated by D = diag(K)^-1:
+   Improves the contact update of pairs with smooth surfaces. The matrix J of the linearized gap is computed with fixed
+   patches, so that its transpose gives forces which are smooth over the facets of a body. The exact derivative B of the
+   gap also contains the rotation of the normals and the bending of the patches. Without the following correction these
+   terms would have an effect only in the next contact update, and the error would decay slowly.
 
-     B D J^T w = g,   g' = J D J^T w.
-
-   At the solution of the load step g = g' = 0 in these rows.
+     The gap g of rows under pressure is therefore replaced by a gap g'. The solution with J and g' closes these rows
+     approximately as a solution with B and g would. The response of the bodies is approximated by D = diag(K)^-1:
+       B D J^T w = g,  g' = J D J^T w.
+     At the solution of the load step g = g' = 0 in these rows.
 */
 #include "stepimpl.h"
 #include "src/state/contact_history.h"
@@ -17,12 +17,12 @@
 
 typedef struct {
   Mat J, B;
-  Vec closed;         /* 1 for rows under pressure, 0 for others */
-  Vec D;              /* diag(K)^-1, 0 on prescribed rows [length/force] */
-  Vec row, force, du; /* work */
+  Vec closed;         /* 1 for rows under pressure, 0 for other rows */
+  Vec D;              /* diag(K)^-1; 0 in prescribed rows [length/force] */
+  Vec row, force, du; /* work vectors: one in the space of the rows, two displacement vectors */
 } GapResponse;
 
-/* y = A D J^T x on the rows under pressure, y = x on the others */
+/* Computes y = A D J^T x in the rows under pressure and y = x in the other rows. A: J or B. */
 static PetscErrorCode ResponseApply(GapResponse *r, Mat A, Vec x, Vec y)
 {
   PetscFunctionBegin;
@@ -46,7 +46,7 @@ static PetscErrorCode ResponseMult(Mat shell, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* 1 / diag(K); 1 where the diagonal is not positive; 0 on prescribed rows */
+/* Computes D = 1/diag(K); 1 where the diagonal of K is not positive, and 0 in prescribed rows. */
 static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
 {
   PetscScalar *d;
@@ -62,8 +62,10 @@ static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Replaces g by g' (see above) in p->g on the rows that had a pressure in the last solution. Does nothing if no pair
-   has smooth surfaces. */
+/*
+   Replaces g by g' (see the top of this file) in p->g, in the rows whose vertices were under pressure in the last
+   solution. Does nothing if no pair has smooth surfaces, or if the system for w is not solved.
+*/
 PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
 {
   GapResponse r = {.J = lin->J, .B = lin->derivative};

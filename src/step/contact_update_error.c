@@ -1,26 +1,36 @@
-/* Differences between a contact linearization and the one at its solution, apart from the gap: rotation of the
-   normals, change of the slip, and lever arms of the forces on rigid surfaces. */
+/*
+   Measures how a contact linearization differs from the one at its solution, apart from the gap: by the rotation of the
+   normals, the change of the slip, and the lever arms of the forces on rigid surfaces.
+*/
 #include "stepimpl.h"
 #include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Weight of the rotation of the normals. The error of the displacements is proportional to it, that of the gap is of
-   second order. Updates with friction, which have no Newton's method, would take twice as many for it */
+/*
+   weight of the rotation of the normals in the error; the error of the displacements is proportional to the rotation,
+   whereas the error of the gap is of second order. The weight is smaller with friction, where Newton's method is not
+   available and the updates would otherwise be twice as many.
+*/
 static const PetscReal askew = 1.0, askew_friction = 1e-2;
 
-/* The lever arms of forces on rigid surfaces may be wrong by this part of the size of the contact. Where a tool slides,
-   the forces act where it was at the last contact update. */
+/*
+   allowed error of the lever arms of forces on rigid surfaces, as a fraction of the size of the contact area. If a tool
+   slides, the forces act at the positions of the last contact update.
+*/
 static const PetscReal misplaced = 1e-3;
 
-/* Weight of the error of free rotations: elastic faces that are tied to the body would be strained by it */
+/*
+   weight of the error of free rotations, which is large because this error strains the elastic faces that are tied to
+   the body
+*/
 static const PetscReal tied = 1e4;
 
 /*
-   Rotation of the normals between the last contact update and at_u: over all pairs the largest
-   sum_r p_r m_r |n' - n| / sum_r p_r m_r. row[r]: the row of at_u that corresponds to row r of the last update, or
-   negative
+   Measures the rotation of the normals from the last contact update to at_u. *turn: the maximum over all pairs of sum_r
+   p_r m_r |n'_r - n_r| / sum_r p_r m_r, with pressure p, slack mass m, and normals n of the last update and n' of at_u.
+   row[r]: row of at_u that corresponds to row r of the last update; negative: none.
 */
 static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
@@ -54,8 +64,11 @@ static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const Contac
   PetscFunctionReturn(0);
 }
 
-/* Largest difference over the rows between the slip measured along the tangents at u and the slip of the solution
-   [length]. Both are counted from the last state of equilibrium. */
+/*
+   Measures the change of the slip. *change: largest difference over the rows between the slip along the tangents at u
+   and the slip of the solution [length]. Both slips are measured from the last equilibrium state. row[]: see
+   ContactUpdateErrorMeasureTurn().
+*/
 static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
@@ -95,7 +108,10 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* rotation: of the rigid surfaces at u, about an axis through the centre of each; 0 at the nodes of other bodies */
+/*
+   Sets `rotation` to the displacement of a unit rotation of each rigid surface at u, about the axis of this number
+   through its centre; 0 at the nodes of other bodies.
+*/
 static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const BodyPose poses[], PetscInt axis,
   Vec rotation)
 {
@@ -123,8 +139,11 @@ static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* Sums over each pair's rows of the normal forces, the areas, and the moment about an axis by which the forces on the
-   tool at u exceed those of the solve */
+/*
+   Adds to sums[pair] the sums over the rows of a pair. sums[pair][axis]: moment about the axis by which the forces on
+   the rigid surface with the linearization at_u exceed those of the solve [force length]; sums[pair][3]: normal forces
+   [force]; sums[pair][4]: slack masses, which are areas [length^2]. The last two are added only for axis 0.
+*/
 static PetscErrorCode ContactUpdateErrorSumMoments(Simulation sim, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], Vec rotation, PetscInt axis, PetscReal sums[][5])
 {
@@ -158,7 +177,10 @@ static PetscErrorCode ContactUpdateErrorSumMoments(Simulation sim, const Contact
   PetscFunctionReturn(0);
 }
 
-/* Largest error of the lever arms of the normal forces on rigid surfaces [length]; 0 if it is small for the contact */
+/*
+   Measures the error of the lever arms of the normal forces on rigid surfaces. *arm: largest error of a pair, or 0 if
+   all errors are small compared with the size of the contact area [length].
+*/
 static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *arm)
 {
@@ -194,9 +216,12 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const
   PetscFunctionReturn(0);
 }
 
-/* at_u: at the state u, which was found with sim->solved->linearization; report->gap_change is set. Sets the rotation
-   of the normals, the change of the slip, and update_error: the largest of these, of the lever arms and of the
-   correction of free rotations, each as an equivalent change of the gap [length] */
+/*
+   Measures the error of a contact update. at_u: linearization at the state u, which was computed with
+   sim->solved->linearization; report->gap_change must be set. Sets report->normals_turn, report->slip_change and
+   report->update_error, the largest of five errors: those of gap, slip, normals, lever arms and free rotations, each as
+   an equivalent change of the gap [length].
+*/
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {

@@ -1,44 +1,51 @@
 /*
-   Newton's method for the contact updates. Let x be where the gap was linearized, u, lambda the solution with the
-   linearization at x, and A its rows under pressure. At u the residuals of the forces and of the gap are
+   Newton's method for the contact updates. Let the gap be linearized at x, let u and lambda be the solution with this
+   linearization, and let A be the set of its rows under pressure. At u the residuals of the forces and of the gap are
+       r = J(u)^T lambda - J(x)^T lambda,  -g_A(u).
+     The next x is u + d, where (d, dlambda) solves
+       K d - d(J^T lambda) = r,  dg_A = -g_A(u).
+     The differentials d(J^T lambda) and dg_A at u along (d, dlambda) are computed as finite differences of the gap's
+     linearization. They contain terms that a linearization omits: the rotation of the normals, the change of the
+     overlap areas, and the bending of smooth surfaces.
 
-     r = J(u)^T lambda - J(x)^T lambda,   -g_A(u),
-
-   and the next x is u + d, where
-
-     K d - d(J^T lambda) = r,   dg_A = -g_A(u).
-
-   The differentials at u along (d, dlambda) are differences of the gap's linearization. They contain what a
-   linearization leaves out: the rotation of the normals, the change of the overlaps, the bending of smooth surfaces.
-   The system is solved by GMRES. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the filtered
-   subspace, where factors exist already.
+     GMRES solves the system. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the filtered subspace,
+     for which factors already exist.
 */
 #include "stepimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/control.h"
 
-#define NEWTON_TOLERANCE    0.1 /* of GMRES at most */
-#define NEWTON_ITERATIONS   8
-#define NEWTON_FORCES       0.3 /* of that tolerance: forces that the right-hand side's solution may leave off W */
-#define NEWTON_APPLICATIONS 2   /* of the preconditioner of K for it */
+#define NEWTON_TOLERANCE  0.1 /* largest relative tolerance of GMRES */
+#define NEWTON_ITERATIONS 8
+#define NEWTON_FORCES \
+  0.3                         /* the solve that gives the right-hand side may leave forces outside of the subspace
+                                   W up to this fraction of the tolerance */
+#define NEWTON_APPLICATIONS 2 /* largest number of applications of the preconditioner of K in this solve */
 
 typedef struct {
   StepProblem         *p;
   ContactLinearization at_u;
-  Vec                  u, mask;          /* mask: 0 on prescribed rows, else 1 */
+  Vec                  u, mask;          /* mask: 0 in prescribed rows, 1 in other rows */
   Vec                  lambda;           /* forces of the rows of sim->solved->linearization [force] */
-  Vec                  force, gap;       /* J(u)^T lambda, g(u) on the rows of sim->solved->linearization */
-  PetscReal            rtol;             /* of GMRES */
-  PetscReal            size, scale;      /* step of the differences [length]; of multipliers [force/length] */
-  PetscBool            smooth;           /* false: a difference met rows that come or go */
-  PetscInt             napplications;    /* of the preconditioner of K */
-  PetscInt             nrows;            /* rows under pressure, of all ranks, that there are at u */
-  Vec                  d, f, lambdas, c; /* work */
+  Vec                  force, gap;       /* force: J(u)^T lambda [force]; gap: g(u) on the rows of
+                                            sim->solved->linearization [length] */
+  PetscReal            rtol;             /* relative tolerance of GMRES */
+  PetscReal            size, scale;      /* size: step of the finite differences [length]; scale: divisor that gives
+                                            multipliers the unit of a length [force/length] */
+  PetscBool            smooth;           /* false if the rows under pressure at the points of a finite difference
+                                            differ */
+  PetscInt             napplications;    /* number of applications of the preconditioner of K */
+  PetscInt             nrows;            /* number of rows under pressure, on all ranks, that exist at u */
+  Vec                  d, f, lambdas, c; /* work vectors; d, lambdas: the two parts of an unknown vector; f, c: the
+                                            two parts of a right-hand side */
 } GapNewton;
 
-/* f = C^T J^T lambda for forces of the rows of the present linearization, and the gap c of these rows at `at`. Rows
-   without pressure have none. n: number of rows with pressure that `at` has, of all ranks */
+/*
+   Computes forces and gap of a linearization for the rows of sim->solved->linearization. at: the linearization; lambda:
+   forces of the rows [force]; f: C^T J^T lambda with J of `at` [force]; c: gap of the rows in `at`, 0 in rows without
+   pressure or without a row in `at` [length]; *n: number of rows under pressure that `at` contains, on all ranks.
+*/
 static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec lambda, Vec f, Vec c, PetscInt *n)
 {
   Simulation         sim = s->p->sim;
@@ -76,7 +83,10 @@ static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec 
   PetscFunctionReturn(0);
 }
 
-/* Splits z into s->d and s->lambdas, or the other way round */
+/*
+   Copies z to s->d and s->lambdas; if `join`, copies s->d and s->lambdas to z. In z the multipliers are divided by
+   s->scale.
+*/
 static PetscErrorCode NewtonSplit(GapNewton *s, Vec z, PetscBool join)
 {
   PetscScalar *a, *d, *l;
@@ -99,7 +109,10 @@ static PetscErrorCode NewtonSplit(GapNewton *s, Vec z, PetscBool join)
   PetscFunctionReturn(0);
 }
 
-/* s->f, s->c = differentials at u along s->d, s->lambdas less those of the linearization at x */
+/*
+   Sets s->f and s->c to the differentials at u along (s->d, s->lambdas), less the differentials that the linearization
+   at x has in this direction.
+*/
 static PetscErrorCode NewtonDifference(GapNewton *s)
 {
   StepProblem         *p = s->p;
@@ -138,7 +151,11 @@ static PetscErrorCode NewtonDifference(GapNewton *s)
   PetscFunctionReturn(0);
 }
 
-/* Solves for s->d, s->lambdas with the linearization at x: the forces s->f and the change of the gap s->c */
+/*
+   Solves for s->d and s->lambdas with the linearization at x. The right-hand side is s->f, the forces, and s->c, the
+   change of the gap. most: largest number of applications of the preconditioner of K; rtol: relative tolerance of
+   forces outside of the subspace; *solved: false if there is no solution.
+*/
 static PetscErrorCode NewtonPrecondition(GapNewton *s, PetscInt most, PetscReal rtol, PetscBool *solved)
 {
   PetscInt n;
@@ -149,7 +166,10 @@ static PetscErrorCode NewtonPrecondition(GapNewton *s, PetscInt most, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* y = z + (what the linearization at x leaves out, along z, preconditioned) */
+/*
+   Computes y = z + P e, where e contains the differentials along z that the linearization at x omits, and P is the
+   preconditioner.
+*/
 static PetscErrorCode NewtonMult(Mat shell, Vec z, Vec y)
 {
   GapNewton *s;
@@ -168,7 +188,10 @@ static PetscErrorCode NewtonMult(Mat shell, Vec z, Vec y)
   PetscFunctionReturn(0);
 }
 
-/* f = C^T J(u)^T lambda. Differences of smooth pairs use J of their facets, which takes less; this is the exact one */
+/*
+   Computes f = C^T J(u)^T lambda exactly. For smooth pairs s->force is not exact, because it is computed with the
+   matrix J of the facets, which takes less time and is sufficient for differences.
+*/
 static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
 {
   Simulation           sim = s->p->sim;
@@ -186,8 +209,10 @@ static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
   PetscFunctionReturn(0);
 }
 
-/* Right-hand side: the residuals at u, preconditioned; sets the scale of the multipliers. solved: false if the last
-   solve left no subspace */
+/*
+   Computes the preconditioned right-hand side b from the residuals at u, and sets the scale of the multipliers.
+   *solved: false if the last solve has no subspace, or if the solve for b failed.
+*/
 static PetscErrorCode NewtonBegin(GapNewton *s, Vec b, PetscBool *solved)
 {
   PetscReal forces, length;
@@ -247,8 +272,10 @@ static PetscErrorCode NewtonDestroy(GapNewton *s)
   PetscFunctionReturn(0);
 }
 
-/* Tolerance of GMRES: the rate at which the gap converges, at most NEWTON_TOLERANCE, and not below what ends the
-   updates */
+/*
+   Sets the tolerance of GMRES: the rate at which the gap converges, but at most NEWTON_TOLERANCE, and no smaller than
+   what reduces the error of the update to the gap tolerance.
+*/
 static PetscErrorCode NewtonSetTolerance(GapNewton *s, const StepReport *report)
 {
   const PetscReal safe = 0.3, allowed = s->p->sim->control->tolerances.gap_change;
@@ -262,8 +289,10 @@ static PetscErrorCode NewtonSetTolerance(GapNewton *s, const StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* next = u + d. found: false where d is longer than u - x, the step that it corrects, as along motions that little but
-   friction or springs holds */
+/*
+   Computes next = u + d. *found: false if d is longer than u - x, the step that d corrects; this happens if a motion is
+   resisted only by friction or springs.
+*/
 static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool *found)
 {
   const Mat C = s->p->sim->ties.C;
@@ -281,9 +310,11 @@ static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool
   PetscFunctionReturn(0);
 }
 
-/* Whether updates make progress. If one does not, the gap has kinks, or something turns freely: until the gap converges
-   fast again. Not where only rows that have slid off are left, and not where the gap tolerance is near rounding, for
-   reproducible results */
+/*
+   Returns whether contact updates make progress. If one does not (the gap has kinks, or a body turns freely), p->rough
+   is true until the gap converges fast again. Returns false also if only rows that have slid off are left, and if the
+   gap tolerance is near rounding, so that results are reproducible.
+*/
 static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
 {
   const PetscReal progress = 0.7, fast = 0.1;
@@ -296,7 +327,10 @@ static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
   return (PetscBool)!p->rough;
 }
 
-/* Whether the gap of some pair has kinks: that of nodes over facets, where a node crosses an edge */
+/*
+   Finds whether the gap of any pair has kinks. This is the case for gaps of nodes over flat facets, where a node
+   crosses an edge.
+*/
 static PetscErrorCode NewtonFindKinks(Simulation sim, PetscBool *kinks)
 {
   PetscFunctionBegin;
@@ -310,9 +344,12 @@ static PetscErrorCode NewtonFindKinks(Simulation sim, PetscBool *kinks)
   PetscFunctionReturn(0);
 }
 
-/* next = u + d. at_u: the gap at u, the solution sol of the present linearization at x. found: false, and next is
-   not set, with friction, without the filtered subspace, where rows under pressure come or go
-   near u, or after an update without progress */
+/*
+   Computes the next point of linearization, next = u + d, by Newton's method. at_u: gap at u; sol: solution with the
+   present linearization, which was made at x. *found: false, and `next` is not set, in the following cases: with
+   friction; without a filtered subspace; if a gap has kinks; if rows under pressure appear or disappear near u; after
+   an update without progress; or if GMRES does not converge.
+*/
 PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, ContactLinearization at_u, Vec x, Vec u,
   Vec next, StepReport *report, PetscBool *found)
 {

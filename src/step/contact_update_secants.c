@@ -1,9 +1,9 @@
 /*
    Chooses the point at which the gap is linearized next. Let G(x) be the solution of the problem linearized at x; the
-   gap agrees at a fixed point x = G(x). The simple iteration x <- G(x) omits the second derivatives of the gap: soft
-   motions then converge slowly or cycle. Anderson acceleration is used instead (D. G. Anderson, J. ACM 12 (1965)): x
+   gap agrees at a fixed point x = G(x). The simple iteration x <- G(x) omits the second derivatives of the gap, so that
+   soft motions converge slowly or cycle. Anderson acceleration is used instead (D. G. Anderson, J. ACM 12 (1965)): x
    becomes the combination of the last solutions with the smallest combined residual f = G(x) - x. If the change of the
-   gap stops falling, as between faces with kinks, only half the step to the new x is taken.
+   gap stops decreasing, as between faces with kinks, only half the step to the new x is done.
 */
 #include "stepimpl.h"
 
@@ -15,7 +15,10 @@
   1e-2 /* a secant is dropped if its part orthogonal to the newer secants is smaller than
                                   this fraction of it */
 
-/* Whether SECANTS_PATIENCE solutions in a row were without progress, this one included */
+/*
+   Returns whether SECANTS_PATIENCE consecutive solutions, including the present one, made no progress. change: change
+   of the gap of the present solution [length].
+*/
 static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
 {
   if (s->n == 0 || change < SECANTS_PROGRESS * s->least) {
@@ -25,8 +28,10 @@ static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
   return (PetscBool)(s->stalls >= SECANTS_PATIENCE);
 }
 
-/* Stores the differences of the solution u and of the residual from the last ones. They replace the oldest
-   pair. */
+/*
+   Stores the differences of the solution u and of the residual from the previous ones. They replace the oldest pair of
+   differences.
+*/
 static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec residual)
 {
   Vec *swap[2] = {s->residuals, s->solutions}, now[2] = {residual, u}, before[2] = {s->residual, s->u};
@@ -43,8 +48,11 @@ static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec residual
   PetscFunctionReturn(0);
 }
 
-/* Anderson update: removes from the residual f its components along the stored residual differences, and applies the
-   corresponding changes of the solution to x. The differences are orthonormalized first, newest first. */
+/*
+   Applies the Anderson update: removes from the residual f its components along the stored residual differences, and
+   applies the corresponding changes of the solution to x. The differences are orthonormalized first, beginning with the
+   newest.
+*/
 static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
 {
   Vec         residual[GAP_SECANTS], solution[GAP_SECANTS];
@@ -83,8 +91,10 @@ static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Moves u_linearized to the next point of linearization. change: measure of the residual, here the gap change of the
-   solution u found with u_linearized. damped: only half the step was taken. */
+/*
+   Moves u_linearized to the next point of linearization. u: solution found with u_linearized; change: measure of its
+   residual, for contact the change of the gap [length]; *damped: true if only half the step was done.
+*/
 PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *s, PetscReal change, Vec u, Vec u_linearized,
   PetscBool *damped)
 {

@@ -1,10 +1,12 @@
-/* Objectives of a load step: the quadratic model of the energy about base, which is exact if every body is linear; or
-   strain energy minus work of the loads, which is infinite where an element is inverted. */
+/*
+   Objectives of a load step: either the quadratic model of the energy about p->base, which is exact if every body is
+   linear; or the strain energy minus the work of the loads, which is infinite if an element is inverted.
+*/
 #include "stepimpl.h"
 #include <math.h>
 #include "src/state/path.h"
 
-/* f = energy + force^T w + 1/2 w^T K w with w = u - base; p->w and p->Kw keep w and K w */
+/* Computes *f = energy + force^T w + 1/2 w^T K w with w = u - base. On exit p->w and p->Kw contain w and K w. */
 PetscErrorCode QuadraticEnergy(StepProblem *p, Vec u, PetscReal *f)
 {
   PetscScalar linear, curvature;
@@ -31,8 +33,10 @@ PetscErrorCode QuadraticObjectiveAndGradient(Tao tao, Vec u, PetscReal *f, Vec G
   PetscFunctionReturn(0);
 }
 
-/* u: the displacements of the bodies that belong to the optimizer's iterate. With ties u = p->w, in which tied nodes
-   follow the nodes they depend on. */
+/*
+   Computes the displacement of the bodies that belongs to the optimizer's iterate. *u: the iterate itself, or with ties
+   p->w, in which tied nodes follow the nodes on which they depend.
+*/
 static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
 {
   PetscFunctionBegin;
@@ -67,7 +71,7 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
 PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
 {
   StepProblem *p      = (StepProblem *)ctx;
-  PetscReal    energy = 0.0; /* unused: EnergyObjective() has added the energies */
+  PetscReal    energy = 0.0; /* not used, since EnergyObjective() has added this energy */
   Vec          u;
 
   PetscFunctionBegin;
@@ -89,7 +93,10 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
-/* Where metal flows and the last step was too long, far from the solution, tangents have a part of the secant */
+/*
+   Computes the tangent at the iterate. If metal yields, the iterate is far from the solution and the line search
+   shortened the last step, the tangent contains a fraction of the secant stiffness.
+*/
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
   StepProblem      *p           = (StepProblem *)ctx;
@@ -113,11 +120,11 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 }
 
 /*
-   Ends a solve that has no equilibrium because bodies flow plastically. Plastic work grows in proportion to the
-   displacement, elastic energy does not. So the objective has a minimum unless the loads do more work on the flow than
-   the flow dissipates (the kinematic theorem of limit analysis). This is so if the objective is below that of the last
-   state although the plastic work is a large multiple of the elastic energy. The test is not made if prescribed
-   displacements move, because these may require such a plastic work.
+   Ends a solve that has no equilibrium because bodies flow plastically. The plastic work grows in proportion to the
+   displacement, whereas the elastic energy does not. Therefore the objective has a minimum unless the loads do more
+   work on the flow than the flow dissipates (the kinematic theorem of limit analysis). This is found if the objective
+   is below that of the last state although the plastic work is a large multiple of the elastic energy. The test is not
+   made if prescribed displacements move, because these may require such a plastic work.
 */
 PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
 {

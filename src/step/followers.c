@@ -1,10 +1,13 @@
 /*
-   Forces that depend on the solution. In time steps: the mean of the internal forces (src/elasticity/mean_force.c).
+   Forces that depend on the solution.
 
-   Pressures that follow their faces (follower loads). Within a solve the load is linear in the displacement: its value
-   at a centre plus the symmetric part of its derivative there, so that it has a potential. After each solve the centre
-   moves towards the solution, until the linearized load agrees with the load at the solution. Where the derivative is
-   symmetric this is Newton's method.
+     Pressures that follow their faces (follower loads): within a solve the load is linear in the displacement. It is
+     the value at a centre plus the symmetric part of the derivative at the centre times the displacement from the
+     centre, so that the load has a potential. After each solve the centre moves towards the solution, until the
+     linearized load agrees with the load at the solution. If the derivative is symmetric, this is Newton's method.
+
+     Internal forces in time steps: the mean of the internal forces of the step (src/elasticity/mean_force.c) is
+     evaluated at a displacement that moves towards the solution in the same manner.
 */
 #include "stepimpl.h"
 #include "src/state/control.h"
@@ -20,8 +23,10 @@ static PetscBool FollowersAny(Scene scene)
   return any;
 }
 
-/* load: dead plus follower loads at u [force]; slope: derivative of the follower loads, not computed if NULL
-   [force/length] */
+/*
+   Computes the loads at u. *load: dead loads plus follower loads [force]; slope: derivative of the follower loads
+   [force/length]; NULL: not computed.
+*/
 static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
 {
   Simulation        sim         = p->sim;
@@ -49,7 +54,7 @@ static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat s
   PetscFunctionReturn(0);
 }
 
-/* Recomputes p->load and its derivative at the centre p->followed */
+/* Computes p->load and its derivative at the centre p->followed. */
 static PetscErrorCode FollowersLinearize(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -58,7 +63,7 @@ static PetscErrorCode FollowersLinearize(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Replaces the dead loads in the problem by the loads linearized at base, if any pressure follows its face */
+/* Replaces the dead loads of the problem by the loads linearized at p->base if any pressure follows its face. */
 PetscErrorCode FollowersBegin(StepProblem *p)
 {
   Simulation sim = p->sim;
@@ -72,7 +77,7 @@ PetscErrorCode FollowersBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* The dead loads have changed */
+/* Computes p->load again after the dead loads have changed. */
 PetscErrorCode FollowersTurn(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -80,7 +85,7 @@ PetscErrorCode FollowersTurn(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Secants are those of one problem: the next one's gap is another */
+/* Discards the secants of the previous problem, which do not fit a problem with another linearized gap. */
 PetscErrorCode FollowersForget(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -89,8 +94,10 @@ PetscErrorCode FollowersForget(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Subtracts the potential and the force of the linear part of the follower loads at u, K_f (u - centre), from the
-   problem's; force may be NULL. The constant part is in p->load. */
+/*
+   Subtracts from *energy and `force` the potential and the force of the part of the follower loads that is linear in u,
+   K_f (u - centre). force: may be NULL. The constant part is in p->load.
+*/
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
@@ -98,8 +105,11 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
   PetscFunctionReturn(0);
 }
 
-/* again: whether another solve must follow, with the follower loads linearized at a new centre. If not, p->load
-   becomes the load at u. */
+/*
+   Compares the linearized follower loads with the loads at the solution u. *again: true if they differ, so that another
+   solve must follow with the loads linearized at a new centre. Otherwise p->load becomes the load at u. nsolves: number
+   of solves so far.
+*/
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
@@ -135,7 +145,10 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   PetscFunctionReturn(0);
 }
 
-/* In time steps of the impact scheme: starts with the mean internal force of one whose accelerations stay */
+/*
+   Chooses the first displacement at which the mean internal force of a time step of the impact scheme is evaluated: the
+   path extrapolated with constant accelerations, or with contact the last state.
+*/
 PetscErrorCode FollowersForesee(StepProblem *p)
 {
   PetscFunctionBegin;
@@ -147,11 +160,15 @@ PetscErrorCode FollowersForesee(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Whether another solve with another mean internal force must follow; early contact updates go on with it */
+/*
+   Compares the mean internal force of the solve with that of a step to the solution u. *again: set to true if another
+   solve with another mean internal force must follow. Early contact updates, which are solved inexactly, do not repeat
+   the solve.
+*/
 PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
   Simulation      sim       = p->sim;
-  const PetscReal tolerance = 1e-4; /* the error of the energy is of second order in it */
+  const PetscReal tolerance = 1e-4; /* relative; the error of the energy is of second order in this change */
   const PetscInt  most      = 15;
   PetscReal       size, change;
   PetscBool       damped;

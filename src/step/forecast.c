@@ -1,19 +1,24 @@
 /*
-   Starts load steps from results on another mesh of the same bodies, such as the coarser mesh of an -accuracy run.
-   Displacements and pressures at the end of each load step are interpolated to this mesh. The gap is linearized at the
-   interpolated displacement, so that fewer contact updates are needed.
+   Starts load steps from results on another mesh of the same bodies, such as the coarser mesh of a run with -accuracy.
+   Displacements and pressures at the end of each load step are interpolated to the present mesh. The gap is linearized
+   at the interpolated displacement, so that fewer contact updates are needed.
 */
 #include "stepimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* Collective. Makes load steps start from their final states on another mesh, and records their final states. sim: the
-   simulation, before SimulationSetUp(); forecast: on entry the states on the other mesh, or zeros; filled with the
-   states on this mesh as load steps end. It must exist until the simulation is destroyed. It only sets the starting
-   point: results agree with those without it to the tolerances of the solvers, and a step that fails with it is
-   repeated without it. It is not used if only one linearization of the gap is allowed (which must be at the last
-   state), or if displacements are bounded by the last increments. */
+/*
+   Collective. Makes load steps start from their final states on another mesh, and records their final states on the
+   present mesh. sim: the simulation, before SimulationSetUp(); forecast: on entry the states on the other mesh, or
+   zeros; it is filled with the states on the present mesh at the end of each load step, and must exist until the
+   simulation is destroyed.
+
+     A forecast changes only the starting point: results agree with those without a forecast up to the tolerances of the
+     solvers, and a load step that fails with a forecast is repeated without it. The forecast is not used if only one
+     linearization of the gap is allowed (which must be at the last state), or if displacements are bounded by the last
+     increments.
+*/
 PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
 {
   PetscFunctionBegin;
@@ -21,7 +26,7 @@ PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Frees a forecast, and sets it to zeros */
+/* Collective. Frees the contents of a forecast and sets the forecast to zeros. */
 PetscErrorCode StepForecastDestroy(StepForecast *forecast)
 {
   PetscFunctionBegin;
@@ -32,8 +37,10 @@ PetscErrorCode StepForecastDestroy(StepForecast *forecast)
   PetscFunctionReturn(0);
 }
 
-/* Interpolates the fields of another mesh to the nodes of this one. *here stays empty if nodes of this mesh are too
-   far outside the other. */
+/*
+   Interpolates the fields of another mesh to the nodes of the present mesh. *here remains empty if nodes of the present
+   mesh are too far outside of the other mesh.
+*/
 static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found, StepForecast *here)
 {
   const PetscInt     n = found->nsteps * found->nfields;
@@ -66,8 +73,10 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
   PetscFunctionReturn(0);
 }
 
-/* Interpolates the given forecast to this mesh; afterwards the caller's struct collects the states on this mesh.
-   Call when mesh and contact exist. */
+/*
+   Interpolates the caller's forecast to the present mesh and empties it, so that it then collects the states on the
+   present mesh. Call this function when mesh and contact exist.
+*/
 PetscErrorCode ForecastSetUp(Simulation sim)
 {
   StepForecast *found = sim->control->forecast.found;
@@ -83,7 +92,10 @@ PetscErrorCode ForecastSetUp(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Copies the pressures of a pair to the first component of a nodal field, or back if `back` */
+/*
+   Copies the stored pressures of a pair to the first component of a nodal field; if `back`, copies the first component
+   of the field to the stored pressures.
+*/
 static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Vec field, PetscBool back)
 {
   PetscScalar *a;
@@ -104,7 +116,7 @@ static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Ve
   PetscFunctionReturn(0);
 }
 
-/* Appends the state at the end of a converged load step to the caller's forecast */
+/* Appends the state at the end of a converged load step to the caller's forecast. */
 PetscErrorCode ForecastRecord(Simulation sim)
 {
   StepForecast *found = sim->control->forecast.found;
@@ -123,8 +135,10 @@ PetscErrorCode ForecastRecord(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* Sets u and the stored pressures to the forecast for time p->time. *foreseen: whether a forecast for that time
-   exists and has a finite energy */
+/*
+   Sets u and the stored pressures to the forecast for the time p->time. *foreseen: true if a forecast for this time
+   exists and its energy is finite; otherwise the pressures are unchanged.
+*/
 PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 {
   Simulation      sim    = p->sim;
@@ -147,8 +161,10 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   PetscFunctionReturn(0);
 }
 
-/* Called after an attempt. If an attempt with a forecast failed, the forecast is dropped for the rest of the run and
-   *again is true. */
+/*
+   Examines an attempt that has ended. If the attempt started from a forecast and failed, the forecast is not used in
+   the rest of the run, and *again is true.
+*/
 PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *again)
 {
   PetscFunctionBegin;

@@ -1,19 +1,19 @@
 /*
-   Coulomb friction. The friction force tau of a contact row is a 2-vector along its tangents. It depends on the slip
-   since the last state of equilibrium:
-
-     |tau| <= b,   tau = -b slip/|slip| if slip != 0,   b = min(limit, coefficient x normal force of the row).
-
-   The optimizer treats these laws as norm terms. Forces are stored between solves in global coordinates, since the
-   tangents belong to one linearization.
+   Coulomb friction. The friction force tau of a contact row is a vector with two components along the tangents of the
+   row. It depends on the slip since the last equilibrium state:
+       |tau| <= b,  tau = -b slip/|slip| if slip != 0,  b = min(limit, coefficient x normal force of the row).
+     The optimizer treats these laws as norm terms. Between solves the forces are stored in global coordinates, since
+     the tangents belong to one linearization.
 */
 #include "stepimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Sets limit and coefficient of each row. `stick: true` uses a coefficient of 1,000: with an infinite one the force
-   bound of a vertex at zero pressure would be undetermined. */
+/*
+   Sets limit and coefficient of each row. A pair with `stick: true` has the coefficient 1,000, because with an infinite
+   coefficient the force bound of a vertex with zero pressure would be undetermined.
+*/
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
   const PetscReal    sticks = 1e3, share = StepProblemShare(p);
@@ -39,8 +39,11 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
-/* slip = T (u - base) + T_full (base - path.u). T has no prescribed columns. mask: 0 in prescribed rows, 1 elsewhere.
-   If bodies turn, the way to u_linearized is measured along arcs. */
+/*
+   Computes T and t with which the slip is slip = T u + t. With the full matrix T_full of the linearization the slip is
+   T (u - base) + T_full (base - path.u), where T is T_full without the columns of prescribed displacements. mask: 0 in
+   prescribed rows, 1 elsewhere. If bodies turn, the path to u_linearized is measured along arcs.
+*/
 PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_linearized, Vec mask)
 {
   const Bodies  bodies = SimulationBodies(p->sim);
@@ -79,7 +82,7 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
   PetscFunctionReturn(0);
 }
 
-/* Passes the friction laws to the optimizer, and as a start the stored forces times scale */
+/* Passes the friction laws to the optimizer, and the stored forces times `scale` as a start. */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
   ContactLinearization  lin = p->sim->solved->linearization;
@@ -107,7 +110,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscFunctionReturn(0);
 }
 
-/* Stores friction forces and slips of a solution in sol, and the forces in the contact history */
+/* Stores friction forces and slips of the solution u in sol, and the forces in the contact history. */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
   ContactLinearization lin = p->sim->solved->linearization;

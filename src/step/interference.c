@@ -1,12 +1,12 @@
 /*
    Initial overlaps that follow a ramp. The gap of a pair is increased by the part of its overlap that the ramp has not
-   yet applied, (1 - ramp factor) x overlap. At factor 0 an overlap of exactly the given size is in touch without
-   pressure. The increase acts along the normal of each row.
+   yet applied, (1 - ramp factor) x overlap. If the factor is 0, faces with an overlap of exactly the given size touch
+   without pressure. The increase acts along the normal of each row.
 */
 #include "stepimpl.h"
 #include "src/state/path.h"
 
-/* mark = 1 at the given displacement component of all nodes of the pair's mortar face, 0 elsewhere */
+/* Sets `mark` to 1 at the given displacement component of all nodes of the pair's mortar face, and to 0 elsewhere. */
 static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt component, Vec mark)
 {
   IS              is;
@@ -26,8 +26,10 @@ static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt c
   PetscFunctionReturn(0);
 }
 
-/* Adds to the gap of the pair's rows the effect of a rigid translation of its mortar face by `distance` along the
-   row's normal */
+/*
+   Increases the gap in the pair's rows as a rigid translation of the mortar face by `distance` along the normal of each
+   row would.
+*/
 static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscReal distance, ContactLinearization lin)
 {
   PetscScalar       *g;
@@ -57,7 +59,10 @@ static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Adds `times` the part of the overlaps that their ramps have not yet applied at `time` */
+/*
+   Adds to the gaps of lin `times` the part of the initial overlaps that their ramps have not yet applied at `time`.
+   times: 1, or -1 to subtract this part again.
+*/
 PetscErrorCode InterferenceAdd(Simulation sim, PetscReal time, PetscReal times, ContactLinearization lin)
 {
   PetscFunctionBegin;

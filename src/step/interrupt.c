@@ -1,4 +1,4 @@
-/* SIGINT, SIGTERM and SIGUSR1 end a run after the current Newton step. */
+/* Ends a run after the current Newton step if SIGINT, SIGTERM or SIGUSR1 is received. */
 #include "stepimpl.h"
 #include <signal.h>
 #include "src/state/control.h"
@@ -39,7 +39,7 @@ PetscErrorCode SimulationCatchSignals(void)
   PetscFunctionReturn(0);
 }
 
-/* Collective: stop is true on all ranks once any rank has caught a signal */
+/* Collective. *stop: true on all ranks as soon as any rank has received a signal. */
 PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
 {
   int any = (int)caught;

@@ -1,25 +1,29 @@
-/* Linear systems: load steps without contact, solved by PCG; systems of contact updates, solved by GMRES. */
+/* Solves linear systems: those of load steps without contact by PCG, those of contact updates by GMRES. */
 #include "stepimpl.h"
 #include <petsctime.h>
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* estimated iterations of a solve that is preconditioned by a factorization */
+/* iterations expected in a solve that is preconditioned by a factorization */
 static const PetscReal factored_iterations = 2.0;
 
-/* Context of LinearTest(): the KSP's own convergence test, and what is needed to decide when to replace AMG by a
-   factorization */
+/*
+   Context of LinearTest(): the KSP's own convergence test, and data for the decision whether a factorization replaces
+   AMG.
+*/
 typedef struct {
   PetscErrorCode (*test)(KSP, PetscInt, PetscReal, KSPConvergedReason *, void *);
   PetscErrorCode (*destroy)(void *);
   void     *ctx;
-  PetscReal first; /* residual */
+  PetscReal first; /* initial residual norm */
   PetscInt  later; /* number of later solves with the same matrix */
-  PetscBool left;  /* stopped in order to factor the matrix */
+  PetscBool left;  /* true if the iteration was stopped so that the matrix is factored */
 } LinearPatience;
 
-/* The KSP's own convergence test. Every ten iterations it also extrapolates the iterations still needed and stops if
-   a factorization is estimated to be cheaper. */
+/*
+   Calls the KSP's own convergence test. Every ten iterations it also extrapolates the number of remaining iterations,
+   and stops the iteration if a factorization is estimated to be cheaper.
+*/
 static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConvergedReason *reason, void *ctx)
 {
   LinearPatience *p     = (LinearPatience *)ctx;
@@ -46,8 +50,11 @@ static PetscErrorCode LinearTest(KSP ksp, PetscInt it, PetscReal norm, KSPConver
   PetscFunctionReturn(0);
 }
 
-/* KSPSolve() that starts from x if `resume`, else from zero. If it stops in favour of a factorization, a second
-   solve continues from the current iterate. *its: iterations of both solves */
+/*
+   Solves with a KSP, starting from x if `resume` is true, otherwise from zero. If the iteration stops because a
+   factorization is cheaper, a second solve continues from the current iterate. *its: number of iterations of both
+   solves.
+*/
 static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool resume, Vec b, Vec x, PetscInt *its)
 {
   LinearPatience patience = {.left = PETSC_FALSE};
@@ -77,11 +84,13 @@ static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool re
   PetscFunctionReturn(0);
 }
 
-/* The solver of linear load steps: CG preconditioned by AMG, or by a factorization if that is estimated to be
-   cheaper over the remaining load steps */
+/*
+   Returns the solver of load steps without contact: CG preconditioned by AMG, or by a factorization if it is estimated
+   to be cheaper for the remaining load steps.
+*/
 static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 {
-  const PetscReal usual = 35.0; /* iterations expected with AMG */
+  const PetscReal usual = 35.0; /* iterations expected with AMG, before the first solve */
   PetscInt        solves, its = 0;
   PC              pc;
 
@@ -111,8 +120,10 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   PetscFunctionReturn(0);
 }
 
-/* Solves a quadratic step without contact or bounds: one Newton step, K w = -force, is exact. resume: CG starts from
-   u. */
+/*
+   Solves a quadratic load step without contact or bounds, for which one Newton step, K w = -force, is exact. resume:
+   true if CG starts from u.
+*/
 PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report)
 {
   KSP                ksp = NULL;
@@ -148,8 +159,11 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   PetscFunctionReturn(0);
 }
 
-/* Solves A x = b by GMRES without a preconditioner, from x = 0. multiply: product with A, a shell matrix with the given
-   context. most: limit of iterations. found: whether GMRES converged */
+/*
+   Solves A x = b by GMRES without a preconditioner, from x = 0. multiply: function for the product with the shell
+   matrix A, whose context is `context`; rtol: relative tolerance; most: largest number of iterations; *found: true if
+   GMRES converged.
+*/
 PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec), PetscReal rtol,
   PetscInt most, PetscBool *found)
 {

@@ -1,4 +1,4 @@
-/* Load steps with constraints, or with an energy that is not quadratic: solved by TAO. */
+/* Solves load steps that have constraints, or an energy that is not quadratic, by TAO. */
 #include "stepimpl.h"
 #include <petsctime.h>
 #include "src/state/contact_history.h"
@@ -6,8 +6,10 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* Marks two options of share/options/pdipm.opts as used. PETSc releases differ in the name of one option; the file
-   has both names, and PETSc would report the other one as unused. */
+/*
+   Marks two options of share/options/pdipm.opts as used. PETSc releases differ in the name of one option. The file
+   therefore contains both names, and PETSc would report the name it does not know as unused.
+*/
 static PetscErrorCode OptimizerKnowBothNames(void)
 {
   PetscBool given;
@@ -18,8 +20,11 @@ static PetscErrorCode OptimizerKnowBothNames(void)
   PetscFunctionReturn(0);
 }
 
-/* Sets the tolerance of early contact updates, p->tolerance. It applies only to the filtered subspace method, which
-   continues from an inexact solution. The interior point method cannot reuse one. */
+/*
+   Applies p->tolerance, the tolerance of early contact updates, to the optimizer. This is done only for the filtered
+   subspace method, which continues from an inexact solution. An interior point method cannot reuse such a solution.
+   ours: true if the optimizer is TAOIPFILTER.
+*/
 static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
 {
   const char *const uses[] = {"false", "true", "auto"};
@@ -35,7 +40,7 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscFunctionReturn(0);
 }
 
-/* Creates the optimizer of a load step. ours: false if -tao_type chose another type than ipfilter */
+/* Creates the optimizer of a load step. *ours: true for TAOIPFILTER; false if -tao_type chose another type. */
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
   Simulation sim = p->sim;
@@ -70,7 +75,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
   if (!*ours && !p->lower)
-    PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads bounds even if there are none */
+    PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads the bounds even if there are
+                                                           none */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
@@ -84,8 +90,10 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscFunctionReturn(0);
 }
 
-/* Passes the pressures of the last solve, times scale, and its slacks to the optimizer as a start. any: whether any
-   row had a pressure */
+/*
+   Passes the pressures of the last solve, times `scale`, and its slacks to the optimizer as a start. *any: true if any
+   row had a pressure.
+*/
 static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Tao tao, PetscBool *any)
 {
   Vec slack, pressure;
@@ -102,9 +110,9 @@ static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Ta
 }
 
 /*
-   Sets the start u. With `resume` u stays as it is. A new load step starts from the extrapolated path if the last step
-   had contact pressures, else from base. The extrapolation is used only if its energy is finite. valid: false if an
-   element is inverted at base
+   Sets the starting point u. If `resume`, u is unchanged. A new load step starts from the extrapolated path if the last
+   load step had contact pressures, otherwise from p->base. The extrapolated path is not used if its energy is infinite.
+   *valid: false if an element is inverted at p->base.
 */
 static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
 {
@@ -133,7 +141,7 @@ static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, 
   PetscFunctionReturn(0);
 }
 
-/* Adds to the report what only TAOIPFILTER counts. With another -tao_type these counts stay zero. */
+/* Adds to the report the counts that only TAOIPFILTER provides. With another -tao_type these counts remain zero. */
 static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, StepReport *report)
 {
   const PetscInt      *its;
@@ -157,7 +165,7 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, S
   PetscFunctionReturn(0);
 }
 
-/* Appends the likely causes of a failed solve with friction to the reason */
+/* Appends to the reason of a failed solve with friction a list of likely causes. */
 static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
 {
   char reason[512];
@@ -170,8 +178,11 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Whether contact forces can balance the loads; in dynamics inertia balances the rest. With friction this is tested
-   before a solve, because a solve without a solution takes long */
+/*
+   Finds whether contact forces can balance the loads, and reports the bodies that they cannot hold. Nothing is tested
+   in a dynamic analysis, where inertia balances any load. With friction this function is called before a solve, because
+   a solve of a problem without a solution takes long.
+*/
 static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;
@@ -180,7 +191,7 @@ static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Explains a failed solve: names the bodies that contact cannot hold, or else lists likely causes */
+/* Explains a failed solve: reports the bodies that contact cannot hold, or otherwise a list of likely causes. */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
   char  reason[512];
@@ -253,11 +264,11 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
   PetscCall(ContactHistoryStore(p->sim->history, lin, sol, slack ? slack : sol->gap,
-    p->sim->stiffness)); /* NULL without rows; only TAOIPFILTER has slacks */
+    p->sim->stiffness)); /* `slack` is NULL if there are no rows, or for another optimizer than TAOIPFILTER */
   PetscFunctionReturn(0);
 }
 
-/* Keeps the subspace of this solve for the next solve with the same stiffness */
+/* Stores the subspace of this solve, so that the next solve with the same stiffness can reuse it. */
 static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
 {
   PetscContainer space;
@@ -270,7 +281,9 @@ static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Counts of the preconditioner before this solve; the subspace may come from earlier solves */
+/*
+   Gets the counts of the preconditioner before a solve, which are not zero if the subspace comes from earlier solves.
+*/
 static PetscErrorCode OptimizerGetCounts(Tao tao, PCAMGFCounts *counts)
 {
   KSP ksp;
@@ -282,7 +295,10 @@ static PetscErrorCode OptimizerGetCounts(Tao tao, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-/* resume: start from u as it is, with the pressures of the last solve */
+/*
+   Solves the problem of a load step with TAO. resume: true if the solve starts from u and from the pressures of the
+   last solve.
+*/
 PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   Simulation     sim = p->sim;

@@ -1,9 +1,9 @@
 /*
-   Penalty method, for comparison: min E(u) - load^T u + 1/2 sum m rho min(c, 0)^2 by Newton's method with PCG.
-
-   The pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is the factor of -contact_penalty times the
-   stiffness of the bodies at the row, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c <
-   0, else 0.
+   Solves contact by the penalty method, for comparison: Newton's method with PCG minimizes
+       E(u) - load^T u + 1/2 sum m rho min(c, 0)^2.
+     The pressures rho max(-c, 0) leave a penetration of pressure/rho. rho is the factor of -contact_penalty times the
+     stiffness of the bodies at the row, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c <
+     0, and D = 0 elsewhere.
 */
 #include "stepimpl.h"
 #include <petscsnes.h>
@@ -17,14 +17,14 @@
 
 typedef struct {
   StepProblem *p;
-  Vec          c;         /* linearized gap at the last point evaluated [length] */
+  Vec          c;         /* linearized gap at the last point at which it was evaluated [length] */
   Vec          stiffness; /* m rho [force/length] */
   Vec          force;     /* m rho max(-c, 0) [force] */
   Mat          K, DJ, JtDJ, A;
-  PetscInt     niterations, iterations[PENALTY_MAX_NEWTON]; /* iterations of PCG in each Newton step */
+  PetscInt     niterations, iterations[PENALTY_MAX_NEWTON]; /* number of PCG iterations in each Newton step */
 } Penalty;
 
-/* m rho = factor / sum_j J_j^2/K_jj */
+/* Computes the contact stiffness of each row, m rho = factor / sum_j J_j^2/K_jj [force/length]. */
 static PetscErrorCode PenaltyStiffness(Mat J, Mat K, PetscReal factor, Vec stiffness)
 {
   Vec          diagonal;
@@ -57,7 +57,7 @@ static PetscErrorCode PenaltyStiffness(Mat J, Mat K, PetscReal factor, Vec stiff
   PetscFunctionReturn(0);
 }
 
-/* c: linearized gap at u; force = m rho max(-c, 0) [force] */
+/* Computes the linearized gap at u (penalty->c) and the contact forces m rho max(-c, 0) (penalty->force) [force]. */
 static PetscErrorCode PenaltyForce(Penalty *penalty, Vec u)
 {
   PetscFunctionBegin;
@@ -83,7 +83,7 @@ static PetscErrorCode PenaltyGradient(SNES snes, Vec u, Vec G, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* J^T D J at u, with D = m rho where c < 0 */
+/* Computes J^T D J at u, with D = m rho where c < 0 and D = 0 elsewhere. */
 static PetscErrorCode PenaltyProduct(Penalty *penalty, Vec u)
 {
   PetscScalar       *d;
@@ -119,7 +119,10 @@ static PetscErrorCode PenaltyHessian(SNES snes, Vec u, Mat A, Mat Apre, void *ct
   PetscFunctionReturn(0);
 }
 
-/* SNES convergence test: PETSc's default, and a stop if a signal was caught. Also records the iterations of PCG. */
+/*
+   Tests convergence as PETSc's default test does, and also stops if a signal was received. The number of PCG iterations
+   is recorded.
+*/
 static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, PetscReal gnorm, PetscReal fnorm,
   SNESConvergedReason *reason, void *ctx)
 {
@@ -134,7 +137,8 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
   PetscCall(InterruptTest(penalty->p->sim, &stop));
   if (stop && !*reason)
-    *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for a signal; InterruptReport() states it */
+    *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for a signal; InterruptReport() reports the
+                                                  signal */
   PetscFunctionReturn(0);
 }
 
@@ -170,9 +174,9 @@ static PetscErrorCode PenaltyDestroy(Penalty *penalty)
 }
 
 /*
-   Newton's method with full steps and exact linear solves. The set of penetrated rows then settles in a few steps, as
-   in an active set method. With a line search or inexact solves two_block, mesh 1, took five to ten times as many
-   steps.
+   Creates the solver: Newton's method with full steps and exact linear solves. With it the set of penetrated rows
+   settles in a few steps, as in an active set method. With a line search or inexact solves the scene two_block on mesh
+   1 needed five to ten times as many steps.
 */
 static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
 {
@@ -228,7 +232,7 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
   PetscFunctionReturn(0);
 }
 
-/* Stores gaps and pressures at u from the penalty forces */
+/* Stores gaps and pressures at u, which follow from the contact forces of the penalty method. */
 static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
 {
   Simulation sim = penalty->p->sim;
@@ -241,7 +245,7 @@ static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
   PetscFunctionReturn(0);
 }
 
-/* Solves by the penalty method. resume: start from u */
+/* Solves the problem of a load step by the penalty method. resume: true if the solve starts from u. */
 PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   Penalty        penalty;

@@ -1,11 +1,13 @@
-/* The optimization problem of one load step: the parts that are common to quadratic and nonlinear energies. */
+/* Creates the optimization problem of one load step: the parts that quadratic and nonlinear energies have in common. */
 #include "stepimpl.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* Sets the displacement that the energy is expanded about: the last state, with the displacements prescribed at this
-   time. In long time steps of a flying body the rounding errors of K (u - base) would be as large as the inertia
-   forces. The base is then the extrapolation of the path. */
+/*
+   Sets p->base, the displacement about which the energy is expanded: the last state with the displacements prescribed
+   at p->time. In long time steps of a flying body the rounding errors of K (u - base) would be as large as the inertia
+   forces; the base is then the extrapolated path.
+*/
 static PetscErrorCode StepProblemStartBase(StepProblem *p)
 {
   Simulation sim   = p->sim;
@@ -19,7 +21,10 @@ static PetscErrorCode StepProblemStartBase(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Where bodies turn freely, the base and the loads are those about u */
+/*
+   Sets p->base and p->load for rigid bodies that turn freely and are linearized about u. *anew: true if the tangent of
+   linear bodies has changed.
+*/
 static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
 {
   Simulation        sim         = p->sim;
@@ -36,7 +41,7 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   PetscFunctionReturn(0);
 }
 
-/* Energy, gradient and, if anew, the tangent of the quadratic model at the base */
+/* Computes energy and gradient of the quadratic model at p->base, and its tangent if `anew` is true. */
 static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
   Simulation        sim         = p->sim;
@@ -61,9 +66,9 @@ static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 }
 
 /*
-   Creates the problem for the step to `time`. Energy and gradient at base are computed element by element, because the
-   tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. With the nonlinear
-   energy the callbacks assemble the tangent at each iterate.
+   Creates the problem of the load step to `time`. Energy and gradient at p->base are computed element by element,
+   because the tangent has no columns of prescribed rows. The quadratic model uses the tangent at the last state. For
+   the nonlinear energy the callbacks of the optimizer assemble the tangent at each iterate.
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
@@ -94,7 +99,7 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Rigid bodies that turn freely are linearized about u */
+/* Linearizes rigid bodies that turn freely about u, and updates the problem. */
 PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
 {
   PetscBool anew;
@@ -108,7 +113,10 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* again: whether another solve must follow, because the shortenings of bolts have changed */
+/*
+   Updates the shortenings of the bolts after a solve. *again: set to true if another solve must follow, because the
+   shortenings have changed.
+*/
 PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   const Bodies    bodies    = SimulationBodies(p->sim);
@@ -131,8 +139,10 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + J (u - base) with
-   p->g = g + J_full (base - u_linearized). J is J_full without prescribed columns. */
+/*
+   Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + p->J (u - base) with
+   p->g = g + J_full (base - u_linearized). p->J is J_full with zero columns for prescribed displacements.
+*/
 PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, Vec u_linearized)
 {
   Vec mask;
@@ -154,7 +164,10 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscFunctionReturn(0);
 }
 
-/* Sets bounds |u - base| <= increment; an infinite increment gives infinite bounds. Prescribed rows get no bounds. */
+/*
+   Sets the bounds |u - base| <= increment; an infinite increment gives infinite bounds. Prescribed and tied rows get
+   infinite bounds.
+*/
 PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 {
   PetscFunctionBegin;
@@ -204,7 +217,10 @@ PetscErrorCode StepProblemConstraint(Tao tao, Vec u, Vec c, void *ctx)
   PetscFunctionReturn(0);
 }
 
-/* Callback for a constant matrix. It changes nothing, so the optimizer sees an unchanged object state. */
+/*
+   Callback for a matrix that is constant. The matrix is not changed, so that the optimizer finds its object state
+   unchanged.
+*/
 PetscErrorCode StepProblemConstant(Tao tao, Vec u, Mat A, Mat Apre, void *ctx)
 {
   PetscFunctionBegin;

@@ -1,30 +1,39 @@
 /*
-   Proximal point method for bodies that are held by contact or friction alone. A rigid body's free motions have no
-   stiffness, but the solvers need a positive definite one. Therefore 1/2 (x - centre)^T held (x - centre) is added to
-   the energy, with a small diagonal `held`. The centre moves to each solution until this term exerts no force. The
-   convergence rate is the ratio of `held` to the stiffness of what holds the bodies.
+   Proximal point method for bodies that only contact or friction holds. The rigid body motions of such a body have no
+   stiffness, but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T held (x - centre) is
+   added to the energy, with a small diagonal matrix `held`. The centre moves to each solution until this term exerts no
+   force. The convergence rate is the ratio of `held` to the stiffness of whatever holds the bodies.
 
-   The same is done for all bodies if only friction holds an elastic body and the first solve failed.
+     All bodies get this term if only friction holds an elastic body and the first solve failed.
 
-   Bodies on weak springs get a stiffer term if contact updates threw them off: a linearized gap does not resist turns,
-   as of a pin in a hole, which the true gap resists. At finite strain and between curved faces they get it at once. The
-   centre is then where the gap is linearized, so that the term vanishes as contact updates converge.
+     Bodies on weak springs get a stiffer term if contact updates moved them far. A linearized gap does not resist
+     rotations that the true gap resists, such as that of a pin in a hole. At finite strain and between curved faces
+     these bodies get the term from the start. The centre is the displacement at which the gap is linearized, so that
+     the term vanishes as the contact updates converge.
 */
 #include "stepimpl.h"
 #include <vector3.h>
 #include "src/state/control.h"
 
-/* max_centres: limit of solves. After `patience` solves the force of the proximal term must fall below `stuck` times
-   its last value; otherwise neither contact nor springs hold the bodies. */
+/*
+   max_centres: largest number of solves. After `patience` solves the force of the proximal term must fall in each solve
+   below `stuck` times its last value; otherwise neither contact nor springs hold the bodies.
+*/
 static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
-/* Stiffness of the term, relative to that of the bodies: after a failed solve with friction; on weak springs. There it
-   must exceed the rotational stiffness of contact forces, which a linearized gap leaves out and which is of the size of
-   the strains: ten times as much in each further try */
+/*
+   Stiffness of the term, divided by that of the bodies: friction_share after a failed solve with friction, weak_share
+   for bodies on weak springs. The latter must exceed the rotational stiffness of the contact forces, which a linearized
+   gap omits and which is of the size of the strains. It grows by the factor weak_share_growth in each further attempt
+   while it is below weak_share_most.
+*/
 static const PetscReal friction_share = 1e-4, weak_share = 1e-2, weak_share_most = 1.0, weak_share_growth = 10.0;
 
-/* Adds the proximal term at x: its energy, and held (x - centre) to force, which may be NULL */
+/*
+   Adds the energy of the proximal term at x to *energy, and its force, held (x - centre), to `force`. force: may be
+   NULL.
+*/
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
@@ -32,7 +41,10 @@ PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec f
   PetscFunctionReturn(0);
 }
 
-/* Creates the force of the term at x, and that of the deformation; norms: of both [force] */
+/*
+   Computes the force of the proximal term at x (`held`) and that of the deformation (`elastic`) in new vectors. norms:
+   2-norms of both [force].
+*/
 static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *held, Vec *elastic, PetscReal norms[2])
 {
   PetscReal energy = 0.0;
@@ -48,7 +60,7 @@ static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *held, 
   PetscFunctionReturn(0);
 }
 
-/* Moves the centre to x and updates energy and force at base of the quadratic model */
+/* Moves the centre to x, and updates energy and force at p->base of the quadratic model. */
 static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 {
   PetscReal before = 0.0, after = 0.0;
@@ -65,7 +77,10 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Adds `held` to K after a failed solve; for rigid bodies the tangent contains it already */
+/*
+   Adds `held` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already contains
+   this stiffness.
+*/
 PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
   PetscFunctionBegin;
@@ -73,7 +88,11 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* held: the share of the bodies' stiffness; with `weak` only of bodies on weak springs; none where u is prescribed */
+/*
+   Computes the stiffness of the proximal term. held: `share` times the stiffness of the bodies; 0 in prescribed and
+   tied rows. weak: stiffness of the weak springs, so that only rows with such springs have a term; NULL: all bodies
+   have the term.
+*/
 static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal share, Vec weak, Vec held)
 {
   const Bodies       bodies = SimulationBodies(p->sim);
@@ -97,7 +116,10 @@ static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal share
   PetscFunctionReturn(0);
 }
 
-/* Adds a proximal term, centred at base: to all bodies, or to those on weak springs */
+/*
+   Adds a proximal term with the centre at p->base. weak: true if only bodies on weak springs get the term, false if all
+   bodies get it.
+*/
 static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
 {
   Mat K;
@@ -118,7 +140,7 @@ static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
   PetscFunctionReturn(0);
 }
 
-/* Whether bodies on weak springs may get a proximal term, or a stiffer one */
+/* Returns whether another attempt is allowed in which bodies on weak springs get a proximal term, or a stiffer one. */
 PetscBool ProximalMayHoldWeak(const StepProblem *p)
 {
   const Simulation sim = p->sim;
@@ -128,7 +150,7 @@ PetscBool ProximalMayHoldWeak(const StepProblem *p)
                      !sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
 }
 
-/* Whether bodies on weak springs need the proximal term from the first contact update on */
+/* Finds whether bodies on weak springs need the proximal term from the first contact update on. */
 static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds)
 {
   const Simulation sim = p->sim;
@@ -148,8 +170,10 @@ static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds
   PetscFunctionReturn(0);
 }
 
-/* Sets up the proximal term of rigid bodies, or of bodies on weak springs, with the centre at base, where its energy
-   and force are zero */
+/*
+   Creates the proximal term of rigid bodies or of bodies on weak springs, if the scene has such bodies. The centre is
+   p->base, where energy and force of the term are zero.
+*/
 PetscErrorCode ProximalBegin(StepProblem *p)
 {
   PetscBool holds;
@@ -166,7 +190,7 @@ PetscErrorCode ProximalBegin(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* The base has changed; about u */
+/* Adapts the term after p->base has changed: the centre moves to u, and the energy at p->base is updated. */
 PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
 {
   PetscFunctionBegin;
@@ -185,8 +209,10 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/* Prepares a second try after a failed solve with friction: all bodies get a proximal term, centred at base. again:
-   try it. Done once per problem. */
+/*
+   Prepares a second attempt after a failed solve with friction, in which all bodies have a proximal term centred at
+   p->base. *again: true if this attempt is to be made, which is once per problem.
+*/
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   PetscFunctionBegin;
@@ -199,21 +225,24 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Prepares the next try of contact updates, and later load steps */
+/*
+   Prepares another attempt with a stiffer proximal term of bodies on weak springs. Later load steps use the term from
+   the start.
+*/
 PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
   PetscReal *share = &p->sim->control->weak_share;
 
   PetscFunctionBegin;
   *share = *share > 0.0 ? *share * weak_share_growth : weak_share;
-  if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* takes the old term out of energy and force */
+  if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
   PetscCall(ProximalEnd(p));
   PetscCall(ProximalCreate(p, PETSC_TRUE));
   PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
 
-/* The gap is linearized at u_linearized */
+/* Moves the centre to u_linearized, at which the gap is linearized, if the term holds bodies on weak springs. */
 PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
 {
   PetscFunctionBegin;
@@ -221,13 +250,17 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
   PetscFunctionReturn(0);
 }
 
-/* share: the largest resultant of `force` on a body, relative to the sum of the magnitudes of `all` on its nodes */
+/*
+   Compares two forces. *share: maximum over the bodies of the resultant of `force` on a body divided by the sum of the
+   magnitudes of the nodal forces `all`.
+*/
 static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *share)
 {
   const Simulation   sim = p->sim;
   const PetscScalar *f, *a;
   PetscInt           n;
-  PetscReal         *sums; /* of each body: resultant, sum of magnitudes */
+  PetscReal         *sums; /* four values per body: the three components of the resultant of `force`, and the sum of
+                              the magnitudes of `all` */
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(4 * sim->scene->nbodies, &sums));
@@ -255,8 +288,12 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
   PetscFunctionReturn(0);
 }
 
-/* share: force of the term that holds bodies on weak springs, relative to that of the deformation at u; ten times as
-   much of its resultants, which no torque of coarse facets explains; 0: there is no such term */
+/*
+   Measures the force of the proximal term that holds bodies on weak springs. *share: the larger of the norm of this
+   force divided by the norm of the forces of the deformation at u, and ten times the relative resultant of this force
+   on a body; 0 if there is no such term. The resultant has the larger weight because coarse facets can cause a torque,
+   but not a resultant.
+*/
 PetscErrorCode ProximalMeasureHeld(const StepProblem *p, Vec u, PetscReal *share)
 {
   PetscReal norms[2], resultant;
@@ -273,8 +310,10 @@ PetscErrorCode ProximalMeasureHeld(const StepProblem *p, Vec u, PetscReal *share
   PetscFunctionReturn(0);
 }
 
-/* Reports a rigid motion that continues at the same rate from solve to solve. This does not prove that nothing holds
-   the body. */
+/*
+   Reports a rigid motion that continues at the same rate from solve to solve. Such a motion does not prove that nothing
+   holds the body.
+*/
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
   Vec increment;
@@ -300,7 +339,10 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
   PetscFunctionReturn(0);
 }
 
-/* again: whether another solve must follow with the centre at u, because the proximal term still exerts a force */
+/*
+   Tests whether the proximal term still exerts a force at the solution u. *again: true if it does, so that another
+   solve must follow with the centre at u. ncentres: number of solves so far.
+*/
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);

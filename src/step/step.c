@@ -1,4 +1,4 @@
-/* A load step: attempted as a whole, then in smaller increments if that fails. */
+/* Solves a load step: first as a whole, then in smaller increments if that fails. */
 #include "stepimpl.h"
 #include <math.h>
 #include <petsctime.h>
@@ -7,7 +7,7 @@
 #include "src/state/path.h"
 #include "src/state/results.h"
 
-/* Fills the part of the report that is known before the step is solved */
+/* Fills the part of the report that is known before the load step is solved. */
 static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepReport *report)
 {
   Scene scene = sim->scene;
@@ -59,8 +59,8 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscFunctionReturn(0);
 }
 
-/* Checks that `step` is the next load step: its start, or a time within it after a failed attempt, is the current
-   time */
+/* Checks that `step` is the next load step: the time of the last state is its start, or a time within it after a
+   failed attempt. */
 static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
 {
   const PetscInt next = (PetscInt)PetscFloorReal(sim->path->time);
@@ -74,10 +74,10 @@ static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
   PetscFunctionReturn(0);
 }
 
-/* Halves the increment after a failed attempt; again: false if no further cut is allowed */
+/* Halves the time increment after a failed attempt. *again: false if no further cut is allowed. */
 static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
 {
-  /* smaller increments would not help a linear system */
+  /* smaller increments would not help if the problem is linear */
   const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact);
 
   PetscFunctionBegin;
@@ -161,9 +161,9 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
   }
+  /* the reason of the first of these attempts is reported, not that of a later one with a smaller increment */
   if (!report->converged && sim->control->cause && !sim->control->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause)); /* the first cause, not that of a later, smaller
-                                                                 increment */
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause));
   if (!report->converged) {
     sim->report.converged = PETSC_FALSE;
     sim->report.reason    = report->reason;

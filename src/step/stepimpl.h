@@ -1,7 +1,7 @@
 /*
-   One load step. Files are in the order in which they depend on each other; each lists what it offers. A load step is
-   attempted (attempt.c) as an optimization problem (problem.c). One of three solvers solves it; the state is then
-   measured, and accepted or cut (step.c).
+   Solution of one load step. The files are listed such that each depends only on those before it. A load step is
+   attempted (attempt.c) as an optimization problem (problem.c), which one of three solvers solves. The state is then
+   measured, and accepted; or the load step is cut (step.c).
 */
 #ifndef STEPIMPL_H
 #define STEPIMPL_H
@@ -9,25 +9,28 @@
 #include "src/measure/measureimpl.h"
 #include <petscamgf.h>
 
-/* interrupt.c */
+/* interrupt.c: ends the run after a signal */
 PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
 PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
 PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 
-/* stiffness.c */
+/* stiffness.c: chooses the storage of the stiffness matrix and attaches rigid body modes */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
 
-/* contact_update_secants.c: Anderson acceleration of the contact updates or of the follower loads within one solve.
-   Starts as all zeros. */
+/*
+   contact_update_secants.c: Anderson acceleration of the contact updates, of the follower loads or of the mean internal
+   force. A struct of zeros has no history.
+*/
 #define GAP_SECANTS 2
 typedef struct {
-  PetscInt  n, stalls;        /* number of solutions; the last ones in a row without progress */
+  PetscInt  n, stalls;        /* number of solutions so far, and number of consecutive last solutions without
+                                 progress */
   PetscReal least;            /* smallest change of the gap so far [length] */
-  Vec       u, residual;      /* last solution u, and its residual u - u_linearized [length] */
-  Vec solutions[GAP_SECANTS]; /* differences of successive solutions, newest first; NULL if not yet there [length] */
-  Vec residuals[GAP_SECANTS]; /* differences of successive residuals, newest first [length] */
+  Vec       u, residual;      /* last solution u and its residual u - u_linearized [length] */
+  Vec solutions[GAP_SECANTS]; /* differences of successive solutions, newest first [length]; NULL if there are fewer */
+  Vec residuals[GAP_SECANTS]; /* differences of successive residuals, newest first [length]; NULL if there are fewer */
 } ContactUpdateSecants;
 
 PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, PetscReal change, Vec u,
@@ -35,16 +38,15 @@ PETSC_INTERN PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *, 
 PETSC_INTERN PetscErrorCode ContactUpdateSecantsDestroy(ContactUpdateSecants *);
 
 /*
-   problem.c: min E(u) - load^T u s.t. g + J (u - base) >= 0, lower <= u <= upper, u = base on prescribed rows.
-
-   base is the last state with the prescribed displacements of this time. The quadratic model of E about base is energy
-   + force^T w + 1/2 w^T K w, w = u - base; w is 0 on prescribed rows.
+   problem.c: min E(u) - load^T u subject to g + J (u - base) >= 0, lower <= u <= upper, and u = base on prescribed
+   rows. `base` is the last state with the prescribed displacements of the present time. The quadratic model of E about
+   base is energy + force^T w + 1/2 w^T K w with w = u - base; w is 0 on prescribed rows.
 */
 typedef struct {
-  Mat T;                  /* two rows per row of J: slip along its tangents; prescribed columns are zero; NULL: no
-                             friction */
-  Vec t;                  /* slip = T u + t [length] */
-  Vec limit, coefficient; /* one per row of J: largest friction force [force], coefficient [1] */
+  Mat T;                  /* two rows per row of J, for the slip along its two tangents; columns of prescribed rows
+                             are zero; NULL without friction */
+  Vec t;                  /* constant part of the slip, slip = T u + t [length] */
+  Vec limit, coefficient; /* largest friction force [force] and friction coefficient of each row of J */
 } StepFriction;
 
 typedef struct {
@@ -52,39 +54,43 @@ typedef struct {
   PetscReal            time;
   Mat                  K;
   Vec                  base;
-  Vec                  load;   /* dead loads plus follower loads at p->followed [force]; NULL: none */
+  Vec                  load;   /* dead loads plus follower loads at p->followed [force]; NULL: no loads */
   Vec                  force;  /* gradient at base, zero on prescribed rows [force] */
-  PetscReal            energy; /* objective at base, for the quadratic model */
+  PetscReal            energy; /* objective at base for the quadratic model [force length] */
   Mat                  J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec                  g;
-  Vec                  lower, upper; /* NULL without bounds */
-  ContactUpdateSecants secants;      /* of the follower loads */
-  Vec                  followed;     /* centre at which follower loads are linearized; NULL: no follower loads */
-  Vec                  meant;        /* where the mean internal force of a time step is evaluated; NULL: needless */
-  ContactUpdateSecants mean_secants; /* of it */
+  Vec                  lower, upper; /* NULL if there are no bounds */
+  ContactUpdateSecants secants;      /* secants of the follower loads */
+  Vec                  followed;     /* centre at which follower loads are linearized [length]; NULL: no follower
+                                        loads */
+  Vec                  meant;        /* displacement at which the mean internal force of a time step is evaluated
+                                        [length]; NULL: not needed */
+  ContactUpdateSecants mean_secants; /* secants of the displacement `meant` */
   Vec                  centre, held; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
-                                        proximal term; NULL: none */
-  PetscBool            unheld;       /* proven: contact cannot hold the loads with the bodies in the positions of the
-                                        last state */
-  PetscBool            moves_on;     /* a body that only friction holds did not come to rest in any solve */
-  char                *failed;       /* reason of the failed solve before the proximal term was added; NULL: none
-                                        failed */
-  PetscBool            holds_weak;   /* the proximal term holds bodies on weak springs */
+                                        proximal term; NULL: no such term */
+  PetscBool            unheld;       /* true if it is proven that contact cannot hold the loads with the bodies in
+                                        the positions of the last state */
+  PetscBool            moves_on;     /* true if a body that only friction holds did not come to rest in any solve */
+  char                *failed;       /* reason for which the solve before the proximal term was added failed; NULL:
+                                        no such failure */
+  PetscBool            holds_weak;   /* true if the proximal term holds bodies on weak springs */
   PetscReal            carried;      /* force of the proximal term after the last solve [force] */
-  PetscReal            tolerance;    /* relative KKT error to which the present linearization is solved; 0: that of the
-                                     load step */
-  PetscBool            ended_early;  /* the last solve stopped at `tolerance`, before the tolerance of the load step */
-  PetscReal            gap_change;   /* change of the gap in the update before the last one [length] */
-  PetscBool            by_newton;    /* the gap is linearized at a point that Newton's method found */
-  PetscBool            rough;        /* a contact update made no progress: no Newton steps for now */
-  PetscInt             nflows;       /* iterates that show plastic flow */
-  const char          *flowing;      /* the body that flows, so that there is no equilibrium; NULL: none */
+  PetscReal            tolerance;    /* relative KKT error to which the present linearization is solved; 0: that of
+                                        the load step */
+  PetscBool            ended_early;  /* true if the last solve stopped at `tolerance`, before the tolerance of the
+                                        load step */
+  PetscReal            gap_change;   /* change of the gap in the contact update before the last one [length] */
+  PetscBool            by_newton;    /* true if Newton's method found the point at which the gap is linearized */
+  PetscBool            rough;        /* true if a contact update made no progress, so that Newton's method is not
+                                        used for now */
+  PetscInt             nflows;       /* number of iterates that show plastic flow */
+  const char          *flowing;      /* name of the body that flows, so that there is no equilibrium; NULL: none */
   Vec                  w, Kw;
 
   StepFriction friction;
 } StepProblem;
 
-/* Of the multipliers that are contact forces */
+/* Returns the fraction of the contact forces that the multipliers are. */
 static inline PetscReal StepProblemShare(const StepProblem *p)
 {
   return SchemeShare(&p->sim->scene->dynamics);
@@ -96,11 +102,11 @@ PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLineariz
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemAdvanceBolts(StepProblem *, Vec u, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
-/* TAO callbacks, also in energy.c; their context is a StepProblem */
+/* callbacks of TAO; more of them are in energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
 PETSC_INTERN PetscErrorCode StepProblemConstant(Tao, Vec, Mat, Mat, void *);
 
-/* followers.c */
+/* followers.c: forces that depend on the solution */
 PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersTurn(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersForget(StepProblem *);
@@ -110,7 +116,7 @@ PETSC_INTERN PetscErrorCode FollowersAdvanceMean(StepProblem *, Vec u, PetscInt 
   PetscBool *again);
 PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
-/* proximal.c */
+/* proximal.c: proximal term of bodies that only contact, friction or weak springs hold */
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
@@ -123,50 +129,56 @@ PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
-/* friction.c */
+/* friction.c: friction laws of the optimizer */
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec u_linearized, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
-/* energy.c */
+/* energy.c: objectives of the optimizer */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
-PETSC_INTERN PetscErrorCode EnergyTestFlow(Tao, void *); /* a monitor */
+PETSC_INTERN PetscErrorCode EnergyTestFlow(Tao, void *); /* monitor of TAO */
 
-/* PETSC_INFINITY is a finite floating point number, so PetscIsInfOrNanReal() does not detect it */
+/*
+   Returns whether an energy is finite. PETSC_INFINITY is a finite floating point number, which PetscIsInfOrNanReal()
+   does not detect.
+*/
 static inline PetscBool EnergyIsFinite(PetscReal energy)
 {
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
-/* interference.c: ramps of initial overlaps. Linearizations in sim->solved->upcoming are stored without them. */
+/* interference.c: ramps of initial overlaps; linearizations in sim->solved->upcoming are stored without ramps */
 PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
 
-/* check_weak_springs.c */
+/* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
-/* linear.c, optimizer.c, penalty.c: the three solvers. resume: start from u and from the pressures of the last solve */
+/*
+   linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
+   of the last solve
+*/
 #define STEP_INVERTED "the prescribed displacements invert an element at the start of the load step"
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
-/* linear.c: the systems of contact updates */
+/* linear.c: solves the systems of contact updates */
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
   PetscReal rtol, PetscInt most, PetscBool *found);
 
-/* contact_update_newton.c */
+/* contact_update_newton.c: Newton's method for contact updates */
 PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolution *, ContactLinearization at_u,
   Vec x, Vec u, Vec next, StepReport *, PetscBool *found);
 
-/* contact_update_anticipate.c */
+/* contact_update_anticipate.c: correction of the gap of smooth surfaces */
 PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
 
 /* zero_load_step.c: load steps that return to zero load */
@@ -174,19 +186,19 @@ PETSC_INTERN PetscErrorCode ZeroLoadStepIsDue(const StepProblem *, PetscBool *);
 PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
   ContactSolution *, PetscBool *rests);
 
-/* forecast.c */
+/* forecast.c: starts from states on another mesh */
 PETSC_INTERN PetscErrorCode ForecastSetUp(Simulation);
 PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
 PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
 PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
 
-/* contact_update_error.c */
+/* contact_update_error.c: error of a contact update */
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
-/* attempt.c */
+/* attempt.c: attempts to reach a time */
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
-/* step.c: only what step.h declares */
+/* step.c: its functions are declared in step.h */
 
 #endif

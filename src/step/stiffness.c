@@ -1,7 +1,13 @@
-/* Storage of the stiffness matrix: only the upper triangle, and no rigid body modes, if the solver needs no more. */
+/*
+   Chooses the storage of the stiffness matrix: only the upper triangle, and no rigid body modes, if the solver does not
+   need more.
+*/
 #include "stepimpl.h"
 
-/* Chooses symmetric storage if the optimizer only multiplies by a constant K. Call before the tangent is created. */
+/*
+   Chooses symmetric storage if the optimizer only multiplies with a constant K, on one rank. Call this function before
+   the tangent is created.
+*/
 PetscErrorCode StiffnessSetType(Simulation sim)
 {
   PetscMPIInt size;
@@ -12,7 +18,10 @@ PetscErrorCode StiffnessSetType(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-/* K: sim->K itself, or a copy of the given type if sim->K stores the upper triangle only */
+/*
+   Returns the stiffness matrix with both triangles. *K: sim->K itself, or a copy of the given type if sim->K stores
+   only the upper triangle.
+*/
 PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 {
   PetscBool half;
@@ -28,9 +37,9 @@ PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
 }
 
 /*
-   Whether the preconditioner may use rigid body modes. BoomerAMG uses a near null space only with nodal coarsening,
-   which the user must ask for by an option. The option is looked up here, because the AMG inside PCAMGF reads its
-   options only at set-up, and PCHYPRE has no query.
+   Finds whether the preconditioner may use rigid body modes. BoomerAMG uses a near null space only with nodal
+   coarsening, which an option of the user enables. This function looks the option up, because the AMG inside PCAMGF
+   reads its options only at set-up, and PCHYPRE has no function that returns the setting.
 */
 static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
 {
@@ -57,8 +66,10 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
   PetscFunctionReturn(0);
 }
 
-/* Attaches rigid body modes to A (sim->K or a matrix built from it) if the solver may use them. ksp: solver after
-   KSPSetFromOptions(), or NULL if unknown */
+/*
+   Attaches rigid body modes to A (sim->K or a matrix computed from it) if the solver may use them. ksp: the solver
+   after KSPSetFromOptions(); NULL: not known, the modes are attached.
+*/
 PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
 {
   MatNullSpace modes;

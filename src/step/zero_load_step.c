@@ -1,18 +1,20 @@
 /*
-   Load steps that return to zero: no load, no temperature change, no prescribed displacement, no overlap. The
-   undeformed bodies are then the solution. It is set directly, because relative residuals would compare rounding with
-   rounding.
+   Solves load steps that return to zero: no load, no temperature change, no prescribed displacement, no overlap. The
+   solution is the undeformed bodies. It is set directly, because relative residuals would compare rounding errors with
+   rounding errors.
 */
 #include "stepimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/path.h"
 
-/* due: whether loads and prescribed displacements are zero at this time, the last state is deformed, and no pair has
-   friction */
+/*
+   Finds whether u = 0 may be the solution. *due: true if loads, temperatures and prescribed displacements are zero at
+   this time, the last state is deformed, no metal has yielded, no bolt is shortened, and no pair has friction.
+*/
 PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
 {
   PetscReal before, displacement, temperature, load = 0.0, moved = 0.0;
-  PetscBool stays; /* what has slipped, or has yielded, does not go back by itself */
+  PetscBool stays; /* true if something has slipped or yielded, which is not undone by zero load */
   Vec       u;
 
   PetscFunctionBegin;
@@ -36,8 +38,10 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   PetscFunctionReturn(0);
 }
 
-/* Takes u = 0 as the solution if the undeformed bodies overlap by no more than rounding. undeformed: the
-   linearization at u = 0. rests: whether u = 0 was taken */
+/*
+   Sets u = 0 as the solution if the undeformed bodies overlap by no more than rounding. undeformed: linearization at u
+   = 0; *rests: true if u = 0 is the solution.
+*/
 PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
   ContactSolution *sol, PetscBool *rests)
 {
