@@ -294,7 +294,7 @@ typedef struct {
 typedef struct {
   PetscLogDouble total, mesh, setup, assembly, contact_search, contact_integrals, contact, amg_setup, amg_apply,
     filter_setup, filter_apply, directions, reduced_factor, reduced, optimizer, measures, error_estimate, results,
-    other;
+    comparison, other;
 } RunTimes;
 
 /* How a run ended: the exit code of the program */

@@ -260,6 +260,7 @@ static const ReportField time_fields[] = {
   FIELD(RunTimes, measures, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "measures", "", 0)}),
   FIELD(RunTimes, error_estimate, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "error estimate", "", 0)}),
   FIELD(RunTimes, results, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "results", "", 0)}),
+  FIELD(RunTimes, comparison, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "without contact", "", 0)}),
   FIELD(RunTimes, other, FIELD_DOUBLE, "s", .columns = {COLUMN(TABLE_PHASES, "other", "", 0)}),
   END,
 };

@@ -2,7 +2,8 @@
 #include "reportimpl.h"
 #include <petsctime.h>
 
-PetscLogEvent SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results;
+PetscLogEvent SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results, SIM_Comparison;
+PetscLogStage SIM_ComparisonStage;
 
 #define NO_PHASE (-1)
 
@@ -32,6 +33,7 @@ static const struct {
   {"SimForces", offsetof(RunTimes, measures), NO_PHASE},
   {"ElastError", offsetof(RunTimes, error_estimate), NO_PHASE},
   {"SimResults", offsetof(RunTimes, results), NO_PHASE},
+  {"SimComparison", offsetof(RunTimes, comparison), NO_PHASE},
 };
 
 static PetscLogDouble *EventsTime(RunTimes *times, PetscInt offset)
@@ -55,6 +57,8 @@ PetscErrorCode StepEventsRegister(void)
   PetscCall(PetscLogEventRegister("SimSolve", classid, &SIM_Solve));
   PetscCall(PetscLogEventRegister("SimForces", classid, &SIM_Forces));
   PetscCall(PetscLogEventRegister("SimResults", classid, &SIM_Results));
+  PetscCall(PetscLogEventRegister("SimComparison", classid, &SIM_Comparison));
+  PetscCall(PetscLogStageRegister("Without contact", &SIM_ComparisonStage));
   PetscFunctionReturn(0);
 }
 

@@ -7,7 +7,11 @@
 #include <petsccompat.h>
 
 /* events.c */
-PETSC_INTERN PetscLogEvent  SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results;
+PETSC_INTERN PetscLogEvent SIM_Mesh, SIM_SetUp, SIM_Assembly, SIM_Energy, SIM_Solve, SIM_Forces, SIM_Results,
+  SIM_Comparison;
+
+/* The solve without contact: its AMG counts to no other phase */
+PETSC_INTERN PetscLogStage  SIM_ComparisonStage;
 PETSC_INTERN PetscErrorCode StepEventsRegister(void);
 PETSC_INTERN PetscErrorCode StepEventsRead(RunTimes *);
 PETSC_INTERN PetscErrorCode StepEventsGetTimes(MPI_Comm, const RunTimes *start, RunTimes *);

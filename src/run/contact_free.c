@@ -80,6 +80,8 @@ PetscErrorCode SimulationContactFree(Simulation sim)
   PetscFunctionBegin;
   PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP,
     "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
+  PetscCall(PetscLogEventBegin(SIM_Comparison, NULL, NULL, NULL, NULL));
+  PetscCall(PetscLogStagePush(SIM_ComparisonStage));
   PetscCall(StepProblemCreate(sim, 1.0, &problem));
   PetscCall(ContactFreeLoad(sim, problem.force));
   PetscCall(ContactFreeKSP(sim, &ksp));
@@ -100,5 +102,7 @@ PetscErrorCode SimulationContactFree(Simulation sim)
   }
   PetscCall(KSPDestroy(&ksp));
   PetscCall(StepProblemDestroy(&problem));
+  PetscCall(PetscLogStagePop());
+  PetscCall(PetscLogEventEnd(SIM_Comparison, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

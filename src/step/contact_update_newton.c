@@ -41,6 +41,18 @@ typedef struct {
                                             two parts of a right-hand side */
 } GapNewton;
 
+/* Linearizes the gap at v. It counts to the phase of contact, and the rest of Newton's method to that of the solve */
+static PetscErrorCode NewtonLinearize(GapNewton *s, Vec v, PetscBool gaps_only, ContactLinearization *lin)
+{
+  Contact contact = s->p->sim->contact;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
+  PetscCall((gaps_only ? ContactGetGaps : ContactLinearize)(contact, v, lin));
+  PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes forces and gap of a linearization for the rows of sim->solved->linearization. at: the linearization; lambda:
    forces of the rows [force]; f: C^T J^T lambda with J of `at` [force]; c: gap of the rows in `at`, 0 in rows without
@@ -134,7 +146,7 @@ static PetscErrorCode NewtonDifference(GapNewton *s)
   if (p->sim->ties.C) PetscCall(MatMult(p->sim->ties.C, s->d, v));
   PetscCall(VecAYPX(v, step, s->u));
   PetscCall(VecWAXPY(lambda, step, s->lambdas, s->lambda));
-  PetscCall((s->at_u->gaps_only ? ContactGetGaps : ContactLinearize)(p->sim->contact, v, &lin));
+  PetscCall(NewtonLinearize(s, v, s->at_u->gaps_only, &lin));
   PetscCall(InterferenceAdd(p->sim, p->time, 1.0, lin));
   PetscCall(NewtonEvaluate(s, lin, lambda, s->f, s->c, &n));
   PetscCall(ContactLinearizationDestroy(&lin));
@@ -194,7 +206,6 @@ static PetscErrorCode NewtonMult(Mat shell, Vec z, Vec y)
 */
 static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
 {
-  Simulation           sim = s->p->sim;
   ContactLinearization lin;
   PetscInt             n;
 
@@ -203,7 +214,7 @@ static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
     PetscCall(VecCopy(s->force, f));
     PetscFunctionReturn(0);
   }
-  PetscCall(ContactLinearize(sim->contact, s->u, &lin));
+  PetscCall(NewtonLinearize(s, s->u, PETSC_FALSE, &lin));
   PetscCall(NewtonEvaluate(s, lin, s->lambda, f, s->c, &n));
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscFunctionReturn(0);
@@ -362,6 +373,7 @@ PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, C
   *found = PETSC_FALSE;
   PetscCall(NewtonFindKinks(p->sim, &kinks));
   if (kinks || p->friction.T || !p->sim->solved->subspace || !NewtonIsNear(p, report)) PetscFunctionReturn(0);
+  PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscCall(NewtonCreate(p, sol, u, &s));
   PetscCall(NewtonSetTolerance(&s, report));
   PetscCall(VecGetLocalSize(u, &n));
@@ -376,5 +388,6 @@ PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, C
   PetscCall(VecDestroy(&b));
   PetscCall(VecDestroy(&z));
   PetscCall(NewtonDestroy(&s));
+  PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -10,6 +10,7 @@
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
@@ -123,16 +124,31 @@ static PetscErrorCode ErrorBoundOfGap(Tao tao, PetscReal *bound)
   PetscFunctionReturn(0);
 }
 
+/* Computes H x. If H is constant, it is the gradient less that at x = 0, which is kept from the first product. */
+static PetscErrorCode ErrorBoundHessianTimes(Tao tao, Vec Hx)
+{
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  IPHessian      *hess     = ip->hess;
+  const PetscBool is_first = (PetscBool)(ip->first->energy < 0.0 || !hess->gradient);
+
+  PetscFunctionBegin;
+  if (ip->method->constant && !is_first) PetscCall(VecWAXPY(Hx, -1.0, hess->gradient, tao->gradient));
+  else PetscCall(MatMult(hess->H, tao->solution, Hx));
+  if (!ip->method->constant || !is_first) PetscFunctionReturn(0);
+  if (!hess->gradient) PetscCall(VecDuplicate(Hx, &hess->gradient));
+  PetscCall(VecWAXPY(hess->gradient, -1.0, Hx, tao->gradient));
+  PetscFunctionReturn(0);
+}
+
 /* Computes the magnitude of the objective's terms, sum_j |x_j (H x)_j| + |x_j g_j| */
 PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     linear;
-  Vec           Hx;
+  PetscReal linear;
+  Vec       Hx;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hx));
-  PetscCall(MatMult(ip->hess->H, tao->solution, Hx));
+  PetscCall(ErrorBoundHessianTimes(tao, Hx));
   PetscCall(ErrorBoundProduct(Hx, tao->solution, terms));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hx));
   PetscCall(ErrorBoundProduct(tao->gradient, tao->solution, &linear));

@@ -7,6 +7,7 @@ PetscErrorCode IPHessianDestroy(IPHessian *hess)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&hess->H));
   PetscCall(MatDestroy(&hess->converted));
+  PetscCall(VecDestroy(&hess->gradient));
   PetscCall(PetscMemzero(hess, sizeof(*hess)));
   PetscFunctionReturn(0);
 }

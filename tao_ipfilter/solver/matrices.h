@@ -15,6 +15,7 @@ struct _n_IPJacobian {
 struct _n_IPHessian {
   Mat       H;
   Mat       converted; /* H converted to AIJ, for types that cannot be used directly; otherwise NULL */
+  Vec       gradient;  /* gradient of the objective at x = 0, if H is constant; NULL: not known */
   PetscBool products;  /* the Hessian, and therefore the condensed matrix, only has products, no entries */
 };
 

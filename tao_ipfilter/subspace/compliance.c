@@ -4,11 +4,12 @@
 */
 #include "subspaceimpl.h"
 #include "pc_amgf/mumps.h"
+#include <petscblaslapack.h>
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)
 {
   PetscFunctionBegin;
-  PetscCall(IPComplianceSetRows(c, NULL));
+  PetscCall(IPComplianceSetRows(c, NULL, 0));
   PetscCall(MatDestroy(&c->F));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
@@ -71,14 +72,17 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none */
-PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J)
+/* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none. most: number of
+   columns up to which those of K_WW^-1 J_W^T are kept */
+PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J, PetscInt most)
 {
   PetscFunctionBegin;
   PetscCall(MatDestroy(&c->J));
   PetscCall(PetscFree(c->column));
   PetscCall(PetscFree(c->C));
+  PetscCall(PetscFree(c->X));
   c->m = c->ncolumns = c->maxcolumns = 0;
+  c->most                            = most;
   if (!J) PetscFunctionReturn(0);
   PetscCall(PetscObjectReference((PetscObject)J));
   c->J = J;
@@ -140,10 +144,11 @@ PetscErrorCode IPComplianceSpread(IPCompliance *c, const PetscReal x[], PetscRea
 /* Computes the columns of C for the given rows, and appends them */
 static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscInt rows[])
 {
-  PetscReal *b, *x;
+  PetscReal *b, *x = c->X + (size_t)c->ncolumns * (size_t)c->n;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2((size_t)c->n * (size_t)n, &b, (size_t)c->n * (size_t)n, &x));
+  PetscCall(PetscCalloc1((size_t)c->n * (size_t)n, &b));
+  if (!c->most) PetscCall(PetscMalloc1((size_t)c->n * (size_t)n, &x));
   for (PetscInt k = 0; k < n; k++) {
     const PetscScalar *v;
     const PetscInt    *columns;
@@ -156,7 +161,8 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   PetscCall(IPComplianceSolve(c, n, b, x));
   PetscCall(IPComplianceMultiply(c, n, x, c->C + (size_t)c->ncolumns * (size_t)c->m));
   for (PetscInt k = 0; k < n; k++) c->column[rows[k]] = c->ncolumns++;
-  PetscCall(PetscFree2(b, x));
+  PetscCall(PetscFree(b));
+  if (!c->most) PetscCall(PetscFree(x));
   PetscFunctionReturn(0);
 }
 
@@ -173,9 +179,35 @@ PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt r
   if (c->ncolumns + nmissing > c->maxcolumns) {
     c->maxcolumns = PetscMin(c->m, c->ncolumns + 2 * nmissing);
     PetscCall(PetscRealloc((size_t)c->maxcolumns * (size_t)c->m * sizeof(PetscReal), &c->C));
+    if (c->ncolumns + nmissing > c->most) {
+      c->most = 0;
+      PetscCall(PetscFree(c->X));
+    } else PetscCall(PetscRealloc((size_t)c->maxcolumns * (size_t)c->n * sizeof(PetscReal), &c->X));
   }
   for (PetscInt k = 0; k < nmissing; k += chunk)
     PetscCall(ComplianceAppend(c, PetscMin(chunk, nmissing - k), missing + k));
   PetscCall(PetscFree(missing));
+  PetscFunctionReturn(0);
+}
+
+/* x = K_WW^-1 J_W^T lambda, where lambda is zero in rows whose columns are not known. known: false if the columns are
+   not kept, because there are too many */
+PetscErrorCode IPComplianceExpand(const IPCompliance *c, const PetscReal lambda[], PetscReal x[], PetscBool *known)
+{
+  const PetscReal one = 1.0, zero = 0.0;
+  PetscBLASInt    n, k, inc = 1;
+  PetscReal      *a;
+
+  PetscFunctionBegin;
+  *known = (PetscBool)(c->most > 0);
+  if (!*known) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(c->ncolumns, &a));
+  for (PetscInt i = 0; i < c->m; i++)
+    if (c->column[i] >= 0) a[c->column[i]] = lambda[i];
+  PetscCall(PetscBLASIntCast(c->n, &n));
+  PetscCall(PetscBLASIntCast(c->ncolumns, &k));
+  PetscCall(PetscArrayzero(x, c->n));
+  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &one, c->X, &n, a, &inc, &zero, x, &inc));
+  PetscCall(PetscFree(a));
   PetscFunctionReturn(0);
 }

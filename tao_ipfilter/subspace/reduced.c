@@ -194,7 +194,7 @@ PetscErrorCode IPReducedRelease(IPReduced *r)
   PetscCall(VecScatterDestroy(&r->to_terms));
   PetscCall(VecDestroy(&r->on_terms));
   if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
-  PetscCall(IPComplianceSetRows(&r->compliance, NULL));
+  PetscCall(IPComplianceSetRows(&r->compliance, NULL, 0));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(PetscFree5(s->JZ, s->h, s->lambda, s->gap, s->y));
   PetscCall(PetscFree(s->base));
@@ -407,7 +407,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   PetscCall(PetscArrayzero(s->lambda, s->m));
   PetscCall(PetscArrayzero(s->y, s->kmax));
   if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
-  PetscCall(IPComplianceSetRows(&r->compliance, JW));
+  PetscCall(IPComplianceSetRows(&r->compliance, JW, r->nterms ? 0 : s->kmax));
   if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
   if (!s->k) PetscCall(ReducedAppendCompanions(r));
   if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, JW, &r->laws, definite);
@@ -610,12 +610,10 @@ PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
   PetscFunctionReturn(0);
 }
 
-/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y) */
-static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
+/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g) by a solve */
+static PetscErrorCode ReducedRecoverBySolve(IPReduced *r, PetscReal w[])
 {
-  const IPReducedSystem *s     = &r->system;
-  const PetscReal        minus = -1.0, one = 1.0;
-  PetscBLASInt           n, k, inc = 1;
+  const IPReducedSystem *s = &r->system;
   PetscReal             *change;
 
   PetscFunctionBegin;
@@ -625,6 +623,22 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
   PetscCall(PetscFree(change));
   for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];
   PetscCall(IPComplianceSolve(&r->compliance, 1, r->z, w));
+  PetscFunctionReturn(0);
+}
+
+/* w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y). r->x: K_WW^-1 g */
+static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
+{
+  const IPReducedSystem *s     = &r->system;
+  const PetscReal        minus = -1.0, one = 1.0;
+  PetscBLASInt           n, k, inc = 1;
+  PetscBool              known;
+
+  PetscFunctionBegin;
+  PetscCall(IPComplianceExpand(&r->compliance, s->lambda, w, &known)); /* never with norm terms, so that base is zero */
+  if (known)
+    for (PetscInt i = 0; i < r->n; i++) w[i] -= r->x[i];
+  else PetscCall(ReducedRecoverBySolve(r, w));
   PetscCall(PetscBLASIntCast(r->n, &n));
   PetscCall(PetscBLASIntCast(s->k, &k));
   if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &minus, r->Z, &n, s->y, &inc, &one, w, &inc));

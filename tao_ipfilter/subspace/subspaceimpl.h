@@ -28,6 +28,8 @@ typedef struct {
   PetscInt   ncolumns, maxcolumns;
   PetscInt  *column; /* for each row the number of its column in C; negative: not computed yet */
   PetscReal *C;      /* computed columns of C */
+  PetscReal *X;      /* the same columns of K_WW^-1 J_W^T */
+  PetscInt   most;   /* number of columns up to which X is kept; 0: it is not kept */
 } IPCompliance;
 
 /*
@@ -171,12 +173,14 @@ PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
 PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
-PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J);
+PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J, PetscInt most);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceMultiply(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceSpread(IPCompliance *, const PetscReal[], PetscReal[]);
 PETSC_INTERN PetscErrorCode IPComplianceColumns(IPCompliance *, PetscInt n, const PetscInt rows[]);
+PETSC_INTERN PetscErrorCode IPComplianceExpand(const IPCompliance *, const PetscReal lambda[], PetscReal x[],
+  PetscBool *known);
 
 /* companions.c */
 PETSC_INTERN PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *, PetscBool *needed);
