@@ -14,7 +14,7 @@ typedef struct {
   Vec       g;          /* gap at u_ref, divided by the lumped mass [length] */
   Mat       J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
   Mat       derivative; /* derivative of the gap that includes the rotation of the normals; in J patches of smooth pairs
-                     keep their shape. NULL if no pair is smooth */
+                     keep their shape. NULL if no pair is smooth, or if it was not asked for */
   PetscBool gaps_only;  /* without derivatives of smooth pairs: J is that of their facets */
   Mat       cover; /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
                      or of order 2 */
@@ -41,6 +41,7 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
+PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
 /* Whether a face of a pair is curved before it deforms */
 PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);

@@ -43,8 +43,8 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the gaps of all pairs at the displacement u, and their derivatives unless gaps_only is true */
-static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only, ContactLinearization *lin)
+/* Collective. Computes the gaps of all pairs at the displacement u, and these parts of their derivatives */
+static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts, ContactLinearization *lin)
 {
   ContactAssembly assembly;
   PetscReal       norm;
@@ -57,7 +57,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
   PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscCall(ContactDeform(contact, u));
   PetscCall(ContactAssemblyCreate(contact, &assembly));
-  assembly.gaps_only = gaps_only;
+  assembly.parts = parts;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];
     const ContactGapOps *ops  = pair->formula ? &ContactGapRigidSurface : gap_ops[pair->gap];
@@ -142,7 +142,30 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, PetscBool gaps_only
 PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(ContactMeasure(contact, u, PETSC_FALSE, lin));
+  PetscCall(ContactMeasure(contact, u, CONTACT_DERIVATIVE, lin));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  ContactLinearizeForces - Linearizes the gap at a displacement, without lin->derivative, for which it takes less
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components per vertex [length]
+
+  Output Parameter:
+. lin - as of `ContactLinearize()`, but lin->derivative is NULL
+
+  Level: developer
+
+.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
+@*/
+PetscErrorCode ContactLinearizeForces(Contact contact, Vec u, ContactLinearization *lin)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactMeasure(contact, u, CONTACT_FORCES, lin));
   PetscFunctionReturn(0);
 }
 
@@ -166,7 +189,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
 PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(ContactMeasure(contact, u, PETSC_TRUE, lin));
+  PetscCall(ContactMeasure(contact, u, CONTACT_GAPS, lin));
   PetscFunctionReturn(0);
 }
 

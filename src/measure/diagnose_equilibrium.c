@@ -319,11 +319,11 @@ static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLineariz
 
   PetscFunctionBegin;
   PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[0]));
+  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[0]));
   PetscCall(ContactSetDual(sim->contact, PETSC_TRUE));
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[1]));
+  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[1]));
   PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lins[2]));
+  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[2]));
   PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
   PetscCall(ContactSetDual(sim->contact, PETSC_FALSE));
   PetscFunctionReturn(0);

@@ -187,7 +187,7 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(ContactSetDisplacements(contact, scene->ndisplacements, scene->displacements));
   PetscCall(DMCreateGlobalVector(dm, &zero));
   PetscCall(VecZeroEntries(zero));
-  PetscCall(ContactLinearize(contact, zero, &lin));
+  PetscCall(ContactLinearizeForces(contact, zero, &lin));
   PetscCall(ContactCheckDepth(contact, lin));
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(PetscObjectComm((PetscObject)dm), lin, scene->npairs, starts));

@@ -37,7 +37,7 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 
   PetscFunctionBegin;
   if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, &lin));
+  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
   PetscCall(TiesGather(&sim->ties, pressure));

@@ -27,17 +27,19 @@ static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, Cont
   for (PetscInt p = 0; p < sim->scene->npairs; ++p)
     ramps = (PetscBool)(ramps || sim->scene->pairs[p].interference_ramp >= 0);
   if (ramps) {
-    PetscCall(ContactLinearize(sim->contact, u, lin));
+    PetscCall(ContactLinearizeForces(sim->contact, u, lin));
     PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   } else PetscCall(ContactGetGaps(sim->contact, u, lin));
   PetscFunctionReturn(0);
 }
 
-/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied. */
-static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
+/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied. anticipates:
+   with the derivative that ContactUpdateAnticipate() needs */
+static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, PetscBool anticipates,
+  ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(ContactLinearize(sim->contact, u, lin));
+  PetscCall((anticipates ? ContactLinearize : ContactLinearizeForces)(sim->contact, u, lin));
   PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
@@ -195,7 +197,7 @@ static PetscErrorCode AttemptFindMissed(const StepProblem *p, Vec u_linearized, 
   if (2.0 * moved > *reach) { /* each of the two faces may have moved by `moved` */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
-    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, &wide));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, PETSC_TRUE, &wide));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
@@ -293,7 +295,7 @@ static PetscErrorCode AttemptFindLostRows(const StepProblem *p, Vec u_linearized
     PetscCall(VecDestroy(&du));
     PetscCall(ContactGetReach(sim->contact, &distance, &depth));
     PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
-    PetscCall(AttemptLinearizeGap(sim, p->time, u, &deep));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_FALSE, &deep));
     PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
     PetscCall(ContactHistoryLeastGap(sim->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
@@ -312,7 +314,7 @@ static PetscErrorCode AttemptFindMet(Simulation sim, PetscReal time, PetscInt pa
 
   PetscFunctionBegin;
   *met = PETSC_FALSE;
-  PetscCall(AttemptLinearizeGap(sim, time, u, &lin));
+  PetscCall(AttemptLinearizeGap(sim, time, u, PETSC_FALSE, &lin));
   for (PetscInt r = 0; r < lin->nlocal; ++r) *met = (PetscBool)(*met || lin->pair[r] == pair);
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
@@ -436,7 +438,7 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
   if (!at_solution || (*at_u)->gaps_only) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(AttemptMakeRigid(p, u_linearized));
-    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, at_u));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u_linearized, (PetscBool)!p->by_newton, at_u));
   }
   sim->solved->linearization = *at_u;
   *at_u                      = NULL;
@@ -462,7 +464,7 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
-    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u)); /* in this case the gap is linearized next at u */
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_TRUE, at_u)); /* in this case the gap is linearized next at u */
   else PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
@@ -544,12 +546,12 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   PetscCall(ZeroLoadStepIsDue(p, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(u));
-  PetscCall(AttemptLinearizeGap(sim, p->time, u, &undeformed));
+  PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_FALSE, &undeformed));
   PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
   if (*rests) {
     PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
     sim->solved->linearization = undeformed;
-    PetscCall(AttemptLinearizeGap(sim, p->time, u, at_u));
+    PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_FALSE, at_u));
     PetscCall(AttemptMeasureGap(p, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
     report->gap_unconverged                                                                = PETSC_FALSE;
@@ -580,7 +582,9 @@ static PetscErrorCode AttemptBegin(StepProblem *p, PetscBool foreseen, Vec u, co
     PetscCall(AttemptMakeRigid(p, *u_linearized));
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
   }
-  if (!sim->solved->upcoming) PetscCall(ContactLinearize(sim->contact, *u_linearized, &sim->solved->upcoming));
+  if (!sim->solved->upcoming)
+    PetscCall(
+      (foreseen ? ContactLinearize : ContactLinearizeForces)(sim->contact, *u_linearized, &sim->solved->upcoming));
   sim->solved->linearization = sim->solved->upcoming;
   sim->solved->upcoming      = NULL;
   PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->solved->linearization));
@@ -693,7 +697,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
 
   PetscFunctionBegin;
   if (sim->contact && sim->path->time == 0.0 && !report->cuts && !sim->control->forecast.failed) {
-    if (!sim->solved->upcoming) PetscCall(ContactLinearize(sim->contact, sim->path->u, &sim->solved->upcoming));
+    if (!sim->solved->upcoming) PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &sim->solved->upcoming));
     PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
     PetscCall(StartWarn(sim, sim->solved->upcoming));
   }

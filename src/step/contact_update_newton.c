@@ -48,7 +48,7 @@ static PetscErrorCode NewtonLinearize(GapNewton *s, Vec v, PetscBool gaps_only, 
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
-  PetscCall((gaps_only ? ContactGetGaps : ContactLinearize)(contact, v, lin));
+  PetscCall((gaps_only ? ContactGetGaps : ContactLinearizeForces)(contact, v, lin));
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

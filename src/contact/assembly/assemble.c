@@ -47,6 +47,7 @@ PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[
   for (PetscInt a = 0; a < 4; ++a) {
     PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
     PetscCall(ContactEntriesAdd(&as->by_cover, row[a], 4, node, slopes->cover[a]));
+    if (as->parts != CONTACT_DERIVATIVE) continue;
     PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
     PetscCall(ContactEntriesAdd(&as->by_normal, row[a], 4, normal_id, slopes->normal[a]));
   }
@@ -246,17 +247,28 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the derivatives of the weighted gaps of smooth pairs [length^2], not yet divided by the masses.
-   In `rigid` the patches keep their shape; in `bending` they bend with the normals. Rows of other pairs are empty. */
-static PetscErrorCode SlopesCreate(Contact contact, ContactAssembly *as, Mat *rigid, Mat *bending)
+/* Collective. Computes the derivatives of the weighted gaps of smooth pairs [length^2], not yet divided by the masses,
+   for patches that keep their shape. Rows of other pairs are empty. */
+static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, Mat *rigid)
 {
   PetscInt n;
-  Mat      by_normals, through;
 
   PetscFunctionBegin;
   PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
   PetscCall(SlopesCreateMatrix(contact, n, &as->rigid, rigid));
   PetscCall(SlopesHoldCover(contact, as, *rigid));
+  PetscFunctionReturn(0);
+}
+
+/* The same for patches that bend with the normals */
+static PetscErrorCode SlopesCreateBending(Contact contact, ContactAssembly *as, Mat *bending)
+{
+  PetscInt n;
+  Mat      by_normals, through;
+
+  PetscFunctionBegin;
+  PetscCall(ContactSmoothNormalsUpdate(contact));
+  PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
   PetscCall(SlopesCreateMatrix(contact, n, &as->by_node, bending));
   PetscCall(SlopesCreateMatrix(contact, 3 * contact->smooth.nlocal, &as->by_normal, &by_normals));
   PetscCall(MatMatMult(by_normals, contact->smooth.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
@@ -390,18 +402,20 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates J, lin->derivative and lin->cover if there are smooth pairs */
+/* Collective. Creates J and lin->cover if there are smooth pairs, and lin->derivative if it is asked for */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {
   Mat rigid, bending;
 
   PetscFunctionBegin;
-  PetscCall(SlopesCreate(contact, as, &rigid, &bending));
+  PetscCall(SlopesCreateRigid(contact, as, &rigid));
   PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->J));
-  PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
   PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->cover));
   PetscCall(MatDestroy(&rigid));
+  if (as->parts != CONTACT_DERIVATIVE) PetscFunctionReturn(0);
+  PetscCall(SlopesCreateBending(contact, as, &bending));
+  PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
   PetscCall(MatDestroy(&bending));
   PetscFunctionReturn(0);
 }
@@ -444,12 +458,13 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
   PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  if (contact->smooth.slopes && !as->gaps_only) PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
+  if (contact->smooth.slopes && as->parts != CONTACT_GAPS)
+    PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
-  (*lin)->gaps_only = (PetscBool)(as->gaps_only && contact->smooth.slopes);
+  (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth.slopes);
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));

@@ -142,12 +142,15 @@ PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 /* slip.c: the slip rows of the contact rows that remain */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
+/* What is computed of smooth pairs: the gap; also J and lin->cover; also lin->derivative. Other pairs always have all */
+typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
+
 /* assemble.c: the data of one contact update while it is assembled */
 typedef struct {
-  PetscBool gaps_only; /* whether derivatives of smooth pairs are left out */
-  Vec       gap;       /* weighted gap of each row: int phi_A gap [length^3] */
-  Vec       cover;     /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
-  PetscInt  dim;       /* 1: a coupling is one value per vertex, which multiplies the row's normal; 3: a coupling is a
+  ContactParts parts;
+  Vec          gap;   /* weighted gap of each row: int phi_A gap [length^3] */
+  Vec          cover; /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
+  PetscInt     dim;   /* 1: a coupling is one value per vertex, which multiplies the row's normal; 3: a coupling is a
                          vector per vertex */
   /* [dim] couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the
      row's mass, a coupling is the derivative of the gap with respect to the vertex's displacement. */

@@ -106,7 +106,6 @@ PetscErrorCode ContactSmoothDeform(Contact contact, Vec u)
     PetscCall(PatchSurface(&pair->mortar_ring, &pair->mortar, &bulge, &curvature));
     PetscCall(PatchSurface(&pair->nonmortar_ring, &pair->nonmortar, &bulge, &curvature));
   }
-  PetscCall(ContactSmoothNormalsUpdate(contact));
   PetscFunctionReturn(0);
 }
 

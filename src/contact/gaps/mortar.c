@@ -47,7 +47,7 @@ typedef struct {
 static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverlap *overlap,
   const ContactCandidates *mortar, PetscInt k, MortarFacet *facet, PetscReal gap[4], ContactAssembly *assembly)
 {
-  const PetscBool  sloped = (PetscBool)!assembly->gaps_only;
+  const PetscBool  sloped = (PetscBool)(assembly->parts != CONTACT_GAPS);
   const PetscReal *x      = &mortar->x[12 * k];
   PetscReal        cover[4];
   ContactPatch     patch;
@@ -179,13 +179,13 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
   for (PetscInt k = 0; k < list->n; ++k)
     PetscCall(MortarAddOverlap(rule, &list->overlap[k], smooth, mortar, list->mortar[k], &facet, assembly));
-  if (smooth && facet.dual && !assembly->gaps_only) ContactDualTransformSlopes(facet.dual, &facet.slopes);
+  if (smooth && facet.dual && assembly->parts != CONTACT_GAPS) ContactDualTransformSlopes(facet.dual, &facet.slopes);
   for (PetscInt a = 0; a < 4; ++a) {
     gap[a]   = facet.gap[a];
     cover[a] = facet.cover[a];
     PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
   }
-  if (smooth && !assembly->gaps_only)
+  if (smooth && assembly->parts != CONTACT_GAPS)
     PetscCall(
       ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
   PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));

@@ -168,6 +168,7 @@ static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mas
   }
   PetscCall(ContactEntriesAdd(&assembly->rigid, row, 1, &vertex, gap->vertex));
   PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->rigid));
+  if (assembly->parts != CONTACT_DERIVATIVE) PetscFunctionReturn(0);
   PetscCall(ContactEntriesAdd(&assembly->by_node, row, 1, &vertex, gap->vertex));
   PetscCall(ContactEntriesAdd(&assembly->by_node, row, 4, &mortar->node[4 * facet], gap->facet));
   PetscCall(ContactEntriesAdd(&assembly->by_normal, row, 4, &mortar->normal_id[4 * facet], gap->normal));
@@ -202,7 +203,7 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   offset /= 3;
   value[0] = -mass;
   PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
-  if (mortar->normal_id && !assembly->gaps_only)
+  if (mortar->normal_id && assembly->parts != CONTACT_GAPS)
     PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscFunctionReturn(0);

@@ -50,6 +50,17 @@ static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], Pet
   gradient[1] = det != 0.0 ? (J[0][0] * by_xi[1] - J[0][1] * by_xi[0]) / det : 0.0;
 }
 
+/* Returns the height of the smooth surface of one side (0 nonmortar, 1 mortar) above the plane at the parameters xi
+   [length], and computes the shape functions there */
+static PetscReal PlanePointHeight(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PetscReal phi[4])
+{
+  PetscReal height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], NULL, NULL);
+
+  ContactShape(xi, phi);
+  for (PetscInt a = 0; a < 4; ++a) height += phi[a] * pair->height[side][a];
+  return height;
+}
+
 /* Evaluates a quadrature point with the parameters xi on one side (0 nonmortar, 1 mortar) */
 static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PlanePoint *point)
 {
@@ -303,6 +314,38 @@ static void AddRowCover(const PlanePair *pair, PetscInt a, const PetscReal *cons
   for (PetscInt i = 0; i < 12; ++i) nonmortar->cover[a][i] += tilt[i];
 }
 
+/* Adds the gap and the covered area of the four rows, without derivatives */
+static void AddGaps(const ContactOverlap *o, const PlanePair *pair, PetscReal gap[4], PetscReal cover[4])
+{
+  for (PetscInt k = 0; k < o->n; ++k) {
+    PetscReal       phi[2][4];
+    const PetscReal below = PlanePointHeight(pair, 0, o->xi1[k], phi[0]),
+                    above = PlanePointHeight(pair, 1, o->xi2[k], phi[1]);
+
+    for (PetscInt a = 0; a < 4; ++a) {
+      gap[a] += o->weight[k] * phi[0][a] * (above - below);
+      cover[a] += o->weight[k] * phi[0][a];
+    }
+  }
+}
+
+/* The same with derivatives */
+static void AddSlopes(const ContactOverlap *o, const ContactRule *rule, const PlanePair *pair,
+  const PetscReal *const x[2], PetscReal gap[4], PetscReal cover[4], ContactSlopes *nonmortar, ContactSlopes *mortar)
+{
+  PlaneSlopes by[4] = {{.height = {{0}}}};
+
+  for (PetscInt t = 0; t < o->ntriangles; ++t) AddTriangle(o, rule, t, pair, gap, cover, by);
+  for (PetscInt a = 0; a < 4; ++a) {
+    for (PetscInt k = 0; k < o->ncorners; ++k) {
+      MoveCorner(pair, &o->corner[k], by[a].gap.corner[k], &by[a].gap);
+      MoveCorner(pair, &o->corner[k], by[a].cover.corner[k], &by[a].cover);
+    }
+    AddRow(pair, a, x, &by[a], nonmortar, mortar);
+    AddRowCover(pair, a, x, &by[a].cover, nonmortar, mortar);
+  }
+}
+
 /*
    Computes gap[A] = int phi_A (H2 - H1) [length^3] and cover[A] = int phi_A [length^2] over the overlap of x1 and x2
    that ContactOverlapFind() has found. The derivatives with respect to the mortar facet are stored in `mortar`; those
@@ -312,23 +355,15 @@ void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, cons
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
-  const PetscReal *const x[2]  = {x1, x2};
-  const ContactSlopes    none  = {.x = {{0}}};
-  PlanePair              pair  = {.patch = {patch1, patch2}};
-  PlaneSlopes            by[4] = {{.height = {{0}}}};
+  const PetscReal *const x[2] = {x1, x2};
+  const ContactSlopes    none = {.x = {{0}}};
+  PlanePair              pair = {.patch = {patch1, patch2}};
 
   for (PetscInt a = 0; a < 4; ++a) gap[a] = cover[a] = 0.0;
   if (mortar) *mortar = none;
   if (!ContactFrameCreate(x1, &pair.frame)) return;
   ContactFrameProject(&pair.frame, x1, pair.p[0], pair.height[0]);
   ContactFrameProject(&pair.frame, x2, pair.p[1], pair.height[1]);
-  for (PetscInt t = 0; t < o->ntriangles; ++t) AddTriangle(o, rule, t, &pair, gap, cover, by);
-  for (PetscInt a = 0; a < 4 && mortar; ++a) {
-    for (PetscInt k = 0; k < o->ncorners; ++k) {
-      MoveCorner(&pair, &o->corner[k], by[a].gap.corner[k], &by[a].gap);
-      MoveCorner(&pair, &o->corner[k], by[a].cover.corner[k], &by[a].cover);
-    }
-    AddRow(&pair, a, x, &by[a], nonmortar, mortar);
-    AddRowCover(&pair, a, x, &by[a].cover, nonmortar, mortar);
-  }
+  if (mortar) AddSlopes(o, rule, &pair, x, gap, cover, nonmortar, mortar);
+  else AddGaps(o, &pair, gap, cover);
 }

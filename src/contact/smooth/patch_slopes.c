@@ -52,7 +52,8 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
 }
 
 /* Returns the height of the patch above its facet's point xi along a unit direction [length], measured to the tangent
-   plane at the patch's point. Computes the derivatives of the height with respect to xi and to the patch. */
+   plane at the patch's point. Computes the derivatives of the height with respect to xi and to the patch, unless by_xi
+   and by are NULL. */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], ContactPatch *by)
 {
@@ -74,7 +75,7 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
       by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
     }
   }
-  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
+  if (by) ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
   return height;
 }
 
