@@ -72,8 +72,8 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
-/* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none. most: number of
-   columns up to which those of K_WW^-1 J_W^T are kept */
+/* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none. most: number
+   of columns up to which those of K_WW^-1 J_W^T are kept */
 PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J, PetscInt most)
 {
   PetscFunctionBegin;

@@ -142,7 +142,7 @@ PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 /* slip.c: the slip rows of the contact rows that remain */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 
-/* What is computed of smooth pairs: the gap; also J and lin->cover; also lin->derivative. Other pairs always have all */
+/* What is computed of smooth pairs: the gap; also J and lin->cover; also lin->derivative. Others always have all */
 typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
 
 /* assemble.c: the data of one contact update while it is assembled */
