@@ -1,15 +1,17 @@
-/* Compares a scene with the text of another one, ignoring what may change between two runs of the same simulation. */
-#define _POSIX_C_SOURCE 200809L /* open_memstream() */
+/*
+   Compares a scene with the text of another scene. What may differ between two runs of the same simulation is ignored.
+*/
+#define _POSIX_C_SOURCE 200809L /* for open_memstream() */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Top level keys that may differ: they concern how a simulation continues, and how it is solved */
+/* Keys of the top level that may differ, since they determine how a simulation continues and how it is solved. */
 static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model",
   "contact_updates", "displacement_bounds", "solver"};
 
-/* Gets the scene as text, as SceneView() prints it. text: the text, to be freed with PetscFree(). */
+/* Gets the scene as text, as SceneView() prints it. *text: the text, which the caller frees with PetscFree(). */
 PetscErrorCode SceneGetText(Scene scene, char **text)
 {
   PetscViewer viewer;
@@ -29,11 +31,12 @@ PetscErrorCode SceneGetText(Scene scene, char **text)
 }
 
 typedef struct {
-  const char *next;                           /* start of the next line */
-  char        line[512], top[64], entry[128]; /* the current line; the list and the entry that contain it */
+  const char *next;                           /* beginning of the next line */
+  char        line[512], top[64], entry[128]; /* line: the current line; top: key of the top level, and entry: name
+                                                 of the list entry, that contain this line */
 } SceneLines;
 
-/* Advances to the next line that is compared; false at the end */
+/* Advances to the next line that is compared. Returns false at the end of the text. */
 static PetscBool SceneLinesAdvance(SceneLines *lines)
 {
   while (*lines->next) {
@@ -63,9 +66,11 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
   return there ? lines->line + strspn(lines->line, " ") : "nothing";
 }
 
-/* Compares a scene with the text of another one from SceneGetText(). length: of difference; difference: the first
-   difference in words; "" where there is none. Load programs, refinement, probes, model and options are not compared.
-   */
+/*
+   Compares a scene with the text of another scene, which SceneGetText() has returned. difference: description of the
+   first difference; "" if there is none; length: size of `difference`. Load programs, refinement, probes, model and
+   solver options are not compared.
+*/
 PetscErrorCode SceneCompare(Scene scene, const char text[], char difference[], size_t length)
 {
   SceneLines here = {.line = ""}, there = {.line = ""};

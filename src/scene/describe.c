@@ -1,17 +1,20 @@
-/* Describes what a scene will simulate, before the solve */
+/* Describes before the solve what a scene will simulate. */
 #include "sceneimpl.h"
 #include <mesh.h>
 #include <petscbt.h>
 #include <petscviewer.h>
 #include <string.h>
 
-/* Sizes of a body's mesh, on all ranks */
+/* Counts and bounds of a body's mesh on all ranks. */
 typedef struct {
   PetscInt  ncells, ntetrahedra, nnodes;
-  PetscReal lower[3], upper[3]; /* [length] */
+  PetscReal lower[3], upper[3]; /* smallest and largest coordinates of the nodes [length] */
 } BodyMesh;
 
-/* Counts nodes where they are owned; bodies share none */
+/*
+   Adds a cell to the counts and bounds of its body. A node is counted by the rank that owns it; bodies have no common
+   nodes. met: nodes that have already been added.
+*/
 static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cell, PetscBT met, BodyMesh *mesh)
 {
   PetscInt     n, nodes[MESH_MAX_NODES], first, offset;
@@ -37,7 +40,7 @@ static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cel
   PetscFunctionReturn(0);
 }
 
-/* Bounds that are 0 up to rounding are printed as 0 */
+/* Sets bounds that are 0 up to rounding errors to 0, so that they are printed as 0. */
 static void BodyMeshCleanBounds(BodyMesh *mesh)
 {
   for (PetscInt i = 0; i < 3; ++i) {
@@ -85,7 +88,7 @@ static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshe
   PetscFunctionReturn(0);
 }
 
-/* Order and element of a body; reason: of a chosen element */
+/* Order and element of a body. reason: why the element was chosen; NULL if the scene names it. */
 typedef struct {
   PetscInt    order;
   ElementType element;
@@ -171,7 +174,7 @@ static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nf
   PetscFunctionReturn(0);
 }
 
-/* Prints the faces, which are the labels with a dot, sorted by name */
+/* Prints the faces sorted by name. Faces are the labels of the DM whose names contain a dot. */
 static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
 {
   PetscInt     nlabels, n = 0, nfacets, *order;
@@ -286,7 +289,7 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Compares the facet sizes of a pair's sides; the nonmortar side should be the finer one */
+/* Prints the mean facet areas of both sides of a pair. The nonmortar side should have the smaller facets. */
 static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscViewer viewer)
 {
   PetscInt  n[2];
@@ -337,7 +340,7 @@ static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints where cells are refined locally, and how many vertices hang between coarser and finer cells */
+/* Prints where cells are refined locally, and the number of hanging vertices between coarser and finer cells. */
 static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscInt nhanging;
@@ -364,7 +367,7 @@ static PetscErrorCode DescribeRefinements(Scene scene, DM dm, PetscViewer viewer
   PetscFunctionReturn(0);
 }
 
-/* Prints the probes; error if a point is outside all bodies */
+/* Prints the probes. A point outside of all bodies is an error. */
 static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscInt   n;
@@ -391,7 +394,7 @@ static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the load program: a row per step, a column per ramp */
+/* Prints the load program with a row per load step and a column per ramp. */
 static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -407,7 +410,10 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the bodies that use an effect, as in: on, slab block */
+/*
+   Prints whether an effect is used and the bodies that use it, for example: on, in slab block. has: returns whether a
+   body uses the effect; off: text that is printed if no body uses it.
+*/
 static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[],
   PetscBool (*has)(const SceneBody *, const BodyChoice *), const BodyChoice choices[], const char off[])
 {

@@ -1,10 +1,13 @@
-/* Chooses the elements of bodies that name none. share/bench/elements/choice.py compares the choice with the others. */
+/*
+   Chooses the elements of bodies for which the scene names none. share/bench/elements/choice.py compares the chosen
+   elements with the others.
+*/
 #include "sceneimpl.h"
 #include <mesh.h>
 
-#define INCOMPRESSIBLE 0.4 /* Poisson's ratio above which bbar replaces full */
+#define INCOMPRESSIBLE 0.4 /* Poisson's ratio above which bbar is chosen instead of full */
 
-/* Poisson's ratio of the isotropic part of a law */
+/* Computes Poisson's ratio of the isotropic part of a material law. */
 static PetscErrorCode MaterialPoisson(const Material *material, PetscReal *poisson)
 {
   MaterialModuli m;
@@ -15,7 +18,10 @@ static PetscErrorCode MaterialPoisson(const Material *material, PetscReal *poiss
   PetscFunctionReturn(0);
 }
 
-/* nnodes: of the body's cells */
+/*
+   Chooses the element of a body. nnodes: number of nodes of its cells; *reason: why the element was chosen; NULL if the
+   scene names it.
+*/
 static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, ElementType *element,
   const char **reason)
 {
@@ -32,7 +38,7 @@ static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, 
     *element = ELEMENT_INCOMPATIBLE;
     *reason  = "small strain, hexahedra of order 1";
   } else if (MaterialYields(&body->material) && MaterialIsFinite(&body->material) && nnodes > 8) {
-    *element = ELEMENT_FULL; /* bbar has false equilibria under compression, where metal flows: plasticity_finite.sh */
+    *element = ELEMENT_FULL; /* bbar has false equilibria if yielding metal is compressed, see plasticity_finite.sh */
     *reason  = "metal at finite strain, order 2";
   } else if (MaterialYields(&body->material)) {
     *element = ELEMENT_BBAR;

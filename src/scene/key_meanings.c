@@ -1,9 +1,12 @@
-/* Tables of the keys of shapes and of the constants of materials, which shapes and laws define themselves */
+/* Prints tables of the keys of shapes and of the constants of materials. The shapes and laws define these keys. */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* A key means the same in all shapes or laws that have it; a new one without a line here has no meaning in the table */
+/*
+   Meaning of a key, which is the same in all shapes or laws that have the key. A new key that is missing in the
+   following tables is printed without a meaning.
+*/
 typedef struct {
   const char *name, *unit, *help, *otherwise; /* otherwise: default of a key that is not required */
 } KeyMeaning;
@@ -99,14 +102,17 @@ static const KeyMeaning *MeaningFind(const KeyMeaning meanings[], const char nam
   return &none;
 }
 
-/* A row of a table; of: the shapes or laws that have the key */
+/* Row of a table. of: names of the shapes or laws that have the key. */
 typedef struct {
   const char *name, *type;
   PetscBool   required;
   char        of[256];
 } MeaningRow;
 
-/* Adds an owner to the row of the same key and type, or a new row; rows: with room for one more */
+/*
+   Adds a shape or law (`of`) to the row of a key with the same name and type, or adds a row. rows: must have room for
+   one more row.
+*/
 static PetscErrorCode RowsAdd(const char name[], const char of[], const char type[], PetscBool required, PetscInt *n,
   MeaningRow rows[])
 {

@@ -1,11 +1,11 @@
-/* Creation and destruction of a scene */
+/* Creates and destroys a scene. */
 #include "sceneimpl.h"
 #include "src/mesh/gmsh/gmshimpl.h"
 #include <string.h>
 
 #define SCENE_CONTACT_UPDATES 20
 
-/* The file's name without folders and .yaml */
+/* Returns the name of the file without its folder and the ending .yaml. */
 static PetscErrorCode SceneDefaultName(const char file[], char **name)
 {
   const char *slash = strrchr(file, '/');
@@ -18,7 +18,7 @@ static PetscErrorCode SceneDefaultName(const char file[], char **name)
   PetscFunctionReturn(0);
 }
 
-/* Applies command line options, which override the file */
+/* Applies command line options, which override the values of the file. */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt  nsteps = scene->nsteps, bounds = scene->displacement_bounds;
@@ -46,7 +46,10 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
-/* Bodies from files get faces for the parts of their boundaries if the file refers to one, as in part.surface_2 */
+/*
+   Divides the boundaries of bodies from mesh files into faces if the scene refers to such a face, for example
+   part.surface_2.
+*/
 static PetscErrorCode SceneFindSurfaces(SceneKeys keys, Scene scene)
 {
   PetscBool    named = PETSC_FALSE;
@@ -61,7 +64,10 @@ static PetscErrorCode SceneFindSurfaces(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Reads the lists in the order of the table; quantities derived from a list are computed before they are needed */
+/*
+   Reads the lists in the order of the table of keys. Quantities that are computed from a list are computed before
+   another list needs them.
+*/
 static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 {
   PetscFunctionBegin;
@@ -82,7 +88,10 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* What is found wrong with the lists and with the scene as a whole is raised with its line */
+/*
+   Reads and validates a scene. Errors in the lists or in the scene as a whole are raised together with the line in the
+   file.
+*/
 static PetscErrorCode SceneReadAndValidate(SceneKeys keys, Scene scene)
 {
   RankError      error;

@@ -1,6 +1,6 @@
 /*
-   Private header of src/scene. From the file's keys to the scene; files in the order in which they depend on each
-   other.
+   Private header of src/scene, which converts the keys of a file to a scene. The files are listed such that each
+   depends only on those before it.
 */
 #ifndef SCENEIMPL_H
 #define SCENEIMPL_H
@@ -8,12 +8,12 @@
 #include <scene.h>
 #include "src/scene/sections/sectionsimpl.h"
 
-/* validate.c. Collective: checks a scene beyond its syntax */
+/* validate.c: Collective. Checks a scene beyond its syntax */
 PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
 
-/* key_meanings.c: the keys of shapes and the constants of materials as tables of Markdown */
+/* key_meanings.c: prints the keys of shapes and the constants of materials as Markdown tables */
 PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKeys(PetscViewer);
 
-/* view.c, describe.c, scene.c: only public functions */
+/* view.c, describe.c, scene.c: their functions are declared in the public header */
 
 #endif

@@ -1,4 +1,4 @@
-/* Checks of a scene beyond its syntax. Every rank has the same scene, so every rank finds the same error. */
+/* Checks a scene beyond its syntax. Every rank has the same scene, so that every rank finds the same error. */
 #include "sceneimpl.h"
 #include <mesh.h>
 
@@ -41,7 +41,10 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
   PetscFunctionReturn(0);
 }
 
-/* A rigid body needs mass only where forces move it */
+/*
+   Checks the mass of a rigid body. In a dynamic analysis a rigid body needs mass if some of its motions are not
+   prescribed.
+*/
 static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, const char file[], Scene scene, const SceneDisplacement *d)
 {
   PetscBool   released = PETSC_FALSE;
@@ -121,7 +124,10 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
   PetscFunctionReturn(0);
 }
 
-/* What a pair, or a rule for pairs, does not go with */
+/*
+   Checks that a contact pair, or a rule for contact pairs, is not combined with other features of the scene that do not
+   support it.
+*/
 static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[], Scene scene,
   const SceneContactPair *here)
 {
@@ -142,7 +148,10 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-/* Damping by stiffness multiplies a stiffness that stays */
+/*
+   Checks that damping by stiffness is used only if the stiffness is constant, since the damping matrix is a multiple of
+   it.
+*/
 static PetscErrorCode SceneValidateDamping(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;

@@ -1,10 +1,13 @@
-/* Prints a scene as YAML that SceneLoad() reads */
+/* Prints a scene as YAML that SceneLoad() can read. */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Within braces: of a static analysis the factors at the ends of the load steps; of dynamics a table from time 0 on, of
-   one line where the factor is constant */
+/*
+   Prints the load program of a ramp, without the braces around it. A static analysis has the factors at the ends of the
+   load steps. A dynamic analysis has a table of times and values from time 0 on; the table has one entry if the factor
+   is constant.
+*/
 static PetscErrorCode SceneViewProgram(Scene scene, PetscViewer viewer, const SceneRamp *ramp)
 {
   PetscInt   n = 1;
@@ -41,7 +44,7 @@ static PetscErrorCode SceneViewRamp(Scene scene, PetscViewer viewer, PetscInt r)
   PetscFunctionReturn(0);
 }
 
-/* Prints an option in double quotes, because its value may contain YAML syntax */
+/* Prints an option of PETSc. The value is printed in double quotes, because it may contain YAML syntax. */
 static PetscErrorCode SceneViewOption(Scene scene, PetscViewer viewer, PetscInt o)
 {
   PetscFunctionBegin;
@@ -66,7 +69,7 @@ static PetscErrorCode SceneViewNumbered(Scene scene, PetscViewer viewer, const c
   PetscFunctionReturn(0);
 }
 
-/* Prints a list of the top level by its name */
+/* Prints the list of the top level that has this name. */
 static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const char name[])
 {
   const SceneList *list = SceneFindList(name);

@@ -1,9 +1,9 @@
-/* Prints the table of keys */
+/* Prints the table of keys. */
 #include "sceneimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Type of a key as text, as in: three numbers [L] */
+/* Describes the type of a key in words, for example: three numbers [L]. */
 static PetscErrorCode KeyDescribeType(const SceneKey *row, char type[], size_t length)
 {
   static const char *const counts[] = {"", "a ", "two ", "three "};

@@ -1,4 +1,4 @@
-/* Expressions of a scene file: evaluation, checks, error messages. */
+/* Evaluates and checks expressions of a scene file, and reports their errors. */
 #include "formatimpl.h"
 #include "src/model/modelimpl.h"
 
@@ -12,7 +12,10 @@ static PetscErrorCode ExpressionError(SceneKeys keys, const char key[], const ch
   PetscFunctionReturn(0);
 }
 
-/* Evaluates text at a time of a load program that ends at `end`; records an error if it is not a number */
+/*
+   Evaluates an expression at a time of a load program that ends at the time `end`. Records an error if the result is
+   not a finite number.
+*/
 PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[], PetscReal time, PetscReal end,
   PetscReal *value)
 {
@@ -26,7 +29,7 @@ PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[]
   PetscFunctionReturn(0);
 }
 
-/* Records an error if the expression has a syntax error; whether it is finite is checked where it is used */
+/* Records an error if the expression has a syntax error. Whether its values are finite is checked when it is used. */
 PetscErrorCode SceneCheckExpression(SceneKeys keys, const char key[], const char text[])
 {
   Expression e = {.at = text, .names = "xyz"};

@@ -1,24 +1,27 @@
-/* The format of scene files: reads keys from text, and values from keys. Independent of the contents of scenes. */
+/*
+   Format of scene files: reads keys from text, and values from keys. The functions do not depend on the keys that a
+   scene has.
+*/
 #ifndef FORMATIMPL_H
 #define FORMATIMPL_H
 
 #include <model.h>
 #include <rankerror.h>
 
-/* Line of each key in the file, from 1 */
+/* Line of each key in the file, counted from 1. */
 typedef struct {
   PetscInt n;
   char   **keys;
   size_t  *lines;
 } SceneKeyLines;
 
-/* yaml.c. Not collective: error if the text is not YAML that can be read */
+/* yaml.c: Not collective. Raises an error if the text is not YAML that can be read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
 
-/* values.c: the values by their full keys, sorted; initialize with zeros */
+/* values.c: values sorted by their full keys. Initialize SceneValues with zeros. */
 typedef struct {
   char     *key, *text;
-  PetscInt  place; /* in the file */
+  PetscInt  place; /* position in the file: number of values before it */
   PetscBool used;
 } SceneValue;
 
@@ -31,9 +34,11 @@ PETSC_INTERN PetscErrorCode SceneValuesRead(const char text[], SceneValues *);
 PETSC_INTERN const char    *SceneValuesUse(SceneValues *, const char key[]);
 PETSC_INTERN PetscErrorCode SceneValuesDestroy(SceneValues *);
 
-/* keys.c: the keys and values of a scene file. Each reader asks for a full key (nested keys joined with _); keys
-   that no reader asked for are reported as unknown. A bad or missing value is recorded, not raised at once, because
-   an unknown key often explains it better. */
+/*
+   keys.c: keys and values of a scene file. Each reader asks for a full key, in which nested keys are joined with _.
+   Keys for which no reader asked are reported as unknown. A wrong or missing value is recorded instead of raised at
+   once, because an unknown key often explains the error better.
+*/
 typedef struct {
   char    *name;
   Material material;
@@ -45,15 +50,16 @@ typedef struct {
   SceneValues                values;
   PetscInt                   nasked, maxasked;
   char                     **asked;
-  const struct _n_SceneList *list; /* the list that is being read */
+  const struct _n_SceneList *list; /* list that is being read */
   const struct _n_SceneKey  *top;  /* rows of the top level, for messages about unknown keys */
   SceneKeyLines              lines;
-  char                       error[1024]; /* the first error; empty: none */
-  PetscBool                  decides;     /* the error decides which keys are valid, so it is reported before unknown
-                                         keys */
+  char                       error[1024]; /* first error; empty if there is none */
+  PetscBool                  decides;     /* true if the error concerns a value that determines which keys are valid;
+                                             such an error is reported before unknown keys */
 
-  char           library[PETSC_MAX_PATH_LEN]; /* where materials may come from, as text; empty: no library */
-  PetscInt       nmaterials;                  /* materials with names that have been read */
+  char           library[PETSC_MAX_PATH_LEN]; /* text that says where materials may be defined; empty if there is no
+                                                 library */
+  PetscInt       nmaterials;                  /* number of named materials that have been read */
   SceneMaterial *materials;
 } * SceneKeys;
 
@@ -62,24 +68,31 @@ typedef struct {
 PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
-/* Records an error, unless there is one. The message begins with the key, or names it or an entry, as body "slab", as
-   its first quotation: so its line is found */
+/*
+   Records an error unless one has been recorded. The line in the file is found from the message: it must begin with the
+   key, or its first quoted word must be the name of the key or of an entry, as in body "slab".
+*/
 PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-/* Records an error in the key owner_key: its name and the text `wrong` */
+/* Records an error about the key owner_key. The message is the key and the text `wrong`. */
 PETSC_INTERN PetscErrorCode SceneKeysErrorOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
-/* Makes a file's name relative to the folder of the scene */
+/* Makes a file name relative to the folder of the scene. */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
-/* lines.c: line of a key, 0 if unknown; puts the line of what a message is about before it, if it is known; raises an
-   error of work on the scene, if there is one, with file and line */
+/*
+   lines.c: SceneKeysGetLine() returns the line of a key, 0 if it is not known. SceneKeysAddLine() puts the line before
+   a message if it is known. SceneKeysRaise() raises an error that occurred while the scene was read, with file and
+   line.
+*/
 PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
 PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
 
-/* parse.c: converts values; key is for error messages. A list must have n entries, or any number if *n is
-   PETSC_DECIDE on entry */
+/*
+   parse.c: converts texts to values. key: key for error messages. A list must have *n entries, or any number of entries
+   if *n is PETSC_DECIDE on entry.
+*/
 PETSC_INTERN PetscErrorCode SceneParseReal(SceneKeys, const char key[], const char text[], PetscReal *);
 PETSC_INTERN PetscErrorCode SceneParseInt(SceneKeys, const char key[], const char text[], PetscInt *);
 PETSC_INTERN PetscErrorCode SceneParseEnum(SceneKeys, const char key[], const char text[], const char *const names[],
@@ -94,83 +107,94 @@ PETSC_INTERN PetscErrorCode SceneParseRamp(SceneKeys, Scene, const char key[], c
 PETSC_INTERN PetscBool      SceneIsName(const char[]);
 PETSC_INTERN PetscErrorCode SceneGetNames(SceneKeys, const char key[], PetscBool required, PetscInt *n, char ***names);
 
-/* numbers.c: prints a number so that it reads back the same; [values]; name: [values] */
+/*
+   numbers.c: SceneViewReal() prints a number such that the same number is read back; SceneViewList() prints [values];
+   SceneViewReals() prints name: [values]
+*/
 PETSC_INTERN PetscErrorCode SceneViewReal(PetscViewer, PetscReal);
 PETSC_INTERN PetscErrorCode SceneViewList(PetscViewer, PetscInt n, const PetscReal[]);
 PETSC_INTERN PetscErrorCode SceneViewReals(PetscViewer, const char name[], PetscInt n, const PetscReal[]);
 
-/* expression.c: evaluates an expression of time; checks the syntax of an expression of position, which
-   SceneEvaluatePlace() evaluates */
+/*
+   expression.c: evaluates expressions of time; checks the syntax of expressions of position, which SceneEvaluatePlace()
+   evaluates
+*/
 PETSC_INTERN PetscErrorCode SceneEvaluate(SceneKeys, const char key[], const char text[], PetscReal time, PetscReal end,
   PetscReal *);
 PETSC_INTERN PetscErrorCode SceneCheckExpression(SceneKeys, const char key[], const char text[]);
 
-/* table.c: factors of a ramp at the ends of load steps, in dynamics also at time 0, from an expression or a table of
-   times and values. found: the key has one of them */
+/*
+   table.c: reads the factors of a ramp at the ends of the load steps, and in a dynamic analysis at time 0, from an
+   expression or from a table of times and values. *found: true if the key has either
+*/
 PETSC_INTERN PetscErrorCode SceneReadProgram(SceneKeys, const char key[], Scene, SceneRamp *, PetscBool *found);
 
 /*
-   The table of keys (rows in sections/keytable.c). A row describes one key: it is read into a member (at a byte offset)
-   of a struct of model.h, printed unless it has its initial value, and freed if it owns text.
+   Table of keys, whose rows are in sections/keytable.c. A row describes one key. Its value is read into a member (at a
+   byte offset) of a struct of model.h, printed unless it has its initial value, and freed if it is a text.
 */
 typedef enum {
   SCENE_REALS,
   SCENE_INTS,
   SCENE_ANSWER, /* true or false */
-  SCENE_CHOICE, /* an enumeration, by its names */
-  SCENE_AXIS,   /* the same, stored as PetscInt */
+  SCENE_CHOICE, /* enumeration, given by names */
+  SCENE_AXIS,   /* enumeration of axes, given by names and stored as PetscInt */
   SCENE_TEXT,
-  SCENE_EXPRESSION, /* of the place; stored as text */
-  SCENE_BODY,       /* a body's name, stored as its number */
-  SCENE_RAMP,       /* a ramp's */
+  SCENE_EXPRESSION, /* expression of position, stored as text */
+  SCENE_BODY,       /* name of a body, stored as its number */
+  SCENE_RAMP,       /* name of a ramp, stored as its number */
   SCENE_OWN,
   SCENE_SECTION /* read and printed by a file in sections/ */
 } SceneKeyType;
 
 typedef enum {
   SCENE_OPTIONAL,
-  SCENE_SHOWN, /* optional, and always printed */
+  SCENE_SHOWN, /* optional, but always printed */
   SCENE_REQUIRED
 } SceneNeed;
 
-typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0, SCENE_UNBOUNDED /* infinite, too */ } SceneRange;
+typedef enum { SCENE_ANY, SCENE_ABOVE_0, SCENE_FROM_0, SCENE_UNBOUNDED /* may be infinite */ } SceneRange;
 
-/* A value with a syntax of its own */
+/* Functions for a value with its own syntax. */
 typedef struct {
   PetscErrorCode (*read)(SceneKeys, Scene, const char key[], const char text[], void *entry);
   PetscBool (*shown)(const void *entry);
   PetscErrorCode (*view)(Scene, PetscViewer, const void *entry);
-  PetscInt ntexts; /* number of allocated texts, stored consecutively */
+  PetscInt ntexts; /* number of texts that `read` allocates, which are stored one after the other */
 } SceneOwn;
 
 typedef struct _n_SceneKey {
   const char        *name;
   const char        *of; /* shapes or material laws that have the key, separated by blanks; NULL: all */
   SceneKeyType       type;
-  PetscInt           n; /* numbers */
+  PetscInt           n; /* number of values */
   size_t             at;
   SceneNeed          need;
   SceneRange         range;
   const char *const *names; /* names of an enumeration */
   const SceneOwn    *own;
-  const char        *unit, *otherwise, *help; /* unit (F force, L length); value without the key; one-sentence help */
+  const char        *unit, *otherwise, *help; /* unit with F for force and L for length; default if the key is
+                                                 missing; meaning in one sentence */
 } SceneKey;
 
 typedef struct _n_SceneList {
   const char     *name;
   const SceneKey *rows;
-  size_t          size;             /* size of an entry; its first member is its name */
-  size_t          count, entries;   /* offsets in the scene of count and array; 0: read by a file in sections/ */
+  size_t          size;             /* size of an entry, whose first member is its name */
+  size_t          count, entries;   /* offsets in the scene of the number of entries and of the array; 0: a file in
+                                       sections/ reads the list */
   const void     *initial;          /* initial value of an entry; NULL: zeros */
-  PetscBool       required, shared; /* required: must not be empty; shared: another list frees the entries */
-  /* called after the rows of an entry were read */
+  PetscBool       required, shared; /* required: true if the list must not be empty; shared: true if another list
+                                       frees the entries */
+  /* called after the rows of an entry have been read; may be NULL */
   PetscErrorCode (*finish)(SceneKeys, Scene, const char owner[], void *entry);
-  /* shared lists: whether an entry belongs to this list */
+  /* holds: returns whether an entry of a shared array belongs to this list; hides: returns whether a key is not
+     printed; both may be NULL */
   PetscBool (*holds)(const void *entry);
   PetscBool (*hides)(const void *entry, const char key[]);
 } SceneList;
 
-/* rows.c: reads, prints and frees entries by the rows of the table */
+/* rows.c: reads, prints and frees entries with the rows of the table */
 PETSC_INTERN PetscBool      SceneRowIsOf(const SceneKey *, const char kind[]);
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
   const char kind[], PetscBool listed, void *entry);

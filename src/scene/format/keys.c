@@ -1,11 +1,11 @@
-/* The keys of a scene file: reads the file, looks up keys, and reports those that were not used. */
+/* Reads a scene file, looks up its keys, and reports keys that were not used. */
 #include "formatimpl.h"
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>
 #include <strings.h>
 
-/* On the first rank: reads the whole file and terminates it with a zero */
+/* Reads the whole file and appends a zero byte. Call this function on rank 0. */
 static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, char **text)
 {
   FILE     *stream;
@@ -28,7 +28,7 @@ static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, c
   PetscFunctionReturn(0);
 }
 
-/* Gets the text of the file on all ranks; the caller frees it */
+/* Gets the text of the file on all ranks. *text: freed by the caller. */
 static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
 {
   RankError      error;
@@ -95,7 +95,7 @@ static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
   PetscFunctionReturn(0);
 }
 
-/* Gets the text of a key, borrowed; NULL if the file does not have it */
+/* Gets the text of a key. *value: owned by `keys`; NULL if the file does not have the key. */
 PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
 {
   char    key[SCENE_KEY_LENGTH];
@@ -111,7 +111,7 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   PetscFunctionReturn(0);
 }
 
-/* Whether the key is a number, e.g. the 3 that YAML finds in {poisson: 0,3} */
+/* Returns whether the last part of a key is a number. YAML finds such a key, 3, in {poisson: 0,3}. */
 static PetscBool SceneKeyIsNumber(const char key[])
 {
   const char *last = strrchr(key, '_');
@@ -126,7 +126,7 @@ PetscErrorCode SceneKeysErrorOf(SceneKeys keys, const char owner[], const char k
   PetscFunctionReturn(0);
 }
 
-/* What other programs, or other people, call a key */
+/* Names by which other programs or users call a key, and its name in a scene. */
 static const char *const synonyms[][2] = {
   {"e", "young"},
   {"modulus", "young"},
@@ -176,8 +176,10 @@ static const char *const synonyms[][2] = {
   {"velocity", "initial_velocity"},
 };
 
-/* The valid keys at the place of an unknown one: those with the same first *below letters (its list and entry); at
-   the top level the rows of the table */
+/*
+   Gets the valid keys at the place of an unknown key. *below: number of its letters that name its list and entry;
+   *names: valid continuations after these letters, or the rows of the table at the top level (*below = 0).
+*/
 static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], size_t *below, PetscInt *n,
   const char ***names)
 {
@@ -205,7 +207,7 @@ static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], si
   PetscFunctionReturn(0);
 }
 
-/* Suggests what an unknown key may mean: a synonym, the nearest name, or a list of the valid ones */
+/* Suggests which key was meant by an unknown key: a synonym, the nearest name, or a list of the valid keys. */
 static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], char meant[], size_t length)
 {
   const char **names, *nearest, *rest;
@@ -241,7 +243,10 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   PetscFunctionReturn(0);
 }
 
-/* Raises an error if the entries of a list lack their dash: the file has the key of the list, and it is no list */
+/*
+   Raises an error if the entries of a list have no dashes. In this case the file has the key of the list, but its value
+   is a mapping instead of a list.
+*/
 static PetscErrorCode SceneKeysRaiseDashes(SceneKeys keys, const char unknown[], const char where[])
 {
   PetscFunctionBegin;
@@ -258,7 +263,7 @@ static PetscErrorCode SceneKeysRaiseDashes(SceneKeys keys, const char unknown[],
   PetscFunctionReturn(0);
 }
 
-/* Raises an error if a key that has keys below it has a value */
+/* Raises an error if a key that must have keys below it has a value. */
 static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[], const char where[])
 {
   const size_t length     = strlen(unknown);
@@ -275,7 +280,7 @@ static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[],
   PetscFunctionReturn(0);
 }
 
-/* Raises an error for an unknown key, with its line */
+/* Raises an error for an unknown key, with its line. */
 static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[])
 {
   const size_t line      = SceneKeysGetLine(keys, unknown);
@@ -300,7 +305,7 @@ static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[]
   SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %sunknown key \"%s\"; %s", keys->file, where, unknown, meant);
 }
 
-/* Raises the first error of the file: an unknown key, else the first bad value */
+/* Raises the first error of the file: an unknown key, or otherwise the first wrong value. */
 PetscErrorCode SceneKeysCheck(SceneKeys keys)
 {
   const char *unknown  = NULL;
@@ -308,7 +313,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
 
   PetscFunctionBegin;
   PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->error);
-  /* The shortest unknown key is the outermost one: under a misspelt list every key is unknown */
+  /* the shortest unknown key is the outermost one, since below a misspelt list every key is unknown */
   for (PetscInt i = 0; i < keys->values.n; ++i) {
     if (keys->values.values[i].used) continue;
     PetscCall(PetscStrlen(keys->values.values[i].key, &length));
@@ -322,7 +327,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   PetscFunctionReturn(0);
 }
 
-/* Makes a file's name relative to the folder of the scene */
+/* Makes a file name relative to the folder of the scene. */
 PetscErrorCode SceneResolveFile(const char scene[], char **file)
 {
   const char *slash = strrchr(scene, '/');

@@ -1,10 +1,12 @@
-/* Lines of the scene file in messages. A message names a key, or an entry of a list by its kind and name; the line is
-   found from these, so that no message has to pass it on. */
+/*
+   Finds the lines of the scene file for messages. A message names a key, or an entry of a list by its kind and name.
+   The line is found from these words, so that functions which write messages need not know the line.
+*/
 #include "formatimpl.h"
 #include <string.h>
 #include <strings.h>
 
-/* Line of a key; of a repeated key the last one; 0: unknown */
+/* Returns the line of a key. If the key is repeated, the last line is returned; 0: not known. */
 size_t SceneKeysGetLine(SceneKeys keys, const char key[])
 {
   for (PetscInt i = keys->lines.n; i-- > 0;) {
@@ -13,7 +15,10 @@ size_t SceneKeysGetLine(SceneKeys keys, const char key[])
   return 0;
 }
 
-/* Line of a key, or else of the entry or list that it belongs to: of bodies_slab for bodies_slab_young */
+/*
+   Returns the line of a key, or otherwise that of the entry or list to which the key belongs: bodies_slab for
+   bodies_slab_young. The text `key` is shortened.
+*/
 static size_t LineOfOwner(SceneKeys keys, char key[])
 {
   size_t line = SceneKeysGetLine(keys, key);
@@ -25,7 +30,7 @@ static size_t LineOfOwner(SceneKeys keys, char key[])
   return line;
 }
 
-/* Copies the text before `end` if it fits; otherwise empty */
+/* Copies the text before `end` to `key` if it fits; otherwise `key` becomes empty. */
 static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENGTH])
 {
   const size_t length = (size_t)(end - text);
@@ -34,7 +39,7 @@ static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENG
   if (length < SCENE_KEY_LENGTH) (void)snprintf(key, SCENE_KEY_LENGTH, "%.*s", (int)length, text);
 }
 
-/* The list of the entries that a text ends in the name of, as in: body; NULL: none */
+/* Returns the list to whose entries the last word before `end` refers, for example bodies for body; NULL: none. */
 static const char *LineGetList(const char text[], const char *end)
 {
   static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
@@ -52,9 +57,11 @@ static const char *LineGetList(const char text[], const char *end)
   return NULL;
 }
 
-/* Finds the line of the file that a message is about; 0: unknown, or the value does not come from the file. It looks
-   for a named entry, such as body "slab"; else for the key that the message begins with; else for the quoted word, as
-   in: the key "bodies" is missing */
+/*
+   Finds the line of the file that a message is about. *line: 0 if it is not known, or if the value does not come from
+   the file. The function looks for a named entry, such as body "slab"; if there is none, for the key with which the
+   message begins; and last for the quoted word, as in: the key "bodies" is missing.
+*/
 static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t *line)
 {
   const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
@@ -72,7 +79,7 @@ static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t
   (void)snprintf(entry, sizeof(entry), "%s_%s", list ? list : "", name);
   if (list) *line = SceneKeysGetLine(keys, entry);
   if (!list && key[0]) *line = LineOfOwner(keys, key);
-  /* a symmetry plane is displacement "symmetry_slab_xmin" */
+  /* a symmetry plane is called displacement "symmetry_slab_xmin" */
   if (!*line && name[0]) *line = LineOfOwner(keys, name);
   PetscFunctionReturn(0);
 }

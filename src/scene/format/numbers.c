@@ -1,9 +1,12 @@
-/* Prints numbers as a scene file writes them */
+/* Prints numbers in the form that a scene file requires. */
 #include "formatimpl.h"
 #include <petscviewer.h>
 #include <stdlib.h>
 
-/* Prints the shortest decimal that reads back as the same number. PETSC_INFINITY is a finite number in some releases */
+/*
+   Prints the shortest decimal number that is read back as the same number. PETSC_INFINITY, a finite number in some
+   releases of PETSc, is printed as inf.
+*/
 PetscErrorCode SceneViewReal(PetscViewer viewer, PetscReal value)
 {
   char text[64];

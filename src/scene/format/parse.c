@@ -1,5 +1,7 @@
-/* Values of a scene file: from text to numbers, lists and names. If a value cannot be parsed, the error is recorded
-   and the variable unchanged. */
+/*
+   Converts the text of values to numbers, lists and names. If a value cannot be converted, an error is recorded and the
+   variable is unchanged.
+*/
 #include "formatimpl.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -13,7 +15,7 @@ static PetscBool SceneParseAtEnd(const char *s)
   return *s ? PETSC_FALSE : PETSC_TRUE;
 }
 
-/* Parses a decimal number or a fraction such as -5/7 */
+/* Parses a decimal number or a fraction such as -5/7. */
 PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[], PetscReal *value)
 {
   char  *end;
@@ -51,7 +53,9 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   PetscFunctionReturn(0);
 }
 
-/* Parses an enumeration; names as in PETSc: values, then the type's name, its prefix and NULL */
+/*
+   Parses an enumeration. names: as in PETSc, the names of the values, then the name of the type, its prefix and NULL.
+*/
 PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[], const char *const names[],
   PetscInt *value)
 {
@@ -83,7 +87,10 @@ PetscErrorCode SceneParseAnswer(SceneKeys keys, const char key[], const char tex
   PetscFunctionReturn(0);
 }
 
-/* Splits a list; words is freed by PetscStrToArrayDestroy(). NULL if the length is wrong */
+/*
+   Splits a list. *n: required number of entries on entry, or PETSC_DECIDE; number of entries on exit. *words: the
+   entries, freed with PetscStrToArrayDestroy(); NULL if their number is wrong.
+*/
 PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[], PetscInt *n, char ***words)
 {
   int count;
@@ -101,7 +108,7 @@ PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
-/* infinite: a number may be infinite, in any common spelling */
+/* Parses a list of n numbers. infinite: true if the numbers may be infinite, in any common spelling. */
 static PetscErrorCode ParseReals(SceneKeys keys, const char key[], const char text[], PetscInt n, PetscBool infinite,
   PetscReal values[])
 {
@@ -145,7 +152,7 @@ PetscErrorCode SceneParseInts(SceneKeys keys, const char key[], const char text[
   PetscFunctionReturn(0);
 }
 
-/* Gets the number of a body by name; PETSC_DECIDE if there is none */
+/* Gets the number of a body by its name; PETSC_DECIDE if there is no such body. */
 PetscErrorCode SceneParseBody(SceneKeys keys, Scene scene, const char key[], const char text[], PetscInt *body)
 {
   *body = PETSC_DECIDE;
@@ -184,7 +191,10 @@ PetscBool SceneIsName(const char name[])
   return PETSC_TRUE;
 }
 
-/* Gets the names of a list's entries, allocated individually. Names are keys, so case does not matter */
+/*
+   Gets the names of the entries of a list, each of which is allocated. Names are part of keys; therefore names that
+   differ only in upper and lower case are equal.
+*/
 PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool required, PetscInt *n, char ***names)
 {
   const char *text;

@@ -1,7 +1,8 @@
 /*
-   Finds keys that a scene sets twice; PETSc would use the last one. They may be in the same mapping, or once nested and
-   once joined, as outer: {radius: 1} and outer_radius: 2. Each key is compared by its path, joined like options,
-   including numbers of list entries, since two entries with the same name are reported elsewhere.
+   Finds keys that a scene sets twice, of which PETSc would use the last one. Both may be in the same mapping; or one is
+   nested and one is joined, as in outer: {radius: 1} and outer_radius: 2. Keys are compared by their paths, which are
+   joined like options and contain the numbers of list entries, since two entries with the same name are reported
+   elsewhere.
 */
 #include "repeated.h"
 #include <ctype.h>
@@ -22,7 +23,10 @@ static PetscErrorCode RepeatedSetPath(RepeatedKeys *keys, size_t length, const c
   PetscFunctionReturn(0);
 }
 
-/* Stores the path of a key. A key with a mapping differs from one with a value; merged mappings, <<, may be repeated */
+/*
+   Stores the path of a key. A key whose value is a mapping differs from one with a scalar value. Merge keys, <<, may be
+   repeated.
+*/
 static PetscErrorCode RepeatedRemember(RepeatedKeys *keys, PetscBool mapping)
 {
   PetscBool taken;
@@ -58,7 +62,7 @@ static PetscErrorCode RepeatedReadKey(RepeatedKeys *keys, const yaml_event_t *ev
   PetscFunctionReturn(0);
 }
 
-/* Processes the start of a node: a key, the value of a key, an entry of a list, or the whole document */
+/* Processes the beginning of a node, which is a key, the value of a key, an entry of a list, or the whole document. */
 static PetscErrorCode RepeatedBeginNode(RepeatedKeys *keys, const yaml_event_t *event)
 {
   RepeatedLevel  *level = keys->depth ? &keys->levels[keys->depth - 1] : NULL;
@@ -86,7 +90,7 @@ static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping, size_t
   PetscFunctionReturn(0);
 }
 
-/* Removes the numbers of entries from a path, for messages */
+/* Removes the numbers of entries from a path, which messages do not contain. */
 static void RepeatedStrip(char path[])
 {
   char *to = path;
@@ -99,7 +103,7 @@ static void RepeatedStrip(char path[])
   *to = 0;
 }
 
-/* Error unless a list entry is one name with its contents */
+/* Raises an error unless a list entry consists of one name with its contents. */
 static PetscErrorCode RepeatedCheckEntry(const RepeatedKeys *keys)
 {
   const RepeatedLevel *level = &keys->levels[keys->depth - 1];
@@ -129,7 +133,7 @@ PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
   PetscFunctionReturn(0);
 }
 
-/* Raises an error for the first repeated key; call after the last event */
+/* Raises an error for the first repeated key. Call this function after the last event. */
 PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
 {
   PetscInt *order;
@@ -151,7 +155,10 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
   PetscFunctionReturn(0);
 }
 
-/* Moves the keys, as written in messages, and their lines to the caller; call after the last event */
+/*
+   Moves the keys, in the form that messages use, and their lines to the caller. Call this function after the last
+   event.
+*/
 void RepeatedKeysGetLines(RepeatedKeys *keys, SceneKeyLines *lines)
 {
   for (PetscInt i = 0; i < keys->n; ++i) RepeatedStrip(keys->paths[i]);

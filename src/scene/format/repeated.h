@@ -1,28 +1,28 @@
-/* Detection of repeated keys: repeated.c processes the events of libyaml before the text is read */
+/* Detection of repeated keys. repeated.c processes the events of libyaml before the text is read. */
 #ifndef REPEATED_H
 #define REPEATED_H
 
 #include "formatimpl.h"
 #include <yaml.h>
 
-/* An open mapping or list */
+/* Mapping or list that has not ended. */
 typedef struct {
   PetscBool mapping;
   size_t    length; /* length of the path of its key */
   size_t    line;
-  PetscInt  n; /* nodes in it so far; in a mapping keys and values */
+  PetscInt  n; /* number of nodes in it so far; in a mapping keys and values are counted */
 } RepeatedLevel;
 
-/* Initialize with zeros */
+/* Keys that have been read so far. Initialize with zeros. */
 typedef struct {
   PetscInt       depth, maxdepth, n, max;
   RepeatedLevel *levels;
-  char          *path, **paths; /* path of the last key; paths of all keys */
-  size_t         length, room;  /* of the path, and allocated length */
-  size_t         line, *lines;  /* line of the last key; lines of all keys */
+  char          *path, **paths; /* path of the last key, and paths of all keys */
+  size_t         length, room;  /* length of `path`, and its allocated length */
+  size_t         line, *lines;  /* line of the last key, and lines of all keys */
 } RepeatedKeys;
 
-/* repeated.c. Not collective: process every event in turn, then check for repeated keys */
+/* repeated.c: Not collective. Pass each event to RepeatedKeysRead() in turn, then call RepeatedKeysCheck() */
 PETSC_INTERN PetscErrorCode RepeatedKeysRead(RepeatedKeys *, const yaml_event_t *);
 PETSC_INTERN PetscErrorCode RepeatedKeysCheck(RepeatedKeys *);
 PETSC_INTERN void           RepeatedKeysGetLines(RepeatedKeys *, SceneKeyLines *);

@@ -1,9 +1,12 @@
-/* Reads, prints and frees an entry by the rows of the table of keys. */
+/* Reads, prints and frees an entry with the rows of the table of keys. */
 #include "formatimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Whether the row applies to this kind (row->of is a list separated by blanks) */
+/*
+   Returns whether a row applies to this kind of shape or material law. row->of is a list of kinds separated by blanks.
+   If `kind` is NULL, only rows without such a list apply.
+*/
 PetscBool SceneRowIsOf(const SceneKey *row, const char kind[])
 {
   const size_t length = kind ? strlen(kind) : 0;
@@ -65,8 +68,11 @@ static PetscErrorCode RowRead(SceneKeys keys, Scene scene, const SceneKey *row, 
   PetscFunctionReturn(0);
 }
 
-/* Reads the rows that apply to `kind` (NULL: rows that apply to all). owner: prefix of the entry, "<list>_<name>",
-   or "" at the top level. listed: required keys may be missing. A required text is never NULL */
+/*
+   Reads the rows that apply to `kind`; NULL: the rows that apply to all kinds. owner: prefix of the entry,
+   "<list>_<name>", or "" at the top level. listed: true if required keys may be missing. A required text that is
+   missing becomes an empty text, so that it is never NULL.
+*/
 PetscErrorCode SceneReadRows(SceneKeys keys, Scene scene, const char owner[], const SceneKey rows[], const char kind[],
   PetscBool listed, void *entry)
 {
@@ -85,7 +91,7 @@ PetscErrorCode SceneReadRows(SceneKeys keys, Scene scene, const char owner[], co
   PetscFunctionReturn(0);
 }
 
-/* Whether the file has the given key of an entry */
+/* Finds whether the file has this key of an entry. */
 PetscErrorCode SceneHasKey(SceneKeys keys, const char owner[], const char name[], PetscBool *has)
 {
   const char *text;
@@ -96,7 +102,7 @@ PetscErrorCode SceneHasKey(SceneKeys keys, const char owner[], const char name[]
   PetscFunctionReturn(0);
 }
 
-/* Records an error unless an entry has exactly one of two keys. kind: what the entry is, for the message */
+/* Records an error unless an entry has exactly one of two keys. kind: what the entry is, for the message. */
 PetscErrorCode SceneHasOneOf(SceneKeys keys, const char owner[], const char kind[], const char first[],
   const char second[], PetscBool *has_second)
 {
@@ -112,7 +118,10 @@ PetscErrorCode SceneHasOneOf(SceneKeys keys, const char owner[], const char kind
   PetscFunctionReturn(0);
 }
 
-/* Reads the entries of a list and appends them; each starts with the list's initial value and its name */
+/*
+   Reads the entries of a list and appends them to *entries. Each entry is first set to the initial value of the list
+   and gets its name.
+*/
 PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list, PetscInt *n, void *entries)
 {
   PetscInt nnames;
@@ -152,7 +161,10 @@ static size_t RowSize(const SceneKey *row)
   }
 }
 
-/* A value equal to the initial one is not printed, unless the row says always */
+/*
+   Returns whether a value is printed. A value that is equal to the initial value is not printed unless the row is
+   SCENE_SHOWN or SCENE_REQUIRED.
+*/
 static PetscBool RowIsShown(const SceneKey *row, const void *entry, const void *initial)
 {
   const char *value = (const char *)entry + row->at;
@@ -202,7 +214,7 @@ static PetscErrorCode RowView(Scene scene, PetscViewer viewer, const SceneKey *r
   PetscFunctionReturn(0);
 }
 
-/* Prints a row if it is to be shown */
+/* Prints a row if its value is to be printed. */
 PetscErrorCode SceneViewRow(Scene scene, PetscViewer viewer, const SceneKey *row, const void *entry,
   const void *initial)
 {
@@ -216,7 +228,7 @@ PetscErrorCode SceneViewRow(Scene scene, PetscViewer viewer, const SceneKey *row
   PetscFunctionReturn(0);
 }
 
-/* Prints the rows that apply to `kind` */
+/* Prints the rows that apply to `kind`. */
 PetscErrorCode SceneViewRows(Scene scene, PetscViewer viewer, const SceneKey rows[], const char kind[],
   const void *entry, const void *initial)
 {
@@ -245,7 +257,7 @@ static PetscErrorCode EntryView(Scene scene, PetscViewer viewer, const SceneList
   PetscFunctionReturn(0);
 }
 
-/* Prints the entries that belong to the list, under its name */
+/* Prints the entries that belong to the list, under the name of the list. */
 PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const SceneList *list, PetscInt n, const void *entries)
 {
   PetscBool any = PETSC_FALSE;
@@ -264,7 +276,7 @@ PetscErrorCode SceneViewEntries(Scene scene, PetscViewer viewer, const SceneList
   PetscFunctionReturn(0);
 }
 
-/* Frees the texts that the rows have allocated, and an entry's name */
+/* Frees the texts that were allocated for the rows, including the name of an entry. */
 PetscErrorCode SceneFreeRows(const SceneKey rows[], void *entry)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* Load programs given by expressions, or by tables of times and values */
+/* Reads load programs that are given by expressions, or by tables of times and values. */
 #include "formatimpl.h"
 
 static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const char column[], const char text[],
@@ -16,7 +16,7 @@ static PetscErrorCode TableReadColumn(SceneKeys keys, const char owner[], const 
   PetscFunctionReturn(0);
 }
 
-/* Linear interpolation; constant before the first and after the last time */
+/* Interpolates a table linearly. The value is constant before the first and after the last time. */
 static PetscReal TableInterpolate(PetscInt n, const PetscReal times[], const PetscReal values[], PetscReal time)
 {
   PetscInt i = 0;

@@ -1,7 +1,7 @@
 /*
-   The values of a scene file by their full keys: nested keys are joined with _, a list becomes its entries separated by
-   commas. Entries of a list that are mappings of one key are named by it, and their values are nested under the list.
-   Like PetscOptionsInsertStringYAML(), but for any number of keys.
+   Values of a scene file by their full keys. Nested keys are joined with _; a list becomes its entries separated by
+   commas. A list entry that is a mapping with one key is named by this key, and its values are nested under the list.
+   The result is that of PetscOptionsInsertStringYAML(), but the number of keys is not limited.
 */
 #include "formatimpl.h"
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include <strings.h>
 #include <yaml.h>
 
-#define VALUES_DEPTH 25 /* nested mappings */
+#define VALUES_DEPTH 25 /* largest number of nested mappings */
 
 static const char *ValuesText(const yaml_node_t *node)
 {
@@ -38,7 +38,7 @@ static PetscErrorCode ValuesAdd(SceneValues *v, const char prefix[], const char 
 static PetscErrorCode ValuesReadMapping(SceneValues *, yaml_document_t *, const yaml_node_t *, PetscInt depth,
   const char prefix[]);
 
-/* The values of a mapping nested under a key */
+/* Reads the values of a mapping that is nested under a key. */
 static PetscErrorCode ValuesReadNested(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
   const char prefix[], const char key[])
 {
@@ -53,7 +53,7 @@ static PetscErrorCode ValuesReadNested(SceneValues *v, yaml_document_t *doc, con
   PetscFunctionReturn(0);
 }
 
-/* Appends a word to a list */
+/* Appends a word to a list. */
 static PetscErrorCode ValuesAppend(const char word[], size_t *length, char **list)
 {
   const size_t more = strlen(word);
@@ -103,7 +103,7 @@ static PetscErrorCode ValuesReadSequence(SceneValues *v, yaml_document_t *doc, c
   PetscFunctionReturn(0);
 }
 
-/* Values of a merge key, <<, are those of the mapping that it is in */
+/* Reads the value of a merge key, <<, whose keys become keys of the mapping that contains it. */
 static PetscErrorCode ValuesReadMerged(SceneValues *v, yaml_document_t *doc, const yaml_node_t *node, PetscInt depth,
   const char prefix[])
 {
@@ -139,13 +139,13 @@ static PetscErrorCode ValuesReadMapping(SceneValues *v, yaml_document_t *doc, co
   PetscFunctionReturn(0);
 }
 
-/* By key, upper and lower case alike */
+/* Compares values by their keys, regardless of upper and lower case. */
 static int ValuesCompareKeys(const void *a, const void *b)
 {
   return strcasecmp(((const SceneValue *)a)->key, ((const SceneValue *)b)->key);
 }
 
-/* Of one key that given last comes first */
+/* Compares values by their keys; of two values with the same key, the one that comes later in the file is the first. */
 static int ValuesCompare(const void *a, const void *b)
 {
   const int order = ValuesCompareKeys(a, b);
@@ -153,7 +153,7 @@ static int ValuesCompare(const void *a, const void *b)
   return order ? order : ((const SceneValue *)a)->place < ((const SceneValue *)b)->place ? 1 : -1;
 }
 
-/* Sorted, and of each key the value that was given last */
+/* Sorts the values. Of several values with the same key only the last in the file remains. */
 static PetscErrorCode ValuesSort(SceneValues *v)
 {
   PetscInt n = 0;
@@ -170,7 +170,7 @@ static PetscErrorCode ValuesSort(SceneValues *v)
   PetscFunctionReturn(0);
 }
 
-/* Not collective. Of a text that SceneCheckYAML() has passed; v: initialized with zeros */
+/* Not collective. Reads the values of a text that SceneCheckYAML() has checked. v: initialized with zeros. */
 PetscErrorCode SceneValuesRead(const char text[], SceneValues *v)
 {
   yaml_parser_t   parser;
@@ -196,7 +196,7 @@ PetscErrorCode SceneValuesRead(const char text[], SceneValues *v)
   PetscFunctionReturn(0);
 }
 
-/* Marks the value of a key as used; NULL: there is none */
+/* Marks the value of a key as used, and returns its text. NULL: there is no such key. */
 const char *SceneValuesUse(SceneValues *v, const char key[])
 {
   const SceneValue wanted = {.key = (char *)key};

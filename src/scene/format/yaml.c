@@ -1,13 +1,15 @@
 /*
-   Checks that a scene is YAML that can be read. YAML has anchors, &name, and aliases, *name. The reader expands
-   aliases in place: an anchor that contains its own alias would never end, and nested aliases could exhaust memory.
-   Therefore anchored values must not contain aliases.
+   Checks that a scene is YAML that can be read. YAML has anchors, &name, and aliases, *name. The reader replaces
+   aliases by the anchored values: an anchor that contains its own alias would never end, and nested aliases could
+   exhaust memory. Therefore anchored values must not contain aliases.
 */
 #include "repeated.h"
 #include <string.h>
 
-/* Whether the event is an alias inside an anchored value. anchored: number of brackets and indentations open since
-   the outermost anchor; 0 outside of anchored values */
+/*
+   Returns whether the event is an alias inside an anchored value. *anchored: number of mappings and lists that have
+   begun since the outermost anchor and not ended; 0 outside of anchored values.
+*/
 static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
 {
   const yaml_char_t *anchor = NULL;
@@ -26,7 +28,7 @@ static PetscBool YAMLIsNested(const yaml_event_t *event, PetscInt *anchored)
   return PETSC_FALSE;
 }
 
-/* The parser's terms in words for people who write scenes */
+/* Returns an explanation of the parser's error in words for authors of scenes. */
 static const char *YAMLExplain(const char problem[])
 {
   static const char *const words[][2] = {
@@ -46,8 +48,10 @@ static const char *YAMLExplain(const char problem[])
   return problem ? problem : "it cannot be read";
 }
 
-/* Raises the parser's error. It is at the line where the parser stops, or between there and where the bracket, the
-   quotation or the indented lines begin. text: the whole text */
+/*
+   Raises the error of the parser. The error is at the line where the parser stopped, or between this line and the line
+   where the bracket, the quotation or the indented block begins. text: the whole text.
+*/
 static PetscErrorCode YAMLRaise(const yaml_parser_t *parser, const char text[])
 {
   const size_t line = parser->problem_mark.line + 1, start = parser->context ? parser->context_mark.line + 1 : line;
@@ -88,12 +92,12 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
   PetscFunctionReturn(0);
 }
 
-/* Checks the text; lines: of every key. Errors (PETSC_ERR_USER_INPUT): keys that are not names, or repeated */
+/* Checks the text. *lines: line of every key. Keys that are not names, or are repeated, raise PETSC_ERR_USER_INPUT. */
 PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *lines)
 {
   yaml_parser_t  parser;
   RepeatedKeys   keys = {0};
-  const size_t   mark = strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3; /* length of the UTF-8 byte order mark, with which
+  const size_t   mark = strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3; /* length of the UTF-8 byte order mark with which
                                                                      some editors begin files */
   PetscErrorCode ierr;
 

@@ -1,4 +1,4 @@
-/* bodies: shape, material and element of each body */
+/* bodies: shape, material and element of each body. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -45,7 +45,10 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscFunctionReturn(0);
 }
 
-/* Gives a rigid body a stiffness, so that its matrix rows have the size of other rows */
+/*
+   Gives rigid bodies the largest Young's modulus of all bodies, so that the matrix rows of rigid bodies have entries of
+   similar size as other rows.
+*/
 PetscErrorCode SceneScaleRigid(Scene scene)
 {
   PetscReal young = 0;

@@ -1,4 +1,4 @@
-/* bolts: keys that depend on one another */
+/* bolts: keys that depend on one another. */
 #include "sectionsimpl.h"
 #include <string.h>
 #include <vector3.h>

@@ -1,4 +1,4 @@
-/* connectors: keys that depend on one another */
+/* connectors: keys that depend on one another. */
 #include "sectionsimpl.h"
 #include <string.h>
 #include <vector3.h>

@@ -1,8 +1,8 @@
-/* Constants of a material law: reading, printing, description, checks */
+/* Reads, prints, describes and checks the constants of material laws. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 
-/* Its values in a material */
+/* Finds the values of a constant in a material. Returns the number of values. */
 static PetscInt MaterialConstantGet(const MaterialConstant *constant, const Material *material, const PetscReal **value)
 {
   const char *at = (const char *)material + constant->at;
@@ -19,13 +19,18 @@ static PetscBool MaterialConstantIsSet(const MaterialConstant *constant, PetscIn
   return constant->required;
 }
 
-/* Whether the constant is a direction: must not be zero; zero means not given */
+/*
+   Returns whether the constant is a direction. A direction must not be zero; a zero vector means that it is not given.
+*/
 static PetscBool MaterialConstantIsAxis(const MaterialConstant *constant)
 {
   return (PetscBool)(constant->at == offsetof(Material, axes[0]) || constant->at == offsetof(Material, axes[1]));
 }
 
-/* Error if a thermal expansion is given for a law that has none; names the laws that have one */
+/*
+   Records an error if a thermal expansion is given for a law without thermal expansion. The message names the laws that
+   have one.
+*/
 static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], const Material *material)
 {
   const char *text;
@@ -40,7 +45,7 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
   PetscFunctionReturn(0);
 }
 
-/* As many numbers as there are */
+/* Reads a list of any number of values up to MATERIAL_LIST. */
 static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], const char text[], MaterialList *list)
 {
   char **words;
@@ -57,7 +62,7 @@ static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], co
   PetscFunctionReturn(0);
 }
 
-/* Of a law that yields, the hardening as a whole */
+/* Checks the constants of hardening together, if the law yields. */
 static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Material *material)
 {
   MaterialHardening *h = &material->hardening;
@@ -80,8 +85,10 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionReturn(0);
 }
 
-/* Reads the constants of a material law from the keys <owner>_<constant>. All are required, unless the body names a
-   material: then they replace those of the named one */
+/*
+   Reads the constants of a material law from the keys <owner>_<constant>. listed: true if the body names a material;
+   constants are then optional and replace those of the named material. Otherwise they are required.
+*/
 PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool listed, Material *material)
 {
   const MaterialLaw *law;
@@ -131,7 +138,7 @@ static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Shows the constants that are required or not 0 */
+/* Calls `show` for each constant that is required or not 0. */
 static PetscErrorCode ConstantsShow(const Material *material,
   PetscErrorCode (*show)(const MaterialConstant *, PetscInt, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
@@ -148,7 +155,7 @@ static PetscErrorCode ConstantsShow(const Material *material,
   PetscFunctionReturn(0);
 }
 
-/* Prints the constants as YAML, one per line */
+/* Prints the constants as YAML, one per line. */
 PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -156,7 +163,7 @@ PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Describes the constants within a line */
+/* Describes the constants within a line. */
 PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -188,7 +195,7 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
   PetscFunctionReturn(0);
 }
 
-/* Checks a constant against its law's bounds */
+/* Checks that a constant lies within the bounds of its law. */
 static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
   const MaterialConstant *c)
 {
@@ -198,7 +205,8 @@ static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const S
   char             lower[32], upper[32];
 
   PetscFunctionBegin;
-  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* PETSc's formatting would print 0. */
+  (void)snprintf(lower, sizeof(lower), "%g", (double)c->lower); /* snprintf() is used because PETSc's formatting
+                                                                   would print 0. for 0 */
   (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
   for (PetscInt i = 0; i < n && c->lower < c->upper; ++i) {
     PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,

@@ -1,9 +1,9 @@
-/* contact: keys of a contact pair that are not single values */
+/* contact: keys of a contact pair that are not single values. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Reads true, false, or a length */
+/* Reads `interference`: true (any overlap is intended), false, or the largest intended overlap [length]. */
 static PetscErrorCode InterferenceRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneContactPair *pair = entry;
@@ -39,7 +39,10 @@ static PetscErrorCode InterferenceView(Scene scene, PetscViewer viewer, const vo
 
 const SceneOwn SceneOwnInterference = {InterferenceRead, InterferenceIsShown, InterferenceView, 0};
 
-/* Reads `stick`; called after friction and shear_limit, which it excludes */
+/*
+   Reads `stick`. Call this function after friction and shear_limit have been read, which must not be given together
+   with `stick: true`.
+*/
 static PetscErrorCode StickRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneContactPair *pair   = entry;
@@ -73,7 +76,10 @@ static PetscErrorCode StickView(Scene scene, PetscViewer viewer, const void *ent
 
 const SceneOwn SceneOwnStick = {StickRead, StickIsShown, StickView, 0};
 
-/* Reads a list of names of bodies and faces, or of two of them joined by a slash; stored with commas */
+/*
+   Reads a list whose entries are names of bodies or faces, or two of these names joined by a slash. The list is stored
+   as a text with commas.
+*/
 static PetscErrorCode ExceptRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneContactPair *pair   = entry;
@@ -107,14 +113,17 @@ static PetscErrorCode ExceptView(Scene scene, PetscViewer viewer, const void *en
 
 const SceneOwn SceneOwnExcept = {ExceptRead, ExceptIsShown, ExceptView, 1};
 
-/* Whether an entry names no faces: the entry `auto`, or one with two bodies */
+/*
+   Returns whether an entry is a rule for contact pairs, because it names no faces: the entry `auto`, or an entry with
+   two bodies.
+*/
 static PetscBool PairIsRule(const SceneContactPair *pair)
 {
   return (
     PetscBool)(!pair->mortar || !pair->nonmortar || (!strchr(pair->mortar, '.') && !strchr(pair->nonmortar, '.')));
 }
 
-/* Checks which sides and which keys of rules an entry has */
+/* Checks which sides are given, and that keys of rules are given only for rules. */
 static PetscErrorCode FinishSides(SceneKeys keys, const char owner[], SceneContactPair *pair)
 {
   PetscBool any;
@@ -134,7 +143,7 @@ static PetscErrorCode FinishSides(SceneKeys keys, const char owner[], SceneConta
   PetscFunctionReturn(0);
 }
 
-/* Takes the entries that name no faces out of the pairs */
+/* Moves the entries that are rules from scene->pairs to scene->rules. */
 PetscErrorCode SceneSplitRules(Scene scene)
 {
   const PetscInt n = scene->npairs;
@@ -151,7 +160,7 @@ PetscErrorCode SceneSplitRules(Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Prints rules and pairs as one list */
+/* Prints rules and pairs as one list. */
 PetscErrorCode SceneViewPairs(Scene scene, PetscViewer viewer, const SceneList *list)
 {
   SceneContactPair *all;
@@ -165,7 +174,7 @@ PetscErrorCode SceneViewPairs(Scene scene, PetscViewer viewer, const SceneList *
   PetscFunctionReturn(0);
 }
 
-/* Checks that a part of a text is a body, or a face of one */
+/* Checks that a part of a text, `length` characters from `text` on, names a body or a face of a body. */
 static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene scene, const char owner[],
   const char text[], size_t length)
 {
@@ -205,7 +214,10 @@ PetscErrorCode SceneValidateRules(MPI_Comm comm, const char file[], Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Finishes a pair: its ramps must exist; a shear limit without a coefficient holds for any normal force */
+/*
+   Finishes a pair: checks that the values to which ramps are applied are given. A shear limit without a coefficient of
+   friction holds for any normal force.
+*/
 PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneContactPair *pair = entry;

@@ -1,9 +1,12 @@
-/* displacements: of faces, of vertices at points and along edges, and of rigid bodies, which can also rotate freely */
+/*
+   displacements: prescribed displacements of faces, of vertices at points and along edges, and of rigid bodies, whose
+   rotation can also be free.
+*/
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Reads three values, each a number or the word `free` */
+/* Reads three values, each of which is a number or the word `free`. */
 static PetscErrorCode ReadThree(SceneKeys keys, const char key[], const char text[], PetscReal value[3],
   PetscBool free[3])
 {
@@ -78,7 +81,7 @@ PetscBool SceneRotates(const SceneDisplacement *d)
   return (PetscBool)(d->rotation[0] != 0 || d->rotation[1] != 0 || d->rotation[2] != 0);
 }
 
-/* Whether any rotation of a rigid body is free */
+/* Returns whether any rotation of a rigid body is free. */
 PetscBool SceneTurnsFreely(const SceneDisplacement *d)
 {
   return (PetscBool)(d->released[3] || d->released[4] || d->released[5]);
@@ -128,8 +131,10 @@ PetscBool SceneIsWholeBody(const char face[])
   return (PetscBool)(length > end && !strcmp(face + length - end, SCENE_WHOLE_BODY));
 }
 
-/* If a rigid body is named, sets the face's name to the whole body; why: reason for the error message if the body is
-   elastic */
+/*
+   Sets *face to the name of the whole body if a rigid body is given. body: number of the body; negative: not given.
+   why: reason for the error message if the body is elastic.
+*/
 PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[], const char why[], PetscInt body,
   char **face)
 {
@@ -148,7 +153,10 @@ PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionReturn(0);
 }
 
-/* Reads point, or from and to, on an elastic body; a generated name replaces that of a face */
+/*
+   Sets a displacement at a point or along an edge of an elastic body, from the key `point` or the keys `from` and `to`.
+   The name of the face is generated. point: true for a point.
+*/
 static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const char owner[], PetscBool point,
   SceneDisplacement *d)
 {
@@ -181,8 +189,10 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
   PetscFunctionReturn(0);
 }
 
-/* Finds which motions of a rigid body are free. A component is prescribed at all of its nodes only if neither it nor
-   a rotation that changes it is free */
+/*
+   Finds which motions of a rigid body are free. A component is prescribed at all nodes only if neither this component
+   nor a rotation that changes it is free.
+*/
 static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
 {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-/* dynamics: time steps, and the properties of bodies that they require */
+/* dynamics: time steps, and the properties of bodies that time steps require. */
 #include "sectionsimpl.h"
 
 #define DynamicsRequire(condition, keys, ...) \
@@ -6,7 +6,7 @@
     if (!(condition)) PetscCall(SceneKeysError(keys, __VA_ARGS__)); \
   } while (0)
 
-/* Checks the values, and that the number of time steps is not too large */
+/* Checks the values, and that the number of time steps is not too large. */
 static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
 {
   PetscFunctionBegin;
@@ -26,7 +26,7 @@ static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
   PetscFunctionReturn(0);
 }
 
-/* Time steps of equal size, none larger than asked for */
+/* Reads the keys of dynamics and sets time steps of equal size, which are not larger than the given time_step. */
 PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *list)
 {
   SceneDynamics *d   = &scene->dynamics;
@@ -41,7 +41,9 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   *d = *(const SceneDynamics *)list->initial;
   PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, PETSC_FALSE, d));
   PetscCall(DynamicsCheck(keys, d));
-  if (keys->error[0]) d->time_step = d->end_time = 1.0; /* nothing is simulated */
+  if (keys->error[0])
+    d->time_step = d->end_time = 1.0; /* the values are valid, but nothing is simulated after an
+                                                           error */
   scene->nsteps = PetscMax(1, (PetscInt)PetscCeilReal(d->end_time / d->time_step * (1.0 - PETSC_SQRT_MACHINE_EPSILON)));
   d->time_step  = d->end_time / (PetscReal)scene->nsteps;
   PetscFunctionReturn(0);

@@ -1,10 +1,13 @@
-/* Faces of bodies; and the list `faces` of parts that are cut out of them */
+/* faces: names of the faces of bodies, and the list `faces` of parts that are cut out of faces. */
 #include "sectionsimpl.h"
 #include <mesh.h>
 #include <petscviewer.h>
 #include <string.h>
 
-/* The body of a name <body>.<face>, PETSC_DECIDE if there is none; face: what follows the dot */
+/*
+   Finds the body in a name <body>.<face>. Returns the number of the body; PETSC_DECIDE if there is no such body. *face:
+   the part of the name after the dot.
+*/
 PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
 {
   const char *dot = strchr(name, '.');
@@ -19,7 +22,7 @@ PetscInt SceneFindBody(Scene scene, const char name[], const char **face)
   return PETSC_DECIDE;
 }
 
-/* The body that a face belongs to. face: "<body>.<face>" of a body of the scene */
+/* Returns the body to which a face belongs. face: "<body>.<face>" with a body of the scene. */
 const SceneBody *SceneFaceBody(Scene scene, const char face[])
 {
   const char *name;
@@ -27,7 +30,7 @@ const SceneBody *SceneFaceBody(Scene scene, const char face[])
   return &scene->bodies[SceneFindBody(scene, face, &name)];
 }
 
-/* Reads the list and adds each entry to its body */
+/* Reads the list and adds each entry to its body. */
 PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list)
 {
   PetscInt      n     = 0;
@@ -60,7 +63,7 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list
   PetscFunctionReturn(0);
 }
 
-/* Prints the list with the names of the bodies */
+/* Prints the list with the names of the bodies. */
 PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *list)
 {
   SceneSubface *faces;
@@ -84,7 +87,7 @@ PetscErrorCode SceneViewFaces(Scene scene, PetscViewer viewer, const SceneList *
   PetscFunctionReturn(0);
 }
 
-/* The names of a body's faces as text, for messages; found: whether face is one of them */
+/* Describes the names of a body's faces as a text for messages. *found: true if `face` is one of these names. */
 static PetscErrorCode FacesDescribe(MPI_Comm comm, SceneBody *body, const char face[], size_t length, char text[],
   PetscBool *found)
 {
@@ -108,7 +111,10 @@ static PetscErrorCode FacesDescribe(MPI_Comm comm, SceneBody *body, const char f
   PetscFunctionReturn(0);
 }
 
-/* Checks that a face exists; what and owner describe what refers to it, as in: displacement "bottom" */
+/*
+   Collective. Checks that a face exists. what, owner: describe the entry that refers to the face, as in displacement
+   "bottom".
+*/
 PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[],
   const char name[])
 {

@@ -1,7 +1,7 @@
 /*
-   The table of keys: everything that a scene file may contain, list by list. Reading, checks of single values,
-   printing, freeing, -scene_keys and the tables in share/scenes/README.md use it. Conditions between values are checked
-   in the other files here, and in validate.c.
+   The table of keys lists everything that a scene file may contain. It is used to read, check, print and free single
+   values, to print the keys (-scene_keys), and to write the tables in share/scenes/README.md. Conditions between
+   several values are checked in the other files of this folder and in validate.c.
 */
 #include "sectionsimpl.h"
 #include <stddef.h>
@@ -308,7 +308,10 @@ static const SceneSubface      face_initial         = {.lower = {PETSC_NINFINITY
 
 #define OF_SCENE(n, list) .count = offsetof(struct _n_Scene, n), .entries = offsetof(struct _n_Scene, list)
 
-/* In the order of printing. Lists whose entries are shared come after the owners */
+/*
+   Lists in the order in which they are printed. A list that shares its entries with another list comes after the list
+   that owns them.
+*/
 const SceneList SceneLists[] = {
   {.name = "", .rows = top_rows},
   {"bodies", body_rows, sizeof(SceneBody), OF_SCENE(nbodies, bodies), .required = PETSC_TRUE, .initial = &body_initial,
@@ -346,7 +349,7 @@ const SceneList SceneLists[] = {
   {.name = NULL},
 };
 
-/* Finds a list by its name; NULL: none */
+/* Finds a list by its name. Returns NULL if there is none. */
 const SceneList *SceneFindList(const char name[])
 {
   const SceneList *list = SceneLists;

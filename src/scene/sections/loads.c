@@ -1,4 +1,4 @@
-/* forces on faces and rigid bodies, and temperatures: keys that are not single values */
+/* forces, tractions and temperatures: keys that are not single values. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -21,7 +21,7 @@ PetscBool SceneForceHides(const void *entry, const char key[])
   return (PetscBool)(!strcmp(key, "point") && !force->placed);
 }
 
-/* Finishes a force: it acts on a face or a rigid body, and has a value, a moment or both */
+/* Finishes a force, which acts on a face or a rigid body and has a value, a moment or both. */
 PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneTraction *force = entry;
@@ -51,7 +51,7 @@ static PetscErrorCode SceneBodyExpands(const SceneBody *body, PetscBool *expands
   PetscFunctionReturn(0);
 }
 
-/* Checks that bodies with a temperature have a thermal expansion */
+/* Checks that bodies with a temperature have a thermal expansion. */
 PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;

@@ -1,9 +1,11 @@
-/* Named materials: from the scene's own list, and from a library, which is a file with such a list and the units of
-   its numbers */
+/*
+   materials: named materials, from the scene's own list or from a library. A library is a file with a list of materials
+   and the units of its numbers.
+*/
 #include "sectionsimpl.h"
 #include <options.h>
 
-/* Finishes a material: its name must not be that of a law or of another material */
+/* Finishes a material. Its name must not be that of a law or of another material. */
 PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneMaterial *material = entry;
@@ -13,7 +15,7 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   (void)scene;
   if (material->material.type == MATERIAL_RIGID) {
     PetscCall(SceneKeysError(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
-    material->material.type = MATERIAL_LINEAR; /* avoids a second error about its constants */
+    material->material.type = MATERIAL_LINEAR; /* avoids a second error about the constants of the material */
   }
   PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
   for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
@@ -23,7 +25,10 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   PetscFunctionReturn(0);
 }
 
-/* Appends the materials of a file (a library, or the scene itself) to the scene's */
+/*
+   Appends the materials of a file to those of the scene. keys: keys of the file, which is a library or the scene
+   itself; library: true for a library; scene: keys of the scene.
+*/
 static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, PetscBool library, SceneKeys scene)
 {
   SceneList      list  = *rows;
@@ -44,7 +49,9 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, P
   PetscFunctionReturn(0);
 }
 
-/* Reads a library. The scene takes its units, or, if the scene states units, they must be the same text */
+/*
+   Reads a library. If the scene states no units, it has the units of the library; otherwise both texts must be equal.
+*/
 static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows, const char name[], Scene scene)
 {
   SceneKeys   library;
@@ -72,7 +79,7 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscFunctionReturn(0);
 }
 
-/* Reads all materials; must come before the bodies */
+/* Reads all materials. Call this function before the bodies are read. */
 PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *rows)
 {
   const char *text;
@@ -84,8 +91,10 @@ PetscErrorCode SceneReadMaterials(SceneKeys keys, Scene scene, const SceneList *
   PetscFunctionReturn(0);
 }
 
-/* Error for a name that is neither a law nor a material: suggests the nearest name and says where materials may come
-   from */
+/*
+   Records an error about a name that is neither that of a law nor that of a material. The message suggests the nearest
+   name, or lists all names, and says where materials are defined.
+*/
 static PetscErrorCode MaterialsError(SceneKeys keys, const char key[], const char name[])
 {
   const char **names, *nearest;
@@ -114,7 +123,10 @@ static PetscErrorCode MaterialsError(SceneKeys keys, const char key[], const cha
   PetscFunctionReturn(0);
 }
 
-/* Sets the material of a body by the name of a law (constants unchanged) or of a material */
+/*
+   Finds the material of a body by the name of a law, whose constants are not set here, or by the name of a material.
+   *listed: true for the name of a material.
+*/
 PetscErrorCode SceneFindMaterial(SceneKeys keys, const char key[], const char name[], PetscBool *listed,
   Material *material)
 {

@@ -1,7 +1,10 @@
-/* Checks of rigid motions: those of one face or body add up, and every rigid body has one */
+/* Checks rigid motions. Several rigid motions of a face or body are added, and every rigid body needs one. */
 #include "sectionsimpl.h"
 
-/* Displacements of one face that prescribe all components are rigid motions, which add up */
+/*
+   Marks the displacements of a face as rigid motions (moves) if several of them prescribe all components, so that they
+   are added.
+*/
 PetscErrorCode SceneJoinMotions(Scene scene)
 {
   PetscBool same;
@@ -22,7 +25,7 @@ PetscErrorCode SceneJoinMotions(Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Checks two displacements of the same face or body: both must be rigid motions about the same center */
+/* Checks two displacements of the same face or body. Both must be rigid motions about the same center. */
 PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const SceneDisplacement *a,
   const SceneDisplacement *b)
 {
@@ -46,7 +49,7 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
   PetscFunctionReturn(0);
 }
 
-/* Checks that every rigid body is moved as a whole, and that nothing else prescribes its displacements */
+/* Checks that every rigid body is moved as a whole, and that no other displacement applies to its faces. */
 PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscInt nrigid = 0;

@@ -1,4 +1,4 @@
-/* probes: points, or lines with a number of points */
+/* probes: points, or lines with a number of points. */
 #include "sectionsimpl.h"
 #include <string.h>
 

@@ -1,7 +1,7 @@
-/* load and ramps: histories of the load, and of quantities with a ramp of their own */
+/* load and ramps: factors of the load in each load step, and of quantities that have their own ramp. */
 #include "sectionsimpl.h"
 
-/* Sets a linear rise from 0 to 1 */
+/* Sets a linear increase from 0 to 1. */
 static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
 {
   PetscFunctionBegin;
@@ -10,7 +10,10 @@ static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
   PetscFunctionReturn(0);
 }
 
-/* The number of load steps where the scene does not say it: that of the first ramp's factors, or one */
+/*
+   Finds the number of load steps if the scene does not state it. *nsteps: number of factors of the first ramp that has
+   factors, or 1.
+*/
 static PetscErrorCode SceneCountFactors(SceneKeys keys, PetscInt nramps, char *const ramps[], PetscInt *nsteps)
 {
   PetscFunctionBegin;
@@ -31,7 +34,7 @@ static PetscErrorCode SceneCountFactors(SceneKeys keys, PetscInt nramps, char *c
   PetscFunctionReturn(0);
 }
 
-/* Reads the load, which is ramp 0 and sets the number of steps. ramps: names of the others */
+/* Reads the load, which is ramp 0 and determines the number of load steps. ramps: names of the other ramps. */
 static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps, char *const ramps[], SceneRamp *ramp)
 {
   const char *steps, *factors;
@@ -118,7 +121,9 @@ PetscErrorCode SceneReadRamps(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/* Resamples all ramps at nsteps equal time steps. Displacement bounds start no earlier than before */
+/*
+   Resamples all ramps at nsteps equal time steps. Bounds of displacements do not start at an earlier time than before.
+*/
 PetscErrorCode SceneResample(Scene scene, PetscInt nsteps)
 {
   const PetscReal stretch = (PetscReal)nsteps / (PetscReal)scene->nsteps;

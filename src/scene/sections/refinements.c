@@ -1,11 +1,11 @@
-/* refinements: zones where cells are refined more, near faces or in a box */
+/* refinements: zones near faces or in a box, in which cells are refined further. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
 #define REFINEMENT_MAX_LEVELS 20
 
-/* Reads the name of a face, or of a contact pair, which stands for both of its faces */
+/* Reads the name of a face, or of a contact pair, which denotes both of its faces. */
 static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   SceneRefinement *refinement = entry;
@@ -29,7 +29,7 @@ static PetscBool NearIsShown(const void *entry)
   return (PetscBool)(((const SceneRefinement *)entry)->face[0] != NULL);
 }
 
-/* Prints a face, or the contact pair that has both */
+/* Prints the name of a face, or of the contact pair to which both faces belong. */
 static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entry)
 {
   char *const *face = ((const SceneRefinement *)entry)->face;
@@ -46,7 +46,7 @@ static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entr
 
 const SceneOwn SceneOwnNear = {NearRead, NearIsShown, NearView, 2};
 
-/* Whether a key is not printed: the box of a zone that is near a face */
+/* Returns whether a key is not printed, which is so for the keys of a box if the zone is near a face. */
 PetscBool SceneRefinementHides(const void *entry, const char key[])
 {
   return (PetscBool)(NearIsShown(entry) && (!strcmp(key, "lower") || !strcmp(key, "upper") || !strcmp(key, "body")));

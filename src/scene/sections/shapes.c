@@ -1,4 +1,4 @@
-/* Reading and printing of the keys of all shapes. A key with an underscore may be nested, as outer: {radius: 1} */
+/* Reads and prints the keys of all shapes. A key with an underscore may be nested, for example outer: {radius: 1}. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static const ShapeKey gmsh_keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-/* Gets the keys of a body's shape */
+/* Gets the keys of a body's shape. */
 PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
 {
   const Shape *shape;
@@ -44,7 +44,7 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
   PetscFunctionReturn(0);
 }
 
-/* Reads the shape's name; the key mesh without a shape means gmsh */
+/* Reads the name of the shape. If it is missing and the key `mesh` exists, the shape is gmsh. */
 static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
@@ -59,7 +59,7 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_mesh", body->name));
     if (SceneValuesUse(&keys->values, key)) shape = SHAPE_GMSH;
   }
-  if (shape < 0) { /* unknown shape: reported first, as the valid keys depend on it */
+  if (shape < 0) { /* the shape is unknown; this error is reported first, since the valid keys depend on the shape */
     if (text) keys->decides = PETSC_TRUE;
     shape = SHAPE_BOX;
   }
@@ -84,8 +84,8 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   PetscCall(SceneGetShapeKeys(body, &shape_keys));
   for (const ShapeKey *k = shape_keys; k->name; ++k) {
     PetscCall(SceneReadShapeKey(keys, k, body));
-    /* Spheres are centred at the corner of the body unless they have their own center, which comes later in the
-       table */
+    /* The centre of each sphere is the corner of the body unless the sphere has its own centre, whose key comes
+       later in the table. */
     if (k->offset == offsetof(SceneBody, octant.corner)) {
       for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
     }
@@ -99,7 +99,10 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* Whether an optional key was not given: all zeros, or equal to the default below */
+/*
+   Returns whether an optional key has its default value, so that it is not printed. The default is a negative number
+   for directions, 0 for reals and 1 for integers.
+*/
 static PetscBool SceneShapeKeyIsDefault(const ShapeKey *key, const SceneBody *body)
 {
   const void *value = (const char *)body + key->offset;

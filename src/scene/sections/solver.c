@@ -1,6 +1,8 @@
-/* solver: PETSc options as a mapping. They are set while the scene exists, unless the command line or an options
-   file has set them. Not all PETSc options are known in advance, so a misspelt one is reported at the end of the
-   run, as unused. */
+/*
+   solver: a mapping of PETSc options. They are set while the scene exists, unless the command line or an options file
+   has set them. Not all PETSc options are known in advance; therefore a misspelt option is reported as unused at the
+   end of the run.
+*/
 #include "sectionsimpl.h"
 
 #define SOLVER_PREFIX "solver_"

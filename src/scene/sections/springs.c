@@ -1,9 +1,12 @@
-/* springs and weak_springs: keys that are not single values */
+/* springs and weak_springs: keys that are not single values. */
 #include "sectionsimpl.h"
 #include <petscviewer.h>
 #include <string.h>
 
-/* Reads true, false, or the relative stiffness, which must be at most 0.01: stiffer springs would not be weak */
+/*
+   Reads `weak_springs`: true, false, or the relative stiffness. It must be at most 0.01, since stiffer springs would
+   not be weak.
+*/
 static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char key[], const char text[], void *entry)
 {
   PetscReal *stiffness = &scene->weak_springs;

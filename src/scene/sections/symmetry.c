@@ -1,7 +1,8 @@
 /*
-   symmetry: a list of plane faces with zero normal displacement. The name of the face is sufficient if a built-in shape
-   determines its normal (xmin, y0, lmax). For other faces: cut: {face: bracket.cut, normal: y}, or with a vector as
-   normal. Symmetry planes become prescribed displacements, after those of the scene.
+   symmetry: a list of plane faces with zero normal displacement. An entry is only the name of a face if a built-in
+   shape determines its normal (xmin, y0, lmax). Other faces have a name and a normal, which is an axis or a vector:
+   cut: {face: bracket.cut, normal: y}. Symmetry planes become prescribed displacements, after those of the list
+   `displacements`.
 */
 #include "sectionsimpl.h"
 #include <string.h>
@@ -13,7 +14,7 @@ static PetscBool SymmetryIsOneOf(const char name[], const char a[], const char b
   return !strcmp(name, a) || !strcmp(name, b) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Axis of a face named xmin, xmax, x0, ymin, ... */
+/* Returns the axis that is normal to a face named xmin, xmax, x0, ymin, and so on; PETSC_DECIDE for other names. */
 static PetscInt SymmetryAxisOfBox(const char face[])
 {
   if (face[0] < 'x' || face[0] > 'z') return PETSC_DECIDE;
@@ -38,7 +39,7 @@ static PetscInt SymmetryAxisOfHalfEllipse(const SceneHalfEllipse *ellipse, const
   return !strcmp(face, "symmetry") && ellipse->half >= 0 ? ellipse->half % 3 : PETSC_DECIDE;
 }
 
-/* Normal of the start and end faces of a tube arc at any angle; 0 if it is another face */
+/* Computes the normal of the start or end face of a tube arc at any angle. normal: 0 for another face. */
 static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal normal[3])
 {
   const char         *name = NULL;
@@ -53,7 +54,10 @@ static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal no
   normal[(tube->axis + 2) % 3] = PetscCosReal(angle);
 }
 
-/* Sets a normal along an axis as a prescribed component */
+/*
+   Sets the normal of a symmetry plane. If the normal is along an axis, one component is prescribed; otherwise the
+   displacement is inclined.
+*/
 static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *displacement)
 {
   const PetscReal length = PetscSqrtReal(PetscSqr(normal[0]) + PetscSqr(normal[1]) + PetscSqr(normal[2]));
@@ -68,7 +72,10 @@ static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *disp
   else displacement->inclined = PETSC_TRUE;
 }
 
-/* Axis normal to a plane face of a built-in shape; PETSC_DECIDE if its name does not determine it */
+/*
+   Returns the axis normal to a plane face of a built-in shape; PETSC_DECIDE if the name of the face does not determine
+   the axis.
+*/
 static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
 {
   const char      *name;
@@ -84,8 +91,10 @@ static PetscInt SymmetryAxisOfFace(Scene scene, const char face[])
   return body->shape == SHAPE_GMSH ? PETSC_DECIDE : SymmetryAxisOfBox(name);
 }
 
-/* Reads an entry that is only a face; the displacement is named after it. If the axis is unknown nothing is
-   prescribed, and SceneValidate() raises an error */
+/*
+   Reads an entry that is only a face; the displacement is named after the face. If the normal is not known, nothing is
+   prescribed, and SceneValidate() raises an error.
+*/
 static PetscErrorCode SceneReadSymmetryFace(Scene scene, const char face[], SceneDisplacement *displacement)
 {
   const PetscInt axis = SymmetryAxisOfFace(scene, face);
@@ -132,7 +141,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   PetscFunctionReturn(0);
 }
 
-/* Reads the list; call after bodies and displacements */
+/* Reads the list. Call this function after bodies and displacements have been read. */
 PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
 {
   const char *text;

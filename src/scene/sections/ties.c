@@ -1,4 +1,4 @@
-/* ties: checks of pairs of faces that are joined */
+/* ties: checks pairs of faces that are tied. */
 #include "sectionsimpl.h"
 #include <string.h>
 
