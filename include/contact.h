@@ -21,13 +21,15 @@ typedef struct {
   Vec       mass;  /* lumped nonmortar mass m_A = int phi_A [length^2] */
   Mat       slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
                two tangents of a row. Rows without friction are empty; NULL: no pair has friction */
-  PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
-  PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
+  PetscReal *tangent;    /* [6 nlocal] the two unit tangents of each row */
+  PetscReal *covered;    /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
                          pair has friction */
-  PetscReal *normal;  /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
-  PetscInt   nlocal;  /* rows of this rank */
-  PetscInt  *vertex;  /* nonmortar vertex (local DMPlex point) of each local row */
-  PetscInt  *pair;    /* contact pair of each local row */
+  PetscReal *mortar_sum; /* [6 nlocal] sums of the vectors of J, and of those of cover, over the nodes of the mortar
+                            face, as at the row's vertex; NULL: those of the matrices, no body is cut to a sector */
+  PetscReal *normal;     /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
+  PetscInt   nlocal;     /* rows of this rank */
+  PetscInt  *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */
+  PetscInt  *pair;       /* contact pair of each local row */
 } * ContactLinearization;
 
 /* Collective. Finds the pairs and ties that the scene's rules (contact: auto) leave open, and adds them to the scene */
@@ -36,6 +38,7 @@ PETSC_EXTERN PetscErrorCode ContactCreate(DM, PetscInt npairs, const SceneContac
 PETSC_EXTERN PetscErrorCode ContactSetFromOptions(Contact);
 PETSC_EXTERN PetscErrorCode ContactSetDisplacements(Contact, PetscInt n, const SceneDisplacement[]);
 PETSC_EXTERN PetscErrorCode ContactSetBodies(Contact, const SceneBody[]);
+PETSC_EXTERN PetscErrorCode ContactSetCyclic(Contact, PetscInt n, const SceneCyclic[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);

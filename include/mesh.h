@@ -74,6 +74,8 @@ PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Local vertices (DMPlex points) in the closure of a face, also of facets that other ranks own */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's nodes that this rank owns */
+PETSC_EXTERN PetscErrorCode MeshGetCyclicImages(DM, const SceneCyclic *, PetscReal turn[3][3], PetscInt *n,
+  PetscInt *nodes[], PetscInt *images[]);
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
 /* The 4 vertices of a facet, counterclockwise seen from outside the body (a triangle repeats the last one). The 8
    vertices of a hexahedron in tensor order, x fastest */

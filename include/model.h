@@ -271,6 +271,14 @@ typedef struct {
   PetscReal distance;  /* largest distance of facets that are joined [length]; 0: from their size */
 } SceneTie;
 
+/* Cyclic symmetry: a body of which a sector is modelled ends on two faces; the second is the first one, turned about
+   the axis by the sector's angle */
+typedef struct {
+  char     *name;
+  char     *from, *to;          /* "<body>.<face>" of one body */
+  PetscReal axis[3], center[3]; /* direction of the axis, any length, and a point on it [length] */
+} SceneCyclic;
+
 /* A zone of finer cells: near a face, near both faces of a contact pair, or in a box */
 typedef struct {
   char     *name;
@@ -325,6 +333,8 @@ typedef struct _n_Scene {
   SceneContactPair *rules;
   PetscInt          nties;
   SceneTie         *ties;
+  PetscInt          ncyclic;
+  SceneCyclic      *cyclic;
   PetscInt          nrefinements;
   SceneRefinement  *refinements;
   PetscInt          nprobes;

@@ -107,6 +107,12 @@ typedef struct {
   const Mat     *follows; /* derivative of follower loads; points to NULL: none [force/length] */
 } Constraints;
 
+/* cyclic.c */
+PETSC_INTERN PetscErrorCode CyclicCreate(const Constraints *, const PetscBool prescribed[], Mat *Y,
+  PetscBool follows[]);
+PETSC_INTERN PetscErrorCode CyclicGetAxisNodes(const Constraints *, const SceneCyclic *, PetscInt *n, PetscInt **nodes,
+  PetscReal normals[2][3]);
+
 /* planes.c */
 PETSC_INTERN PetscErrorCode PlanesCreate(const Constraints *, const PetscBool prescribed[], Mat *C,
   PetscBool follows[]);

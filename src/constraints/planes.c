@@ -1,6 +1,6 @@
-/* Symmetry planes in inclined directions: n . u = 0 at their nodes. At each node as many components as there are
-   planes depend on the others, by Gauss-Jordan elimination. Those with the largest coefficients are chosen, and none
-   that is prescribed. */
+/* Symmetry planes in inclined directions: n . u = 0 at their nodes. Nodes on the axis of a cyclic symmetry are on two
+   such planes. At each node as many components as there are planes depend on the others, by Gauss-Jordan elimination.
+   Those with the largest coefficients are chosen, and none that is prescribed. */
 #include "constraintsimpl.h"
 #include <vector3.h>
 
@@ -33,6 +33,19 @@ static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rst
     }
     PetscCall(ISRestoreIndices(is, &rows));
     PetscCall(ISDestroy(&is));
+  }
+  for (PetscInt k = 0; k < constraints->bodies.scene->ncyclic; ++k) {
+    PetscInt  n, *on;
+    PetscReal normals[2][3];
+
+    PetscCall(CyclicGetAxisNodes(constraints, &constraints->bodies.scene->cyclic[k], &n, &on, normals));
+    for (PetscInt i = 0; i < 2 * n; ++i) {
+      NodePlanes *node = &nodes[on[i / 2]];
+
+      if (node->n == 3) continue;
+      PetscCall(PetscArraycpy(node->a[node->n++], normals[i % 2], 3));
+    }
+    PetscCall(PetscFree(on));
   }
   PetscFunctionReturn(0);
 }
@@ -123,7 +136,7 @@ PetscErrorCode PlanesCreate(const Constraints *constraints, const PetscBool pres
   *C = NULL;
   for (PetscInt d = 0; d < constraints->bodies.scene->ndisplacements; ++d)
     any = (PetscBool)(any || constraints->bodies.scene->displacements[d].inclined);
-  if (!any) PetscFunctionReturn(0);
+  if (!any && !constraints->bodies.scene->ncyclic) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(constraints->bodies.mass, &n));
   PetscCall(VecGetOwnershipRange(constraints->bodies.mass, &rstart, NULL));
   PetscCall(PetscCalloc1(n / 3, &nodes));

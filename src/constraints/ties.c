@@ -1,9 +1,9 @@
 /*
-   Dependent displacements: tied faces, inclined symmetry planes, hanging vertices, and rigid bodies driven by forces.
-   They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u; its values in
-   dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the stiffness C^T
-   K C with a diagonal in dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed rows do not
-   become dependent.
+   Dependent displacements: tied faces, inclined symmetry planes, cuts of sectors, hanging vertices, and rigid bodies
+   driven by forces. They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u; its
+   values in dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the
+   stiffness C^T K C with a diagonal in dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed
+   rows do not become dependent.
 */
 #include "constraintsimpl.h"
 
@@ -57,20 +57,24 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* Composes C. Tied nodes may depend on nodes on symmetry planes and on hanging nodes, and may be such nodes
-   themselves. Therefore planes come first and hanging nodes, which may lie between nodes on planes, last */
-static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat hanging, Mat *C)
+/* Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging nodes and on nodes of a cut that follow
+   those of its other face, and may be such nodes themselves. Therefore planes come first, then hanging nodes, which may
+   lie between nodes on planes, and the second faces of cuts last */
+static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
   *C = NULL;
   PetscCall(TiesApplyNext(planes, C));
   PetscCall(TiesApplyNext(hanging, C));
+  PetscCall(TiesApplyNext(cyclic, C));
   if (joints) {
     PetscCall(TiesApplyNext(joints, C));
     PetscCall(TiesApplyNext(planes, C));
     PetscCall(TiesApplyNext(hanging, C));
+    PetscCall(TiesApplyNext(cyclic, C));
   }
   PetscCall(MatDestroy(&joints));
+  PetscCall(MatDestroy(&cyclic));
   PetscCall(MatDestroy(&planes));
   PetscFunctionReturn(0);
 }
@@ -138,7 +142,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
   Ties      *ties = c->ties;
   PetscInt   n, rstart;
   PetscBool *prescribed, *follows;
-  Mat        joints, planes;
+  Mat        joints, planes, cyclic;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(c->bodies.mass, &n));
@@ -148,9 +152,10 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscCall(PlanesCreate(c, prescribed, &planes, follows));
   PetscCall(JointsCreate(c, prescribed, &joints, follows));
   PetscCall(TiesCreateHanging(c, prescribed, &ties->hanging, follows));
+  PetscCall(CyclicCreate(c, prescribed, &cyclic, follows));
   PetscCall(RigidCreate(c, prescribed, follows));
-  if (planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
-    PetscCall(TiesCompose(joints, planes, ties->hanging, c->rigid->R ? &ties->joined : &ties->C));
+  if (cyclic || planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
+    PetscCall(TiesCompose(joints, planes, cyclic, ties->hanging, c->rigid->R ? &ties->joined : &ties->C));
     PetscCall(TiesJoinRigid(c));
     if (!ties->C) PetscCall(TiesCreateDiagonal(c->bodies.mass, 1.0, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));

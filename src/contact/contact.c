@@ -451,6 +451,7 @@ PetscErrorCode ContactDestroy(Contact *contact)
   PetscFunctionBegin;
   if (!*contact) PetscFunctionReturn(0);
   PetscCall(ContactRowsDestroy(*contact));
+  PetscCall(ContactCyclicDestroy(*contact));
   PetscCall(ContactSmoothReset(*contact));
   for (PetscInt p = 0; p < (*contact)->npairs; ++p) {
     PetscCall(PetscFree((*contact)->pairs[p].name));

@@ -218,6 +218,7 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(PetscFree((*lin)->normal));
   PetscCall(PetscFree((*lin)->tangent));
   PetscCall(PetscFree((*lin)->covered));
+  PetscCall(PetscFree((*lin)->mortar_sum));
   PetscCall(PetscFree((*lin)->vertex));
   PetscCall(PetscFree((*lin)->pair));
   PetscCall(PetscFree(*lin));

@@ -185,6 +185,7 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(ContactSetBodies(contact, scene->bodies));
   PetscCall(ContactSetFromOptions(contact));
   PetscCall(ContactSetDisplacements(contact, scene->ndisplacements, scene->displacements));
+  PetscCall(ContactSetCyclic(contact, scene->ncyclic, scene->cyclic));
   PetscCall(DMCreateGlobalVector(dm, &zero));
   PetscCall(VecZeroEntries(zero));
   PetscCall(ContactLinearizeForces(contact, zero, &lin));

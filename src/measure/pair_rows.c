@@ -4,8 +4,9 @@
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Computes for each row A the vector mass_A x sum of A_AB over the vertices B of the mortar side */
-static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt n, PetscReal vector[])
+/* Computes for each row A the vector mass_A x sum of A_AB over the vertices B of the mortar side. at: position of these
+   sums in those of the linearization, if it has them */
+static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt at, PetscInt n, PetscReal vector[])
 {
   ContactLinearization lin = sim->solved->linearization;
   Vec                  mark, sum;
@@ -23,6 +24,11 @@ static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt
     for (PetscInt r = 0; r < n; ++r) vector[3 * r + c] = lin->pair[r] == pair ? PetscRealPart(s[r]) : 0.0;
     PetscCall(VecRestoreArrayRead(sum, &s));
   }
+  PetscCall(VecGetArrayRead(lin->mass, &s));
+  for (PetscInt i = 0; lin->mortar_sum && i < 3 * n; ++i) {
+    if (lin->pair[i / 3] == pair) vector[i] = PetscRealPart(s[i / 3]) * lin->mortar_sum[6 * (i / 3) + at + i % 3];
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &s));
   PetscCall(VecDestroy(&sum));
   PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
@@ -77,8 +83,8 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
     &rows->closed, n, &rows->length));
   PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
   PetscCall(PetscMalloc1(3 * n, &force));
-  PetscCall(PairRowsSum(sim, pair, PairCover(sim->solved->linearization), n, rows->normal));
-  PetscCall(PairRowsSum(sim, pair, sim->solved->linearization->J, n, force));
+  PetscCall(PairRowsSum(sim, pair, PairCover(sim->solved->linearization), 3, n, rows->normal));
+  PetscCall(PairRowsSum(sim, pair, sim->solved->linearization->J, 0, n, force));
   PetscCall(VecGetArrayRead(sim->solved->linearization->mass, &mass));
   for (PetscInt r = 0; r < n; ++r) {
     PetscReal *normal = &rows->normal[3 * r], size = VectorNorm(normal);

@@ -47,6 +47,40 @@ Mat PairCover(ContactLinearization lin)
   return lin->cover ? lin->cover : lin->J;
 }
 
+/* PairSpread() where bodies are cut to a sector: vectors of a row at vertices near the other face of the cut are
+   turned, so that their lengths are taken */
+static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal value[], ContactLinearization lin,
+  PetscInt to, Vec v)
+{
+  const PetscScalar *mass;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(PairCover(lin), &rstart, NULL));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    const PetscReal    factor = PetscRealPart(mass[r]) * rows->share[r] * (value ? value[r] : 1.0);
+    const PetscInt    *column;
+    const PetscScalar *entry;
+    PetscInt           n;
+
+    if (factor == 0.0) continue;
+    PetscCall(MatGetRow(PairCover(lin), rstart + r, &n, &column, &entry));
+    for (PetscInt i = 0; i < n;) {
+      const PetscInt node   = column[i] / 3;
+      PetscReal      square = 0.0;
+
+      for (; i < n && column[i] / 3 == node; ++i) square += PetscSqr(PetscRealPart(entry[i]));
+      PetscCall(VecSetValue(v, 3 * node + to, factor * PetscSqrtReal(square), ADD_VALUES));
+    }
+    PetscCall(MatRestoreRow(PairCover(lin), rstart + r, &n, &column, &entry));
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(VecAssemblyBegin(v));
+  PetscCall(VecAssemblyEnd(v));
+  PetscFunctionReturn(0);
+}
+
 /*
    Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
    is the integral of the rows' field times B's shape function; over a side these sum to the sum of w_A value_A.
@@ -60,6 +94,10 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   Vec                  weighted, spread;
 
   PetscFunctionBegin;
+  if (lin->mortar_sum) {
+    PetscCall(PairSpreadTurned(rows, value, lin, to, v));
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecDuplicate(lin->mass, &weighted));
   PetscCall(VecDuplicate(v, &spread));
   PetscCall(VecGetLocalSize(v, &n));

@@ -276,6 +276,35 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscFunctionReturn(0);
 }
 
+/* Adds what a cyclic symmetry leaves no motion for: the body moves along the axis, and turns about it; on the first
+   rank */
+static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
+{
+  IS          facets;
+  PetscInt    body, total, least = 0;
+  PetscMPIInt rank;
+  PetscReal   axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]}, across[2][3];
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, cut->from, &facets, &body, &total));
+  PetscCall(ISDestroy(&facets));
+  SupportBeginLink(support, body, PETSC_DECIDE);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  if (rank) PetscFunctionReturn(0);
+  (void)VectorScaleToUnit(axis);
+  for (PetscInt d = 1; d < 3; ++d) least = PetscAbsReal(axis[d]) < PetscAbsReal(axis[least]) ? d : least;
+  for (PetscInt d = 0; d < 3; ++d) across[0][d] = (d == least ? 1 : 0) - axis[least] * axis[d];
+  (void)VectorScaleToUnit(across[0]);
+  VectorCross(axis, across[0], across[1]);
+  for (PetscInt k = 0; k < 2; ++k) {
+    SupportAddMotion(support, body, across[k], cut->center, 1);
+    PetscCall(SupportAddRow(support, 1));
+    PetscCall(PetscArraycpy(support->row + 3, across[k], 3));
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Makes a row orthogonal to a unit vector */
 static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
 {
@@ -540,9 +569,10 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  const PetscInt nlinks  = scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties;
-  Support        support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
-  PetscReal     *outside;
+  const PetscInt         nlinks =
+    scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
+  Support    support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
+  PetscReal *outside;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, nlinks, &support.links, nlinks,
@@ -570,6 +600,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(&support, &scene->cyclic[k]));
   PetscCall(SupportGetFree(&support, outside));
   for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
@@ -640,6 +671,10 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   for (PetscInt t = 0; t < scene->nties; ++t) {
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
     PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
+  }
+  for (PetscInt k = 0; k < scene->ncyclic; ++k) {
+    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].from));
+    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].to));
   }
   if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnheld(dm, scene, NULL));
   PetscFunctionReturn(0);

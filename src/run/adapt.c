@@ -34,6 +34,11 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
   PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
     "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
     scene->ties[0].name);
+  PetscCheck(!scene->ncyclic, sim->comm, PETSC_ERR_SUP,
+    "-accuracy_adaptive: the faces of the cyclic symmetry \"%s\" would be finer in one place than in another: leave "
+    "the "
+    "option out",
+    scene->cyclic[0].name);
   sim->run->marks = marks;
   PetscFunctionReturn(0);
 }

@@ -132,7 +132,8 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     sim->springs.nweak));
   PetscCall(EffectSet(report, EFFECT_TEMPERATURE, (PetscBool)(scene->ntemperatures > 0),
     "%" PetscInt_FMT " temperatures", scene->ntemperatures));
-  PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties > 0), "%" PetscInt_FMT " ties", scene->nties));
+  PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties + scene->ncyclic > 0),
+    "%" PetscInt_FMT " ties, %" PetscInt_FMT " cuts of sectors", scene->nties, scene->ncyclic));
   PetscCall(EffectSet(report, EFFECT_PLANES, (PetscBool)(planes > 0), "%" PetscInt_FMT " symmetry planes along no axis",
     planes));
   PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces",

@@ -73,6 +73,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactSetBodies(sim->contact, scene->bodies));
   PetscCall(ContactSetFromOptions(sim->contact));
   PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
+  PetscCall(ContactSetCyclic(sim->contact, scene->ncyclic, scene->cyclic));
   for (PetscInt p = 0; p < scene->npairs; ++p)
     PetscCheck(sim->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
       "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);

@@ -337,6 +337,10 @@ static PetscErrorCode DescribeTies(Scene scene, PetscViewer viewer)
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: nonmortar %s to mortar %s\n", scene->ties[t].name,
       scene->ties[t].nonmortar, scene->ties[t].mortar));
+  if (scene->ncyclic) PetscCall(PetscViewerASCIIPrintf(viewer, "Cyclic symmetry\n"));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: from %s to %s\n", scene->cyclic[k].name, scene->cyclic[k].from,
+      scene->cyclic[k].to));
   PetscFunctionReturn(0);
 }
 

@@ -464,6 +464,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
+  PetscCall(ContactCyclicMerge(contact, *lin));
   (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth.slopes);
   PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));

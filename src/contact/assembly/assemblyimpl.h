@@ -79,6 +79,8 @@ typedef enum {
 #define CONTACT_OVERLAP_DROP  1e-8 /* Overlaps smaller than this fraction of the smaller facet's area are ignored. */
 #define CONTACT_ROW_DROP      1e-5 /* Rows whose 1-norm is less than this fraction of the largest row's are removed. */
 
+typedef struct _n_ContactCyclic *ContactCyclic;
+
 struct _n_Contact {
   DM               dm;
   MPI_Comm         comm;
@@ -87,6 +89,7 @@ struct _n_Contact {
   PetscBool        frictional; /* whether any pair has friction */
   ContactRows      rows;
   ContactNormals   normals;
+  ContactCyclic    cyclic; /* cuts of sectors; NULL: none */
   PetscInt         ndisplacements;
   /* prescribed displacements of the bodies' faces; the caller owns them */
   const SceneDisplacement *displacements;
@@ -135,6 +138,10 @@ PETSC_INTERN PetscErrorCode ContactEntriesAdd(ContactEntries *, PetscInt row, Pe
   const PetscReal value[]);
 PETSC_INTERN PetscErrorCode ContactEntriesCreateMatrix(MPI_Comm, PetscInt m, PetscInt n, ContactEntries *, Mat *);
 PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
+
+/* cyclic_rows.c: rows of vertices on the cuts of a sector */
+PETSC_INTERN PetscErrorCode ContactCyclicMerge(Contact, ContactLinearization);
+PETSC_INTERN PetscErrorCode ContactCyclicDestroy(Contact);
 
 /* held.c: computes rows->held once: the directions along which rows with friction have no slip */
 PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);

@@ -56,6 +56,7 @@ static const SceneKey top_rows[] = {
   SECTION("body_forces", "none", "list of forces per undeformed volume, with fixed direction"),
   SECTION("contact", "none: no search, no optimizer", "list of contact pairs, or `auto`"),
   SECTION("ties", "none", "list of pairs of faces joined without sliding or opening"),
+  SECTION("cyclic", "none", "list of pairs of faces between which a sector of a body with cyclic symmetry is cut out"),
   SECTION("refinements", "none", "list of zones in which cells are refined further than by `refine`"),
   SECTION("probes", "none", "list of points and lines at which results are written"),
   SECTION("load", "one step", "the load program, see [load program](#load-program)"),
@@ -231,6 +232,12 @@ static const SceneKey tie_rows[] = {TEXT("mortar", NULL, SceneTie, mortar, REQUI
     "facets further apart are not joined"),
   {NULL}};
 
+static const SceneKey cyclic_rows[] = {TEXT("from", NULL, SceneCyclic, from, REQUIRED, "", "a face"),
+  TEXT("to", NULL, SceneCyclic, to, REQUIRED, "",
+    "a face of the same body, onto which a rotation about the axis moves the first one, node by node"),
+  REALS("axis", NULL, 3, SceneCyclic, axis, REQUIRED, ANY, "", "", "direction of the axis"),
+  REALS("center", NULL, 3, SceneCyclic, center, OPTIONAL, ANY, "L", "[0, 0, 0]", "a point on the axis"), {NULL}};
+
 static const SceneKey refinement_rows[] = {
   OWN("near", NULL, SceneRefinement, face, OPTIONAL, SceneOwnNear, "", "a box",
     "name of a contact pair, to refine cells near both of its undeformed faces; or a face, to refine cells of its"
@@ -338,6 +345,7 @@ const SceneList SceneLists[] = {
   {"contact", contact_rows, sizeof(SceneContactPair), OF_SCENE(npairs, pairs), .initial = &contact_initial,
     .finish = SceneFinishPair},
   {"ties", tie_rows, sizeof(SceneTie), OF_SCENE(nties, ties)},
+  {"cyclic", cyclic_rows, sizeof(SceneCyclic), OF_SCENE(ncyclic, cyclic)},
   {"refinements", refinement_rows, sizeof(SceneRefinement), OF_SCENE(nrefinements, refinements),
     .initial = &refinement_initial, .finish = SceneFinishRefinement, .hides = SceneRefinementHides},
   {"probes", probe_rows, sizeof(SceneProbe), OF_SCENE(nprobes, probes), .initial = &probe_initial,

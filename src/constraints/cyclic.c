@@ -1,0 +1,146 @@
+/*
+   Cyclic symmetry. A sector of a body that repeats itself about an axis ends on two faces. A node of the second face is
+   the image of one of the first, x2 = c + R (x1 - c) with the rotation R by the sector's angle, and so is its
+   displacement, u2 = R u1, at finite strain, too. A node on the axis is its own image: it moves along the axis only.
+*/
+#include "constraintsimpl.h"
+#include <vector3.h>
+
+/* Sets the rows of one pair of faces in Y: u2 = R u1. Nodes on the axis are left out */
+static PetscErrorCode CyclicAdd(const Constraints *c, const SceneCyclic *cut, Mat Y, PetscInt first,
+  const PetscBool kept[], PetscBool follows[])
+{
+  PetscInt  n, *nodes, *images;
+  PetscReal turn[3][3];
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetCyclicImages(c->bodies.dm, cut, turn, &n, &nodes, &images));
+  for (PetscInt k = 0; k < 3 * n; ++k) {
+    const PetscInt node = nodes[k / 3], image = images[k / 3], i = k % 3;
+
+    if (node == image) continue;
+    follows[3 * (node - first) + i] = PETSC_TRUE;
+    if (kept && kept[3 * (node - first) + i]) continue;
+    for (PetscInt j = 0; j < 3; ++j) {
+      const PetscReal value = turn[i][j] + (i == j ? 1.0 : 0.0);
+
+      if (PetscAbsReal(value) > 1e-14) PetscCall(MatSetValue(Y, 3 * node + i, 3 * image + j, value, INSERT_VALUES));
+    }
+  }
+  PetscCall(PetscFree(nodes));
+  PetscCall(PetscFree(images));
+  PetscFunctionReturn(0);
+}
+
+/* Creates u = Y x. kept: rows that stay as they are; NULL: none. images: marks the rows of the second faces */
+static PetscErrorCode CyclicBuild(const Constraints *c, const PetscBool kept[], Mat *Y, PetscBool images[])
+{
+  Scene    scene = c->bodies.scene;
+  PetscInt n, rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+  PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
+  PetscCall(MatCreateAIJ(c->bodies.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 3, NULL, Y));
+  PetscCall(PetscArrayzero(images, n));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k)
+    PetscCall(CyclicAdd(c, &scene->cyclic[k], *Y, rstart / 3, kept, images));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (!images[i] || (kept && kept[i])) PetscCall(MatSetValue(*Y, rstart + i, rstart + i, 1.0, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(*Y, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*Y, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Error if displacements are prescribed at nodes of the second face that are not those of their images */
+static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const PetscBool prescribed[],
+  const PetscBool images[])
+{
+  static const PetscReal weight[3] = {1.0, 1.618, 2.718}; /* no rotation makes their sums vanish */
+  Vec                    given, image, free, reach;
+  const PetscScalar     *u, *v, *w;
+  PetscScalar           *a;
+  PetscInt               n;
+  PetscReal              worst  = 0.0, largest;
+  PetscBool              differ = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(Y, &given, &image));
+  PetscCall(VecDuplicate(given, &free));
+  PetscCall(VecDuplicate(image, &reach));
+  PetscCall(VecZeroEntries(given));
+  PetscCall(PrescribedApply(c->prescribed, (PetscReal)c->bodies.scene->nsteps, given));
+  PetscCall(VecNorm(given, NORM_INFINITY, &largest));
+  PetscCall(VecGetLocalSize(given, &n));
+  PetscCall(VecGetArrayWrite(free, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = prescribed[i] ? 0.0 : weight[i % 3];
+  PetscCall(VecRestoreArrayWrite(free, &a));
+  PetscCall(MatMult(Y, given, image));
+  PetscCall(MatMult(Y, free, reach));
+  PetscCall(VecGetArrayRead(given, &u));
+  PetscCall(VecGetArrayRead(image, &v));
+  PetscCall(VecGetArrayRead(reach, &w));
+  for (PetscInt i = 0; i < n; ++i) {
+    if (!prescribed[i] || !images[i]) continue;
+    differ = (PetscBool)(differ || PetscAbsScalar(w[i]) > 1e-12);
+    worst  = PetscMax(worst, PetscAbsScalar(u[i] - v[i]));
+  }
+  PetscCall(VecRestoreArrayRead(reach, &w));
+  PetscCall(VecRestoreArrayRead(image, &v));
+  PetscCall(VecRestoreArrayRead(given, &u));
+  differ = (PetscBool)(differ || worst > 1e-9 * largest);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPIU_BOOL, MPI_LOR, c->bodies.comm));
+  PetscCheck(!differ, c->bodies.comm, PETSC_ERR_USER_INPUT,
+    "cyclic symmetry: displacements are prescribed on a face of the cut that do not repeat themselves from sector to "
+    "sector, such as one component across the axis: prescribe all three components, or that along the axis");
+  PetscCall(VecDestroy(&reach));
+  PetscCall(VecDestroy(&free));
+  PetscCall(VecDestroy(&image));
+  PetscCall(VecDestroy(&given));
+  PetscFunctionReturn(0);
+}
+
+/* Creates Y, u = Y x, with the rows of the second faces; prescribed rows stay. NULL: no cyclic symmetry */
+PetscErrorCode CyclicCreate(const Constraints *c, const PetscBool prescribed[], Mat *Y, PetscBool follows[])
+{
+  PetscInt   n;
+  PetscBool *images;
+  Mat        all;
+
+  PetscFunctionBegin;
+  *Y = NULL;
+  if (!c->bodies.scene->ncyclic) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(c->bodies.mass, &n));
+  PetscCall(PetscMalloc1(n, &images));
+  PetscCall(CyclicBuild(c, NULL, &all, images));
+  PetscCall(CyclicCheckPrescribed(c, all, prescribed, images));
+  PetscCall(MatDestroy(&all));
+  PetscCall(CyclicBuild(c, prescribed, Y, images));
+  for (PetscInt i = 0; i < n; ++i) follows[i] = (PetscBool)(follows[i] || (images[i] && !prescribed[i]));
+  PetscCall(PetscFree(images));
+  PetscFunctionReturn(0);
+}
+
+/* Collects the nodes on the axis: local numbers, and two normals of the axis */
+PetscErrorCode CyclicGetAxisNodes(const Constraints *c, const SceneCyclic *cut, PetscInt *n, PetscInt **nodes,
+  PetscReal normals[2][3])
+{
+  PetscInt  m, first, least = 0, *images;
+  PetscReal turn[3][3], axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]};
+
+  PetscFunctionBegin;
+  (void)VectorScaleToUnit(axis);
+  for (PetscInt d = 1; d < 3; ++d) least = PetscAbsReal(axis[d]) < PetscAbsReal(axis[least]) ? d : least;
+  for (PetscInt d = 0; d < 3; ++d) normals[0][d] = (d == least ? 1.0 : 0.0) - axis[least] * axis[d];
+  (void)VectorScaleToUnit(normals[0]);
+  VectorCross(axis, normals[0], normals[1]);
+  PetscCall(MeshGetCyclicImages(c->bodies.dm, cut, turn, &m, nodes, &images));
+  PetscCall(VecGetOwnershipRange(c->bodies.mass, &first, NULL));
+  *n = 0;
+  for (PetscInt k = 0; k < m; ++k) {
+    if ((*nodes)[k] == images[k]) (*nodes)[(*n)++] = images[k] - first / 3;
+  }
+  PetscCall(PetscFree(images));
+  PetscFunctionReturn(0);
+}

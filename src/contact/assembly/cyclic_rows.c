@@ -1,0 +1,432 @@
+/*
+   Contact rows on the cuts of a sector with cyclic symmetry. A vertex of the second face of a cut and its image on the
+   first face are one vertex of the whole body, with one row: the sum of both. The row of the image gets it. Slip is
+   summed along the image's tangents, turned by the sector's angle for the other vertex.
+*/
+#include <mesh.h>
+#include "assemblyimpl.h"
+
+/* The vertices of the second faces that this rank owns, and their images */
+typedef struct {
+  PetscInt  n, *nodes, *images;
+  PetscReal turn[3][3]; /* rotation minus 1 */
+} CyclicCut;
+
+struct _n_ContactCyclic {
+  PetscInt   ncuts;
+  CyclicCut *cuts;
+};
+
+/*@
+  ContactSetCyclic - Tells a contact where its bodies are cut because of cyclic symmetry
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+. n       - number of cyclic symmetries
+- cuts    - the cyclic symmetries
+
+  Level: intermediate
+
+  Note:
+  The rows of a vertex on the second face of a cut and of its image on the first face become one.
+
+.seealso: `ContactCreate()`, `MeshGetCyclicImages()`
+@*/
+PetscErrorCode ContactSetCyclic(Contact contact, PetscInt n, const SceneCyclic cuts[])
+{
+  PetscFunctionBegin;
+  PetscCall(ContactCyclicDestroy(contact));
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscNew(&contact->cyclic));
+  PetscCall(PetscCalloc1(n, &contact->cyclic->cuts));
+  for (PetscInt k = 0; k < n; ++k) {
+    CyclicCut *cut = &contact->cyclic->cuts[k];
+
+    PetscCall(MeshGetCyclicImages(contact->dm, &cuts[k], cut->turn, &cut->n, &cut->nodes, &cut->images));
+    ++contact->cyclic->ncuts;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactCyclicDestroy(Contact contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; contact->cyclic && k < contact->cyclic->ncuts; ++k) {
+    PetscCall(PetscFree(contact->cyclic->cuts[k].nodes));
+    PetscCall(PetscFree(contact->cyclic->cuts[k].images));
+  }
+  if (contact->cyclic) PetscCall(PetscFree(contact->cyclic->cuts));
+  PetscCall(PetscFree(contact->cyclic));
+  PetscFunctionReturn(0);
+}
+
+/* Rows of one pair as fields of the nodes: 1 + number of the row, and the tangents; 0 at nodes without a row */
+typedef struct {
+  Vec number, tangent[2];
+} CyclicFields;
+
+static PetscErrorCode CyclicFieldsCreate(Contact contact, CyclicFields *fields)
+{
+  PetscInt n;
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(DMCreateGlobalVector(contact->dm, &fields->tangent[a]));
+  PetscCall(VecGetLocalSize(fields->tangent[0], &n));
+  PetscCall(VecCreateMPI(contact->comm, n / 3, PETSC_DETERMINE, &fields->number));
+  PetscFunctionReturn(0);
+}
+
+/* row[k]: number of row k, negative: none */
+static PetscErrorCode CyclicFieldsSet(Contact contact, const ContactLinearization lin, PetscInt pair,
+  const PetscInt row[], CyclicFields *fields)
+{
+  PetscSection global;
+  PetscScalar *number, *t[2];
+  PetscInt     rstart;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(fields->number));
+  PetscCall(VecGetOwnershipRange(fields->number, &rstart, NULL));
+  PetscCall(DMGetGlobalSection(contact->dm, &global));
+  PetscCall(VecGetArray(fields->number, &number));
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(VecGetArray(fields->tangent[a], &t[a]));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    PetscInt offset;
+
+    if (lin->pair[k] != pair) continue;
+    PetscCall(PetscSectionGetOffset(global, lin->vertex[k], &offset));
+    number[offset / 3 - rstart] = (PetscScalar)(row[k] + 1);
+    for (PetscInt i = 0; lin->tangent && i < 6; ++i) t[i / 3][offset - 3 * rstart + i % 3] = lin->tangent[6 * k + i];
+  }
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(VecRestoreArray(fields->tangent[a], &t[a]));
+  PetscCall(VecRestoreArray(fields->number, &number));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CyclicFieldsDestroy(CyclicFields *fields)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(VecDestroy(&fields->tangent[a]));
+  PetscCall(VecDestroy(&fields->number));
+  PetscFunctionReturn(0);
+}
+
+/* Creates a sequential vector with the blocks of a field at the images */
+static PetscErrorCode CyclicGather(const CyclicCut *cut, PetscInt width, Vec field, Vec *gathered)
+{
+  IS         from;
+  VecScatter scatter;
+
+  PetscFunctionBegin;
+  PetscCall(ISCreateBlock(PETSC_COMM_SELF, width, cut->n, cut->images, PETSC_COPY_VALUES, &from));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, width * cut->n, gathered));
+  PetscCall(VecScatterCreate(field, from, *gathered, NULL, &scatter));
+  PetscCall(VecScatterBegin(scatter, field, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, field, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ISDestroy(&from));
+  PetscFunctionReturn(0);
+}
+
+/* Where the sums of a row go: the number of a new row, negative: not known yet; and the tangents there along its own */
+typedef struct {
+  PetscInt         row;
+  PetscReal        along[2][2];
+  const CyclicCut *cut; /* NULL: the row stays where it is */
+} CyclicGoal;
+
+/* along[a][b]: tangent a of the image, turned by the sector's angle, times tangent b of the vertex */
+static void CyclicTurn(const CyclicCut *cut, const PetscScalar *const images[2], const PetscReal tangent[6],
+  CyclicGoal *goal)
+{
+  for (PetscInt a = 0; a < 2; ++a) {
+    PetscReal t[3], turned[3];
+
+    for (PetscInt c = 0; c < 3; ++c) t[c] = PetscRealPart(images[a][c]);
+    for (PetscInt c = 0; c < 3; ++c) turned[c] = t[c] + VectorDot(cut->turn[c], t);
+    for (PetscInt b = 0; b < 2; ++b) goal->along[a][b] = VectorDot(turned, &tangent[3 * b]);
+  }
+}
+
+/* Sets the goals of the rows of one pair whose vertices have images with rows. rows: as in CyclicFieldsSet() */
+static PetscErrorCode CyclicFindGoals(Contact contact, const ContactLinearization lin, PetscInt pair,
+  const PetscInt rows[], CyclicFields *fields, CyclicGoal goals[])
+{
+  PetscInt     n, rstart, *local;
+  PetscSection global;
+
+  PetscFunctionBegin;
+  PetscCall(CyclicFieldsSet(contact, lin, pair, rows, fields));
+  PetscCall(VecGetLocalSize(fields->number, &n));
+  PetscCall(VecGetOwnershipRange(fields->number, &rstart, NULL));
+  PetscCall(DMGetGlobalSection(contact->dm, &global));
+  PetscCall(PetscMalloc1(n, &local));
+  for (PetscInt i = 0; i < n; ++i) local[i] = -1;
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(global, lin->vertex[k], &offset));
+    if (lin->pair[k] == pair) local[offset / 3 - rstart] = k;
+  }
+  for (PetscInt c = 0; c < contact->cyclic->ncuts; ++c) {
+    const CyclicCut   *cut = &contact->cyclic->cuts[c];
+    Vec                gathered[3];
+    const PetscScalar *number, *t[2];
+
+    PetscCall(CyclicGather(cut, 1, fields->number, &gathered[2]));
+    PetscCall(VecGetArrayRead(gathered[2], &number));
+    for (PetscInt a = 0; a < 2; ++a) {
+      PetscCall(CyclicGather(cut, 3, fields->tangent[a], &gathered[a]));
+      PetscCall(VecGetArrayRead(gathered[a], &t[a]));
+    }
+    for (PetscInt i = 0; i < cut->n; ++i) {
+      const PetscInt     k     = local[cut->nodes[i] - rstart];
+      const PetscScalar *at[2] = {&t[0][3 * i], &t[1][3 * i]};
+
+      if (k < 0 || cut->nodes[i] == cut->images[i] || !(PetscRealPart(number[i]) > 0.0)) continue;
+      goals[k].row = (PetscInt)PetscRealPart(number[i]) - 1;
+      goals[k].cut = cut;
+      if (lin->tangent) CyclicTurn(cut, at, &lin->tangent[6 * k], &goals[k]);
+    }
+    for (PetscInt a = 0; a < 2; ++a) PetscCall(VecRestoreArrayRead(gathered[a], &t[a]));
+    PetscCall(VecRestoreArrayRead(gathered[2], &number));
+    for (PetscInt a = 0; a < 3; ++a) PetscCall(VecDestroy(&gathered[a]));
+  }
+  PetscCall(PetscFree(local));
+  PetscFunctionReturn(0);
+}
+
+/* Finds the goals of all rows. nkept: number of the new rows of this rank; kept: the old ones that they are made of */
+static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization lin, CyclicGoal goals[],
+  PetscInt *nkept, PetscInt kept[])
+{
+  CyclicFields fields;
+  PetscInt    *rows, first;
+
+  PetscFunctionBegin;
+  PetscCall(CyclicFieldsCreate(contact, &fields));
+  PetscCall(PetscMalloc1(lin->nlocal, &rows));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    rows[k]  = 0;
+    goals[k] = (CyclicGoal){-1, {{1.0, 0.0}, {0.0, 1.0}}, NULL};
+  }
+  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(CyclicFindGoals(contact, lin, p, rows, &fields, goals));
+  *nkept = 0;
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    rows[k] = -1;
+    if (goals[k].row >= 0) continue;
+    rows[k]          = *nkept;
+    kept[(*nkept)++] = k;
+  }
+  PetscCallMPI(MPI_Scan(nkept, &first, 1, MPIU_INT, MPI_SUM, contact->comm));
+  first -= *nkept;
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    if (rows[k] >= 0) goals[k].row = rows[k] += first;
+  }
+  for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(CyclicFindGoals(contact, lin, p, rows, &fields, goals));
+  PetscCall(PetscFree(rows));
+  PetscCall(CyclicFieldsDestroy(&fields));
+  PetscFunctionReturn(0);
+}
+
+/* Creates the matrix from new rows to old ones; width 2: from the new rows of slip */
+static PetscErrorCode CyclicCreateShare(Contact contact, PetscInt width, PetscInt n, const CyclicGoal goals[],
+  PetscInt nkept, Mat *share)
+{
+  PetscInt start;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateAIJ(contact->comm, width * n, width * nkept, PETSC_DETERMINE, PETSC_DETERMINE, width, NULL, width,
+    NULL, share));
+  PetscCall(MatGetOwnershipRange(*share, &start, NULL));
+  for (PetscInt k = 0; k < n; ++k) {
+    for (PetscInt e = 0; e < width * width; ++e)
+      PetscCall(MatSetValue(*share, start + width * k + e / width, width * goals[k].row + e % width,
+        width == 1 ? 1.0 : goals[k].along[e % 2][e / 2], INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(*share, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*share, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* rows = diag(1/mass) share^T diag(old mass) rows; NULL stays */
+static PetscErrorCode CyclicShareMatrix(Mat share, Vec old_mass, Vec mass, Mat *rows)
+{
+  Mat sums;
+
+  PetscFunctionBegin;
+  if (!*rows) PetscFunctionReturn(0);
+  PetscCall(MatDiagonalScale(*rows, old_mass, NULL));
+  PetscCall(MatTransposeMatMult(share, *rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &sums));
+  PetscCall(VecReciprocal(mass));
+  PetscCall(MatDiagonalScale(sums, mass, NULL));
+  PetscCall(VecReciprocal(mass));
+  PetscCall(MatDestroy(rows));
+  *rows = sums;
+  PetscFunctionReturn(0);
+}
+
+/* A vector with each value twice */
+static PetscErrorCode CyclicDouble(Vec mass, Vec *twice)
+{
+  const PetscScalar *m;
+  PetscScalar       *t;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(mass, &n));
+  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)mass), 2 * n, PETSC_DETERMINE, twice));
+  PetscCall(VecGetArrayRead(mass, &m));
+  PetscCall(VecGetArrayWrite(*twice, &t));
+  for (PetscInt i = 0; i < 2 * n; ++i) t[i] = m[i / 2];
+  PetscCall(VecRestoreArrayWrite(*twice, &t));
+  PetscCall(VecRestoreArrayRead(mass, &m));
+  PetscFunctionReturn(0);
+}
+
+/* Sums of slip and of covered areas */
+static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGoal goals[], PetscInt nkept,
+  Vec old_mass, Vec mass, ContactLinearization lin)
+{
+  Mat          pairs;
+  Vec          before, after;
+  PetscScalar *a;
+
+  PetscFunctionBegin;
+  if (!lin->slip) PetscFunctionReturn(0);
+  PetscCall(CyclicCreateShare(contact, 2, lin->nlocal, goals, nkept, &pairs));
+  PetscCall(CyclicDouble(old_mass, &before));
+  PetscCall(CyclicDouble(mass, &after));
+  PetscCall(CyclicShareMatrix(pairs, before, after, &lin->slip));
+  PetscCall(VecDestroy(&after));
+  PetscCall(VecDestroy(&before));
+  PetscCall(MatDestroy(&pairs));
+  PetscCall(VecDuplicate(old_mass, &before));
+  PetscCall(VecDuplicate(mass, &after));
+  PetscCall(VecGetArrayWrite(before, &a));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) a[k] = lin->covered[k];
+  PetscCall(VecRestoreArrayWrite(before, &a));
+  PetscCall(MatMultTranspose(share, before, after));
+  PetscCall(VecGetArray(after, &a));
+  for (PetscInt k = 0; k < nkept; ++k) lin->covered[k] = PetscRealPart(a[k]);
+  PetscCall(VecRestoreArray(after, &a));
+  PetscCall(VecDestroy(&after));
+  PetscCall(VecDestroy(&before));
+  PetscFunctionReturn(0);
+}
+
+/* sums: of the vectors that a matrix has at the nodes of the mortar faces, for each row; first: which three of six */
+static PetscErrorCode CyclicSumMortar(Contact contact, const ContactLinearization lin, Mat rows, PetscInt first,
+  PetscReal sums[])
+{
+  Vec                mark, sum;
+  const PetscScalar *s;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(rows, &mark, &sum));
+  for (PetscInt p = 0; p < 3 * contact->npairs; ++p) {
+    const ContactSurface *mortar = &contact->pairs[p / 3].mortar;
+
+    PetscCall(VecZeroEntries(mark));
+    for (PetscInt i = 0; i < 4 * mortar->nfacets; ++i)
+      PetscCall(VecSetValue(mark, 3 * mortar->node[i] + p % 3, 1.0, INSERT_VALUES));
+    PetscCall(VecAssemblyBegin(mark));
+    PetscCall(VecAssemblyEnd(mark));
+    PetscCall(MatMult(rows, mark, sum));
+    PetscCall(VecGetArrayRead(sum, &s));
+    for (PetscInt k = 0; k < lin->nlocal; ++k)
+      if (lin->pair[k] == p / 3) sums[6 * k + first + p % 3] = PetscRealPart(s[k]);
+    PetscCall(VecRestoreArrayRead(sum, &s));
+  }
+  PetscCall(VecDestroy(&sum));
+  PetscCall(VecDestroy(&mark));
+  PetscFunctionReturn(0);
+}
+
+/* Sets lin->mortar_sum of the new rows, whose vectors are turned back to the vertex that has the row */
+static PetscErrorCode CyclicSetSums(Contact contact, const CyclicGoal goals[], PetscInt nkept, Vec mass,
+  ContactLinearization lin)
+{
+  const PetscScalar *m;
+  PetscReal         *old;
+  PetscScalar       *s;
+  Vec                sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(6 * lin->nlocal, &old));
+  PetscCall(CyclicSumMortar(contact, lin, lin->J, 0, old));
+  PetscCall(CyclicSumMortar(contact, lin, lin->cover ? lin->cover : lin->J, 3, old));
+  PetscCall(VecCreateMPI(contact->comm, 6 * nkept, PETSC_DETERMINE, &sums));
+  PetscCall(VecGetArrayRead(lin->mass, &m));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    const CyclicCut *cut = goals[k].cut;
+
+    for (PetscInt e = 0; e < 6; ++e) {
+      const PetscReal *v    = &old[6 * k + e - e % 3];
+      PetscReal        back = v[e % 3];
+
+      for (PetscInt c = 0; cut && c < 3; ++c) back += cut->turn[c][e % 3] * v[c];
+      PetscCall(VecSetValue(sums, 6 * goals[k].row + e, back * PetscRealPart(m[k]), ADD_VALUES));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &m));
+  PetscCall(VecAssemblyBegin(sums));
+  PetscCall(VecAssemblyEnd(sums));
+  PetscCall(PetscFree(old));
+  PetscCall(PetscMalloc1(6 * nkept + 1, &lin->mortar_sum)); /* never NULL, on ranks without rows, too */
+  PetscCall(VecGetArrayRead(mass, &m));
+  PetscCall(VecGetArray(sums, &s));
+  for (PetscInt e = 0; e < 6 * nkept; ++e) lin->mortar_sum[e] = PetscRealPart(s[e] / m[e / 6]);
+  PetscCall(VecRestoreArray(sums, &s));
+  PetscCall(VecRestoreArrayRead(mass, &m));
+  PetscCall(VecDestroy(&sums));
+  PetscFunctionReturn(0);
+}
+
+/* Moves the data of the rows that stay to the front */
+static void CyclicMoveRows(PetscInt nkept, const PetscInt kept[], ContactLinearization lin)
+{
+  for (PetscInt k = 0; k < nkept; ++k) {
+    lin->vertex[k] = lin->vertex[kept[k]];
+    lin->pair[k]   = lin->pair[kept[k]];
+    for (PetscInt c = 0; c < 3; ++c) lin->normal[3 * k + c] = lin->normal[3 * kept[k] + c];
+    for (PetscInt c = 0; lin->tangent && c < 6; ++c) lin->tangent[6 * k + c] = lin->tangent[6 * kept[k] + c];
+  }
+  lin->nlocal = nkept;
+}
+
+/* Collective. Makes one row of those of a vertex and of its image */
+PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
+{
+  PetscInt    nkept, *kept;
+  CyclicGoal *goals;
+  Mat         share;
+  Vec         mass, gap;
+
+  PetscFunctionBegin;
+  if (!contact->cyclic) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(lin->nlocal, &goals, lin->nlocal, &kept));
+  PetscCall(CyclicSetGoals(contact, lin, goals, &nkept, kept));
+  PetscCall(CyclicCreateShare(contact, 1, lin->nlocal, goals, nkept, &share));
+  PetscCall(MatCreateVecs(share, &mass, NULL));
+  PetscCall(VecDuplicate(mass, &gap));
+  PetscCall(MatMultTranspose(share, lin->mass, mass));
+  PetscCall(CyclicSetSums(contact, goals, nkept, mass, lin));
+  PetscCall(VecPointwiseMult(lin->g, lin->g, lin->mass));
+  PetscCall(MatMultTranspose(share, lin->g, gap));
+  PetscCall(VecPointwiseDivide(gap, gap, mass));
+  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->J));
+  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->derivative));
+  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->cover));
+  PetscCall(CyclicShareSlip(contact, share, goals, nkept, lin->mass, mass, lin));
+  CyclicMoveRows(nkept, kept, lin);
+  PetscCall(VecDestroy(&lin->g));
+  PetscCall(VecDestroy(&lin->mass));
+  lin->g    = gap;
+  lin->mass = mass;
+  PetscCall(MatDestroy(&share));
+  PetscCall(PetscFree2(goals, kept));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,248 @@
+/*
+   Cyclic symmetry: which nodes of the second face of a cut are the images of which nodes of the first one, when this
+   is turned about the axis by the sector's angle.
+*/
+#include "queryimpl.h"
+#include <stdlib.h>
+#include <vector3.h>
+
+/* Nodes closer than this are the same, relative to the size of the faces */
+static const PetscReal cyclic_same = 1e-6;
+
+/* A node of the first face, turned to the second */
+typedef struct {
+  PetscReal x[3], node; /* node: global number */
+} CyclicNode;
+
+typedef struct {
+  PetscInt    n;
+  CyclicNode *nodes; /* of all ranks, in the order of their sum of coordinates */
+} CyclicFace;
+
+static PetscReal CyclicOrder(const PetscReal x[3])
+{
+  return x[0] + 0.7548776662 * x[1] + 0.5698402910 * x[2]; /* few nodes of a lattice have the same sum */
+}
+
+static int CyclicCompare(const void *a, const void *b)
+{
+  const PetscReal p = CyclicOrder(((const CyclicNode *)a)->x), q = CyclicOrder(((const CyclicNode *)b)->x);
+
+  return (p > q) - (p < q);
+}
+
+/* Nodes of a face that this rank owns; places: their coordinates in global vectors */
+static PetscErrorCode CyclicGetNodes(DM dm, Vec places, const char face[], PetscInt *n, CyclicNode **nodes)
+{
+  IS                 is;
+  const PetscInt    *rows;
+  const PetscScalar *x;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceDofs(dm, face, 0, &is));
+  PetscCall(ISGetLocalSize(is, n));
+  PetscCall(ISGetIndices(is, &rows));
+  PetscCall(PetscMalloc1(*n, nodes));
+  PetscCall(VecGetOwnershipRange(places, &rstart, NULL));
+  PetscCall(VecGetArrayRead(places, &x));
+  for (PetscInt k = 0; k < *n; ++k) {
+    (*nodes)[k].node = (PetscReal)(rows[k] / 3);
+    for (PetscInt d = 0; d < 3; ++d) (*nodes)[k].x[d] = PetscRealPart(x[rows[k] - rstart + d]);
+  }
+  PetscCall(VecRestoreArrayRead(places, &x));
+  PetscCall(ISRestoreIndices(is, &rows));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(0);
+}
+
+/* Gathers the nodes of all ranks on every rank, in order */
+static PetscErrorCode CyclicGather(MPI_Comm comm, PetscInt n, const CyclicNode nodes[], CyclicFace *face)
+{
+  PetscMPIInt size, count, *counts, *first, total = 0;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMalloc2(size, &counts, size, &first));
+  PetscCall(PetscMPIIntCast(4 * n, &count));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, comm));
+  for (PetscMPIInt r = 0; r < size; ++r) {
+    first[r] = total;
+    total += counts[r];
+  }
+  face->n = total / 4;
+  PetscCall(PetscMalloc1(face->n, &face->nodes));
+  PetscCallMPI(MPI_Allgatherv(nodes, count, MPIU_REAL, face->nodes, counts, first, MPIU_REAL, comm));
+  qsort(face->nodes, (size_t)face->n, sizeof(CyclicNode), CyclicCompare);
+  PetscCall(PetscFree2(counts, first));
+  PetscFunctionReturn(0);
+}
+
+/* Position of a point relative to the axis; axis: unit vector */
+static void CyclicArm(const SceneCyclic *cut, const PetscReal axis[3], const PetscReal x[3], PetscReal arm[3])
+{
+  PetscReal along = 0.0;
+
+  for (PetscInt d = 0; d < 3; ++d) along += (x[d] - cut->center[d]) * axis[d];
+  for (PetscInt d = 0; d < 3; ++d) arm[d] = x[d] - cut->center[d] - along * axis[d];
+}
+
+/* Mean position of a face's nodes relative to the axis, and the largest distance from it */
+static PetscErrorCode CyclicMean(MPI_Comm comm, const SceneCyclic *cut, const PetscReal axis[3], PetscInt n,
+  const CyclicNode nodes[], PetscReal mean[3], PetscReal *size)
+{
+  PetscReal sums[4] = {0.0, 0.0, 0.0, (PetscReal)n}, arm[3];
+
+  PetscFunctionBegin;
+  *size = 0.0;
+  for (PetscInt k = 0; k < n; ++k) {
+    CyclicArm(cut, axis, nodes[k].x, arm);
+    for (PetscInt d = 0; d < 3; ++d) sums[d] += arm[d];
+    *size = PetscMax(*size, VectorNorm(arm));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPIU_REAL, MPIU_MAX, comm));
+  for (PetscInt d = 0; d < 3; ++d) mean[d] = sums[d] / sums[3];
+  PetscFunctionReturn(0);
+}
+
+/* turn: the rotation about a unit vector minus 1; small angles keep their digits */
+static void CyclicRotate(const PetscReal axis[3], PetscReal angle, PetscReal turn[3][3])
+{
+  const PetscReal sine = PetscSinReal(angle), versine = 2.0 * PetscSqr(PetscSinReal(0.5 * angle));
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
+
+    turn[i][i] = -versine * (axis[j] * axis[j] + axis[k] * axis[k]);
+    turn[i][j] = versine * axis[i] * axis[j] - sine * axis[k];
+    turn[i][k] = versine * axis[i] * axis[k] + sine * axis[j];
+  }
+}
+
+/* Finds the sector's angle from the mean positions of both faces; turn: R - 1. An error if a turn has no whole number
+   of such angles */
+static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, const PetscReal axis[3], PetscInt n,
+  const CyclicNode from[], PetscInt m, const CyclicNode to[], PetscReal turn[3][3], PetscReal *size)
+{
+  const PetscReal whole = 360.0;
+  PetscReal       mean[2][3], cross[3], other, angle, sectors;
+
+  PetscFunctionBegin;
+  PetscCall(CyclicMean(comm, cut, axis, n, from, mean[0], size));
+  PetscCall(CyclicMean(comm, cut, axis, m, to, mean[1], &other));
+  PetscCheck(PetscMin(VectorNorm(mean[0]), VectorNorm(mean[1])) > cyclic_same * *size, comm, PETSC_ERR_USER_INPUT,
+    "cyclic symmetry \"%s\": the axis goes through the middle of %s or %s, which must be on one side of it", cut->name,
+    cut->from, cut->to);
+  VectorCross(mean[0], mean[1], cross);
+  angle   = PetscAtan2Real(VectorDot(cross, axis), VectorDot(mean[0], mean[1]));
+  sectors = whole / (PetscAbsReal(angle) * 180.0 / PETSC_PI);
+  PetscCheck(PetscAbsReal(sectors - PetscFloorReal(sectors + 0.5)) < 1e-4 * sectors, comm, PETSC_ERR_USER_INPUT,
+    "cyclic symmetry \"%s\": the faces %s and %s are %g degrees apart about the axis, and a turn has no whole number "
+    "of "
+    "such sectors",
+    cut->name, cut->from, cut->to, (double)(PetscAbsReal(angle) * 180.0 / PETSC_PI));
+  angle = (angle < 0.0 ? -2.0 : 2.0) * PETSC_PI / PetscFloorReal(sectors + 0.5);
+  CyclicRotate(axis, angle, turn);
+  PetscFunctionReturn(0);
+}
+
+/* The node of the turned first face at a place; PETSC_DECIDE: none */
+static PetscInt CyclicFind(const CyclicFace *face, const PetscReal x[3], PetscReal same)
+{
+  PetscInt low = 0, high = face->n;
+
+  while (low < high) {
+    const PetscInt middle = (low + high) / 2;
+
+    if (CyclicOrder(face->nodes[middle].x) < CyclicOrder(x) - 3.0 * same) low = middle + 1;
+    else high = middle;
+  }
+  for (; low < face->n && CyclicOrder(face->nodes[low].x) <= CyclicOrder(x) + 3.0 * same; ++low) {
+    PetscReal off = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) off = PetscMax(off, PetscAbsReal(face->nodes[low].x[d] - x[d]));
+    if (off <= same) return (PetscInt)face->nodes[low].node;
+  }
+  return PETSC_DECIDE;
+}
+
+/* Fills the list of images. lost: 1 if a node has none */
+static PetscErrorCode CyclicMatch(const SceneCyclic *cut, const PetscReal axis[3], const CyclicFace *face,
+  PetscReal same, PetscInt m, const CyclicNode to[], PetscInt nodes[], PetscInt images[], PetscReal *lost)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < m; ++k) {
+    PetscReal arm[3];
+
+    CyclicArm(cut, axis, to[k].x, arm);
+    nodes[k]  = (PetscInt)to[k].node;
+    images[k] = VectorNorm(arm) <= same ? nodes[k] : CyclicFind(face, to[k].x, same);
+    if (images[k] < 0) *lost = 1.0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  MeshGetCyclicImages - Matches the nodes of the two faces of a cyclic symmetry
+
+  Collective
+
+  Input Parameters:
++ dm  - the mesh
+- cut - the two faces and the axis
+
+  Output Parameters:
++ turn   - rotation that moves the first face onto the second one, minus the identity
+. n      - number of nodes of the second face that this rank owns
+. nodes  - their global numbers
+- images - the global numbers of the nodes of the first face that are moved onto them; of a node on the axis its own
+
+  Level: developer
+
+  Note:
+  It is an error if a turn has no whole number of such sectors, or if the meshes of the faces are not alike. The caller
+  frees both lists.
+
+.seealso: `MeshGetFaceDofs()`
+@*/
+PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn[3][3], PetscInt *n, PetscInt *nodes[],
+  PetscInt *images[])
+{
+  MPI_Comm    comm = PetscObjectComm((PetscObject)dm);
+  PetscInt    nfrom, total;
+  CyclicNode *from, *to;
+  CyclicFace  face;
+  PetscReal   axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]}, size, lost = 0.0;
+  Vec         coordinates, places;
+
+  PetscFunctionBegin;
+  (void)VectorScaleToUnit(axis);
+  PetscCall(DMCreateGlobalVector(dm, &places));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(DMLocalToGlobal(dm, coordinates, INSERT_VALUES, places));
+  PetscCall(CyclicGetNodes(dm, places, cut->from, &nfrom, &from));
+  PetscCall(CyclicGetNodes(dm, places, cut->to, n, &to));
+  PetscCall(VecDestroy(&places));
+  PetscCall(CyclicFindTurn(comm, cut, axis, nfrom, from, *n, to, turn, &size));
+  for (PetscInt k = 0; k < nfrom; ++k) {
+    PetscReal r[3];
+
+    for (PetscInt d = 0; d < 3; ++d) r[d] = from[k].x[d] - cut->center[d];
+    for (PetscInt d = 0; d < 3; ++d) from[k].x[d] += VectorDot(turn[d], r);
+  }
+  PetscCall(CyclicGather(comm, nfrom, from, &face));
+  PetscCall(PetscMalloc1(*n, nodes));
+  PetscCall(PetscMalloc1(*n, images));
+  PetscCall(CyclicMatch(cut, axis, &face, cyclic_same * size, *n, to, *nodes, *images, &lost));
+  PetscCallMPI(MPI_Allreduce(n, &total, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCheck(lost == 0.0 && total == face.n, comm, PETSC_ERR_USER_INPUT,
+    "cyclic symmetry \"%s\": the face %s, turned about the axis, is not the face %s node by node (%" PetscInt_FMT
+    " and %" PetscInt_FMT " nodes): their meshes must be alike",
+    cut->name, cut->from, cut->to, face.n, total);
+  PetscCall(PetscFree(face.nodes));
+  PetscCall(PetscFree(from));
+  PetscCall(PetscFree(to));
+  PetscFunctionReturn(0);
+}
