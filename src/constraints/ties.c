@@ -1,7 +1,7 @@
 /*
    Dependent displacements: tied faces, inclined symmetry planes, cuts of sectors, hanging vertices, and rigid bodies
-   driven by forces. They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u; its
-   values in dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the
+   driven by forces. They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u;
+   its values in dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the
    stiffness C^T K C with a diagonal in dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed
    rows do not become dependent.
 */

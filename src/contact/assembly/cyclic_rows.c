@@ -114,7 +114,7 @@ static PetscErrorCode CyclicFieldsDestroy(CyclicFields *fields)
 }
 
 /* Creates a sequential vector with the blocks of a field at the images */
-static PetscErrorCode CyclicGather(const CyclicCut *cut, PetscInt width, Vec field, Vec *gathered)
+static PetscErrorCode CyclicGatherImages(const CyclicCut *cut, PetscInt width, Vec field, Vec *gathered)
 {
   IS         from;
   VecScatter scatter;
@@ -175,10 +175,10 @@ static PetscErrorCode CyclicFindGoals(Contact contact, const ContactLinearizatio
     Vec                gathered[3];
     const PetscScalar *number, *t[2];
 
-    PetscCall(CyclicGather(cut, 1, fields->number, &gathered[2]));
+    PetscCall(CyclicGatherImages(cut, 1, fields->number, &gathered[2]));
     PetscCall(VecGetArrayRead(gathered[2], &number));
     for (PetscInt a = 0; a < 2; ++a) {
-      PetscCall(CyclicGather(cut, 3, fields->tangent[a], &gathered[a]));
+      PetscCall(CyclicGatherImages(cut, 3, fields->tangent[a], &gathered[a]));
       PetscCall(VecGetArrayRead(gathered[a], &t[a]));
     }
     for (PetscInt i = 0; i < cut->n; ++i) {

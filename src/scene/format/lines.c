@@ -45,8 +45,9 @@ static const char *LineGetList(const char text[], const char *end)
   static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
     {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
     {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"},
-    {"connector", "connectors"}, {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"}, {"refinement", "refinements"},
-    {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material name", "materials"}, {"material", "materials"}};
+    {"connector", "connectors"}, {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"},
+    {"refinement", "refinements"}, {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material name", "materials"},
+    {"material", "materials"}};
 
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
     const size_t length = strlen(kinds[k][0]);
