@@ -48,6 +48,8 @@ PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinear
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
 /* Whether a face of a pair is curved before it deforms */
 PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);
+/* Collective. Whether a node (its number in global vectors) is on the edge of a pair's nonmortar face */
+PETSC_EXTERN PetscErrorCode ContactIsAtEdge(Contact, PetscInt pair, PetscInt node, PetscBool *);
 /* Number of nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact
    update; and number of all its nodes */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);

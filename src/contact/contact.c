@@ -301,6 +301,35 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
 }
 
 /*@
+  ContactIsAtEdge - Finds out whether a node is on the edge of a pair's nonmortar face
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+. pair    - number of the pair
+- node    - number of the node in global vectors; equal on all ranks
+
+  Output Parameter:
+. edge - whether it is
+
+  Level: developer
+
+.seealso: `ContactCreate()`
+@*/
+PetscErrorCode ContactIsAtEdge(Contact contact, PetscInt pair, PetscInt node, PetscBool *edge)
+{
+  const ContactSurface *s = &contact->pairs[pair].nonmortar;
+
+  PetscFunctionBegin;
+  *edge = PETSC_FALSE;
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i)
+    *edge = (PetscBool)(*edge || (s->node[i] == node && s->border[i / 4] & 16 << i % 4));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, edge, 1, MPI_PETSCBOOL, MPI_LOR, contact->comm));
+  PetscFunctionReturn(0);
+}
+
+/*@
   ContactGetFrictionless - Counts the nodes of a pair on which no friction acts although the faces slide
 
   Collective

@@ -15,6 +15,9 @@
 */
 #define ATTEMPT_HELD 1e-5
 
+/* contact updates after which the gap must have come nearer by one digit; otherwise no consistent gap is expected */
+#define ATTEMPT_PATIENCE 12
+
 /*
    Computes the gap at u for a load step that ends at `time`. The derivative of the gap is computed only if initial
    overlaps follow ramps, since InterferenceAdd() needs it.
@@ -243,30 +246,32 @@ static PetscErrorCode AttemptLinearized(StepProblem *p, PetscBool resume, Vec u_
 
 /*
    Reports how much the gap still changes after the last contact update. The load step counts as converged if
-   contact_updates is 1, and as failed if more updates were allowed. slid: true if contact nodes still slide over the
-   edge of the opposite face.
+   contact_updates is 1, and as failed if more updates were allowed; the vertex where the gap changes most is then
+   named. slid: true if contact nodes still slide over the edge of the opposite face.
 */
-static PetscErrorCode AttemptReportGapError(Simulation sim, PetscBool slid, StepReport *report)
+static PetscErrorCode AttemptReportGapError(Simulation sim, const ContactSolution *sol, ContactLinearization at_u,
+  PetscBool slid, StepReport *report)
 {
-  char            reason[192];
+  char            reason[768], place[512] = "";
   const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
 
   PetscFunctionBegin;
+  if (!single) PetscCall(ContactUpdateNamePlace(sim, sol, at_u, slid, sizeof(place), place));
   if (single)
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
   else if (slid)
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact did not converge: after %" PetscInt_FMT
-      " contact updates contact nodes still slide over the edge of the opposite face",
-      report->contact_updates));
+      " contact updates contact nodes still slide over the edge of the opposite face%s",
+      report->contact_updates, place));
   else
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact did not converge: after %" PetscInt_FMT
-      " contact updates %s still changes by %g, more than %g of the largest displacement",
+      " contact updates %s still changes by %g, more than %g of the largest displacement%s",
       report->contact_updates,
       report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
-      (double)report->update_error, (double)sim->control->tolerances.gap_unconverged));
+      (double)report->update_error, (double)sim->control->tolerances.gap_unconverged, place));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
@@ -464,7 +469,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
-    PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_TRUE, at_u)); /* in this case the gap is linearized next at u */
+    PetscCall(
+      AttemptLinearizeGap(sim, p->time, u, PETSC_TRUE, at_u)); /* in this case the gap is linearized next at u */
   else PetscCall(AttemptGetGaps(sim, p->time, u, at_u));
   PetscCall(AttemptFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
@@ -624,6 +630,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
       continue;
     }
     if (end || report->contact_updates == sim->scene->contact_updates) break;
+    if (report->gap_unconverged && secants.n >= ATTEMPT_PATIENCE && secants.least > 0.1 * secants.first) break;
     PetscCall(AttemptNextLinearization(p, &secants, sol, u, u_linearized, report, at_u));
     if (!report->converged) break;
   }
@@ -632,7 +639,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   report->gap_unconverged =
     (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
   if (report->gap_unconverged) {
-    PetscCall(AttemptReportGapError(sim, slid, report));
+    PetscCall(AttemptReportGapError(sim, sol, *at_u, slid, report));
     PetscCall(ProximalMeasureHeld(p, u, &held));
     if (held > ATTEMPT_HELD) {
       PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));

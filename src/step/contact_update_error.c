@@ -242,3 +242,108 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
   report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }
+
+/* A vertex of a pair's nonmortar face at which the gap does not converge */
+typedef struct {
+  PetscReal error;        /* see PlaceFind(); negative: there is none */
+  PetscInt  pair, vertex; /* number of the pair; local DMPlex point */
+  PetscInt  node;         /* number of the vertex in global vectors */
+  PetscReal x[3];         /* undeformed coordinates [length] */
+} GapPlace;
+
+static void PlaceTake(ContactLinearization lin, PetscInt row, PetscReal error, GapPlace *place)
+{
+  if (error <= place->error) return;
+  place->error  = error;
+  place->pair   = lin->pair[row];
+  place->vertex = lin->vertex[row];
+}
+
+/*
+   Finds the vertex of this rank at which the gap at at_u differs most from the linearized gap of the solution, or the
+   vertex of the row with the largest force [force] that has slid off the opposite face if slid is true.
+*/
+static PetscErrorCode PlaceFind(Simulation sim, const ContactSolution *sol, ContactLinearization at_u, PetscBool slid,
+  GapPlace *place)
+{
+  ContactLinearization solved = sim->solved->linearization;
+  const PetscScalar   *g, *gap, *z, *mass;
+  PetscInt            *row;
+
+  PetscFunctionBegin;
+  place->error = -1.0;
+  PetscCall(ContactHistoryFollowRows(sim->history, solved, at_u, &row));
+  PetscCall(VecGetArrayRead(at_u->g, &g));
+  PetscCall(VecGetArrayRead(sol->gap, &gap));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(solved->mass, &mass));
+  for (PetscInt r = 0; r < solved->nlocal; ++r) {
+    const PetscReal force = PetscRealPart(z[r]) * PetscRealPart(mass[r]);
+
+    if (slid && row[r] < 0 && force > 0.0) PlaceTake(solved, r, force, place);
+    if (!slid && row[r] >= 0) PlaceTake(solved, r, PetscAbsScalar(g[row[r]] - gap[r]), place);
+  }
+  for (PetscInt r = 0; r < at_u->nlocal && !slid; ++r) PlaceTake(at_u, r, -PetscRealPart(g[r]), place);
+  PetscCall(VecRestoreArrayRead(solved->mass, &mass));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscCall(VecRestoreArrayRead(sol->gap, &gap));
+  PetscCall(VecRestoreArrayRead(at_u->g, &g));
+  PetscCall(PetscFree(row));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Sets the node number and the coordinates of the vertex on its rank; then all ranks get the place with the
+   largest error */
+static PetscErrorCode PlaceShare(Simulation sim, GapPlace *place)
+{
+  struct {
+    double error;
+    int    rank;
+  } worst;
+  PetscSection       global;
+  const PetscScalar *x;
+  PetscInt           start, offset;
+  PetscMPIInt        rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  if (place->error >= 0.0) {
+    PetscCall(DMGetGlobalSection(sim->dm, &global));
+    PetscCall(PetscSectionGetOffset(global, place->vertex, &offset));
+    PetscCall(VecGetOwnershipRange(sim->places.x, &start, NULL));
+    PetscCall(VecGetArrayRead(sim->places.x, &x));
+    for (PetscInt c = 0; c < 3; ++c) place->x[c] = PetscRealPart(x[offset - start + c]);
+    PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+    place->node = offset / 3;
+  }
+  worst.error = (double)place->error;
+  worst.rank  = rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, sim->comm));
+  PetscCallMPI(MPI_Bcast(place, (PetscMPIInt)sizeof(*place), MPI_BYTE, worst.rank, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Names pair, face and vertex at which the gap at at_u differs most from that of the solution, or which has
+   slid off the opposite face. sentence: "; contact pair ...", empty if there is no such vertex.
+*/
+PetscErrorCode ContactUpdateNamePlace(Simulation sim, const ContactSolution *sol, ContactLinearization at_u,
+  PetscBool slid, size_t length, char sentence[])
+{
+  const SceneContactPair *pair;
+  PetscBool               edge;
+  GapPlace                place;
+
+  PetscFunctionBegin;
+  sentence[0] = '\0';
+  PetscCall(PlaceFind(sim, sol, at_u, slid, &place));
+  PetscCall(PlaceShare(sim, &place));
+  if (place.error < 0.0) PetscFunctionReturn(0);
+  pair = &sim->scene->pairs[place.pair];
+  PetscCall(ContactIsAtEdge(sim->contact, place.pair, place.node, &edge));
+  PetscCall(PetscSNPrintf(sentence, length, "; contact pair \"%s\", %s vertex (%g, %g, %g) %s face %s: %s", pair->name,
+    slid ? "such as" : "most at", (double)place.x[0], (double)place.x[1], (double)place.x[2],
+    edge ? "on the edge of" : "inside", pair->nonmortar,
+    edge ? "round the edge, or use smaller load steps" : "use smaller load steps, or swap mortar and nonmortar"));
+  PetscFunctionReturn(0);
+}

@@ -21,6 +21,7 @@
 */
 static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
 {
+  if (s->n == 0) s->first = change;
   if (s->n == 0 || change < SECANTS_PROGRESS * s->least) {
     s->least  = change;
     s->stalls = 0;

@@ -28,6 +28,7 @@ typedef struct {
   PetscInt  n, stalls;        /* number of solutions so far, and number of consecutive last solutions without
                                  progress */
   PetscReal least;            /* smallest change of the gap so far [length] */
+  PetscReal first;            /* change of the gap of the first solution [length] */
   Vec       u, residual;      /* last solution u and its residual u - u_linearized [length] */
   Vec solutions[GAP_SECANTS]; /* differences of successive solutions, newest first [length]; NULL if there are fewer */
   Vec residuals[GAP_SECANTS]; /* differences of successive residuals, newest first [length]; NULL if there are fewer */
@@ -193,6 +194,8 @@ PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *f
 PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
 
 /* contact_update_error.c: error of a contact update */
+PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolution *, ContactLinearization at_u,
+  PetscBool slid, size_t length, char sentence[]);
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 

@@ -1,6 +1,7 @@
 """gap_cycle.py write N: a ring of hexahedra, N around, as a Gmsh file, and a scene that presses it between two plates; judge: what the runs of gap_cycle.sh say."""
 import functools
 import math
+import re
 import sys
 
 from summaries import load, say
@@ -87,6 +88,8 @@ def judge():
     say("a corner first, the updates end with a true gap", runs["corner"]["converged"] and not corner["gap_unconverged"] and corner["gap_damped"] == 0 and sideways(corner) < 1e-5 * abs(corner["reaction"][2]), corner)
     say("that updates are damped is told", last["circle"]["gap_damped"] > 0 and len(warnings(runs["circle"])) == 1, runs["circle"]["warnings"])
     say("a gap that is not true is no convergence", not runs["circle"]["converged"] and last["circle"]["gap_unconverged"] and last["circle"]["gap_change"] > 1e-4, runs["circle"]["reason"])
+    say("the sentence names pair, vertex and face", re.search(r'contact pair "(below|above)", .*vertex \(\S+, [01]\.?, \S+\) .* face ring.outer', runs["circle"]["reason"]) is not None, runs["circle"]["reason"])
+    say("updates in a circle end before the limit", last["circle"]["contact_updates"] < 20, last["circle"]["contact_updates"])
     say("one linearization converges, its gap is not true", runs["single"]["converged"] and last["single"]["gap_unconverged"] and last["single"]["gap_change"] > 1e-2, runs["single"]["reason"])
 
 
