@@ -18,7 +18,9 @@ typedef struct {
   PetscBool gaps_only;  /* without derivatives of smooth pairs: J is that of their facets */
   Mat       cover; /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
                      or of order 2 */
-  Vec       mass;  /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  Mat       mortar, mortar_cover, mortar_slip; /* the parts of J, cover (or J) and slip by the mortar side, in rows of
+                     pairs in contact with themselves, whose sides have the same vertices; NULL: there are no such pairs */
+  Vec       mass;                              /* lumped nonmortar mass m_A = int phi_A [length^2] */
   Mat       slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
                two tangents of a row. Rows without friction are empty; NULL: no pair has friction */
   PetscReal *tangent;    /* [6 nlocal] the two unit tangents of each row */

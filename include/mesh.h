@@ -14,7 +14,7 @@
 
 #define MESH_BODY_LABEL      "body"
 #define MESH_SURFACE         "surface_" /* with a number: a part of the boundary of a body from a file */
-#define MESH_MAX_NODES       27 /* of a cell */
+#define MESH_MAX_NODES       27         /* of a cell */
 #define MESH_MAX_FACET_NODES 9
 
 /* Tetrahedra have 4 or 10 nodes, hexahedra 8 or 27 */
@@ -81,6 +81,7 @@ PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt comp
    vertices of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
+PETSC_EXTERN PetscErrorCode MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 /* The nodes of a facet: its 4 vertices, or 9 with edge and facet nodes; of a triangle 3 or 6. The nodes of a
    hexahedron, 8 or 27 in tensor order, or of a tetrahedron, 4 or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);

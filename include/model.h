@@ -123,7 +123,8 @@ typedef struct {
   PetscReal        own[BODY_OWN]; /* parameters of shapes without a named member here */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
-  PetscReal        velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
+  PetscBool whole; /* its whole boundary is a face, "<body>" SCENE_WHOLE_BODY, which comes into contact with itself */
+  PetscReal velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
 } SceneBody;
 
 /* A load history (ramp): the factor at the end of each load step, linear in between */
@@ -149,7 +150,8 @@ typedef enum {
   DISPLACEMENT_EDGE
 } DisplacementPlace;
 
-#define SCENE_WHOLE_BODY ".*" /* replaces the face's name for a whole rigid body */
+/* replaces the face's name for a whole rigid body, and for the whole boundary of another body */
+#define SCENE_WHOLE_BODY ".*"
 
 typedef struct {
   char     *name;
@@ -244,6 +246,8 @@ typedef struct {
   char       *name;
   char       *mortar;    /* "<body>.<face>" */
   char       *nonmortar; /* "<body>.<face>": the face that carries the constraints */
+  char       *self;      /* body or face in contact with itself, which mortar and nonmortar both name; of a rule "true":
+                            all bodies of finite strain; NULL: two faces */
   GapType     gap;
   PetscReal   distance;          /* largest distance of facets that pair [length]; 0: from the size of the faces */
   PetscReal   interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
@@ -379,7 +383,9 @@ typedef struct {
 } SceneSurfaceCube;
 PETSC_EXTERN void SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
 /* Distance of a point from an undeformed rigid surface, negative inside [length], and its gradient */
-PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
+/* Sets both sides of a pair whose `self` is set, and marks a body whose whole boundary they are */
+PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);
+PETSC_EXTERN PetscReal      SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
 /* The body that a face belongs to */
 PETSC_EXTERN const SceneBody *SceneFaceBody(Scene, const char face[]);
 /* Evaluates an expression in x, y, z at a point */

@@ -1,5 +1,6 @@
 /* The contact object: creation from pairs of faces, options, search distances */
 #include "contactimpl.h"
+#include "src/contact/self/selfimpl.h"
 
 /* default search distance of a pair, as a fraction of the square root of the smaller face's area */
 #define SEARCH_FRACTION 0.25
@@ -29,7 +30,9 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscBool   same, has;
 
     PetscCall(PetscStrcmp(pairs[p].mortar, pairs[p].nonmortar, &same));
-    PetscCheck(!same, comm, PETSC_ERR_ARG_WRONG, "Contact pair \"%s\" names face \"%s\" twice", name, pairs[p].mortar);
+    PetscCheck(same == (PetscBool)(pairs[p].self != NULL), comm, PETSC_ERR_ARG_WRONG,
+      "Contact pair \"%s\" names face \"%s\" twice, which only a pair in contact with itself does", name,
+      pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
@@ -115,8 +118,8 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   Level: beginner
 
   Notes:
-  It is an error if a pair names a face that the mesh does not have, if its two faces are one face, if another pair has
-  the same two faces, or if its search distance is negative.
+  It is an error if a pair names a face that the mesh does not have, if its two faces are one face without `self`, if
+  another pair has the same two faces, or if its search distance is negative.
 
 .seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
 @*/
@@ -150,6 +153,10 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
     c->frictional          = (PetscBool)(c->frictional || c->pairs[p].frictional);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));
+    if (!pairs[p].self) continue;
+    PetscCall(ContactSelfCreate(dm, &c->pairs[p].mortar));
+    PetscCall(ContactSelfCreate(dm, &c->pairs[p].nonmortar));
+    c->self = PETSC_TRUE;
   }
   PetscCall(PetscFree(thickness));
   PetscCall(ContactCreateTrace(c));
@@ -214,6 +221,9 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "-contact_normals facet is not available for pairs with friction, whose slip is perpendicular to the averaged "
     "normal of a vertex: remove the option");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
+    PetscCheck(!set_gap || gap != GAP_NODE || !contact->pairs[p].mortar.self, contact->comm, PETSC_ERR_SUP,
+      "-contact_gap node is between two faces, but contact pair \"%s\" is the face %s in contact with itself",
+      contact->pairs[p].name, contact->pairs[p].mortar.name);
     if (set_gap) contact->pairs[p].gap = gap;
     if (set_smooth && !contact->pairs[p].formula) contact->pairs[p].smooth = smooth;
   }

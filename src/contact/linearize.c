@@ -13,7 +13,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   PetscFunctionBegin;
   PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->mortar));
   PetscCall(ContactSurfaceDeform(contact->dm, local, &pair->nonmortar));
-  PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, pair->normal, n, rows->vertex + first,
+  PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, NULL, pair->normal, n, rows->vertex + first,
     rows->normal + 3 * first));
   PetscCall(ContactVerticesDeform(contact->dm, local, n, rows->vertex + first, rows->x + 3 * first));
   if (!pair->formula) PetscFunctionReturn(0);
@@ -56,8 +56,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
     "The displacement at which contact is linearized is not finite");
   PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscCall(ContactDeform(contact, u));
-  PetscCall(ContactAssemblyCreate(contact, &assembly));
-  assembly.parts = parts;
+  PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];
     const ContactGapOps *ops  = pair->formula ? &ContactGapRigidSurface : gap_ops[pair->gap];
@@ -215,6 +214,9 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(MatDestroy(&(*lin)->derivative));
   PetscCall(MatDestroy(&(*lin)->cover));
   PetscCall(MatDestroy(&(*lin)->slip));
+  PetscCall(MatDestroy(&(*lin)->mortar));
+  PetscCall(MatDestroy(&(*lin)->mortar_cover));
+  PetscCall(MatDestroy(&(*lin)->mortar_slip));
   PetscCall(PetscFree((*lin)->normal));
   PetscCall(PetscFree((*lin)->tangent));
   PetscCall(PetscFree((*lin)->covered));

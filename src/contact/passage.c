@@ -219,7 +219,7 @@ PetscErrorCode ContactGetPassage(Contact contact, PetscInt p, PetscReal moved, V
     }
   }
   for (PetscInt s = 0; s < 2; ++s) {
-    PetscCall(PassageOfSide(side[s], x0[s], facets[s], 0.1 * pair->depth, depth));
+    if (!s || !pair->mortar.self) PetscCall(PassageOfSide(side[s], x0[s], facets[s], 0.1 * pair->depth, depth));
     PassageFindTurned(side[s], x0[s], turned);
     for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactCandidatesDestroy(&facets[s][k]));
     PetscCall(PetscFree(x0[s]));

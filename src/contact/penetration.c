@@ -1,6 +1,7 @@
 /* Penetration of vertices of one face into the other body. Mortar gaps are weighted means. If the nonmortar side is the
    coarser one, they may be zero while vertices of the mortar side penetrate. */
 #include "contactimpl.h"
+#include "src/contact/self/selfimpl.h"
 
 /* Returns the depth of the vertex x below a facet, or below its smooth surface [length]. The depth is 0 if the vertex
    is above the facet, or if its distance beside the facet exceeds its depth. */
@@ -20,6 +21,28 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
   for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - nearest->y[c] - offset[c];
   height = VectorDot(r, n);
   return height < 0.0 && 2.0 * height * height >= VectorDot(r, r) ? -height : 0.0;
+}
+
+/* A vertex of a facet of a surface in contact with itself */
+typedef struct {
+  ContactSelfFacet facet;
+  PetscInt         corner;
+} PenetrationVertex;
+
+/* Whether the vertex can be in contact with the point xi of a facet */
+static PetscBool PenetrationMayMeet(const void *context, const ContactCandidates *facets, PetscInt facet,
+  const PetscReal xi[2])
+{
+  const PenetrationVertex *vertex = context;
+  const ContactSelfFacet   other  = ContactSelfCandidate(facets, facet);
+  PetscReal                phi[4], y[3] = {0.0, 0.0, 0.0};
+
+  for (PetscInt a = 0; a < 4; ++a) {
+    if (other.node[a] == vertex->facet.node[vertex->corner]) return PETSC_FALSE;
+  }
+  ContactShape(xi, phi);
+  for (PetscInt i = 0; i < 12; ++i) y[i % 3] += phi[i / 3] * other.reference[i];
+  return (PetscBool)!ContactSelfIsWall(&vertex->facet, &vertex->facet.reference[3 * vertex->corner], &other, y);
 }
 
 /* Collective. Increases *deepest to the largest depth of the vertices of `side` below `other` [length] */
@@ -42,10 +65,13 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
 
     if (!ContactFacetNormal(&side->x[12 * f], n)) continue;
     for (PetscInt a = 0; a < 4; ++a) {
-      const PetscReal *x = &side->x[12 * f + 3 * a];
-      ContactNearest   nearest;
+      const PetscReal  *x = &side->x[12 * f + 3 * a];
+      ContactNearest    nearest;
+      PenetrationVertex vertex = {.corner = a};
 
-      ContactFindNearest(&tree, &facets, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
+      if (side->self) vertex.facet = ContactSelfOwn(side, f);
+      ContactFindNearest(&tree, &facets, CONTACT_NORMAL_COSINE, reach, x, n, side->self ? PenetrationMayMeet : NULL,
+        &vertex, &nearest);
       if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(&facets, &nearest, x));
     }
   }
@@ -91,7 +117,7 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], 
       continue;
     }
     PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
-    PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
+    if (!pair->mortar.self) PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, (PetscMPIInt)contact->npairs, MPIU_REAL, MPIU_MAX, contact->comm));
   PetscFunctionReturn(0);

@@ -61,7 +61,8 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
   PetscCall(VecGetArrayWrite(force, &f));
   for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->solved->shear[k];
   PetscCall(VecRestoreArrayWrite(force, &f));
-  PetscCall(FrictionAddForces(sim->solved->linearization, force, pair, vertices->force));
+  PetscCall(
+    FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, force, pair, vertices->force));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
@@ -77,7 +78,7 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   PetscCall(VecDuplicate(sim->path->u, &vertices->force));
   PetscCall(VecZeroEntries(vertices->carried));
   PetscCall(VecZeroEntries(vertices->closing));
-  PetscCall(PairMarkSides(sim, pair, vertices->sides));
+  PetscCall(PairMarkSides(sim, pair, rows, vertices->sides));
   PetscCall(PairRowsResolve(sim, pair, vertices->sides, rows));
   PetscCall(PairSpread(sim, rows, NULL, vertices->sides, 0, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
@@ -243,6 +244,7 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
   PairReport *report)
 {
   PetscReal          sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
+  const PetscReal    share = rows->self ? 0.5 : 1.0;
   PetscSection       global;
   const PetscScalar *side;
   PetscInt           rstart;
@@ -258,9 +260,9 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
     largest = PetscMax(largest, point->pressure);
-    if (PetscRealPart(side[i - rstart]) > 0.0) continue;
-    if (point->closed) sums[1] += point->area;
-    if (point->slips) sums[2] += point->area;
+    if (!rows->self && PetscRealPart(side[i - rstart]) > 0.0) continue;
+    if (point->closed) sums[1] += share * point->area;
+    if (point->slips) sums[2] += share * point->area;
   }
   PetscCall(VecRestoreArrayRead(sides, &side));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, sim->comm));

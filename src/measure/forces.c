@@ -119,6 +119,39 @@ PetscErrorCode ForcesFree(StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Adds the forces on a whole face */
+static PetscErrorCode ForcesAddFace(Simulation sim, const char face[], Vec u, Vec force, ForceSum *sum)
+{
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  ForceField             field;
+
+  PetscFunctionBegin;
+  PetscCall(ForceFieldGet(sim, u, force, &field));
+  PetscCall(ForceSumAddFace(sim, &field, face, all, NULL, sum));
+  PetscCall(ForceFieldRestore(sim, u, force, &field));
+  PetscFunctionReturn(0);
+}
+
+/* Forces on both sides of a pair whose sides are the same face: those on the mortar side, and the others. own: mass x
+   pressure of its rows; force: on both sides, which the others replace */
+static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Vec own, Vec shear, Vec force,
+  ForceSum sides[2])
+{
+  ContactLinearization lin  = sim->solved->linearization;
+  const char          *face = sim->scene->pairs[pair].mortar;
+  Vec                  mortar;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(force, &mortar));
+  PetscCall(MatMultTranspose(lin->mortar, own, mortar));
+  PetscCall(FrictionAddForces(lin, lin->mortar_slip, shear, pair, mortar));
+  PetscCall(VecAXPY(force, -1.0, mortar));
+  PetscCall(ForcesAddFace(sim, face, u, force, &sides[0]));
+  PetscCall(ForcesAddFace(sim, face, u, mortar, &sides[1]));
+  PetscCall(VecDestroy(&mortar));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the sums of the pair's contact forces, J^T (mass x pressure) and friction, over the nonmortar side
    (sides[0]) and the mortar side (sides[1])
@@ -126,26 +159,27 @@ PetscErrorCode ForcesFree(StepReport *report)
 static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
   ForceSum sides[2])
 {
-  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  Vec                    own, force;
-  PetscScalar           *w;
-  ForceField             field;
+  const SceneContactPair *faces = &sim->scene->pairs[pair];
+  ContactLinearization    lin   = sim->solved->linearization;
+  Vec                     own, force;
+  PetscScalar            *w;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(weighted, &own));
   PetscCall(VecCopy(weighted, own));
   PetscCall(VecGetArray(own, &w));
-  for (PetscInt r = 0; r < sim->solved->linearization->nlocal; ++r) {
-    if (sim->solved->linearization->pair[r] != pair) w[r] = 0.0;
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    if (lin->pair[r] != pair) w[r] = 0.0;
   }
   PetscCall(VecRestoreArray(own, &w));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(MatMultTranspose(sim->solved->linearization->J, own, force));
-  PetscCall(FrictionAddForces(sim->solved->linearization, shear, pair, force));
-  PetscCall(ForceFieldGet(sim, u, force, &field));
-  PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].nonmortar, all, NULL, &sides[0]));
-  PetscCall(ForceSumAddFace(sim, &field, sim->scene->pairs[pair].mortar, all, NULL, &sides[1]));
-  PetscCall(ForceFieldRestore(sim, u, force, &field));
+  PetscCall(MatMultTranspose(lin->J, own, force));
+  PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
+  if (faces->self) PetscCall(ForcesMeasureSelf(sim, pair, u, own, shear, force, sides));
+  else {
+    PetscCall(ForcesAddFace(sim, faces->nonmortar, u, force, &sides[0]));
+    PetscCall(ForcesAddFace(sim, faces->mortar, u, force, &sides[1]));
+  }
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&own));
   PetscFunctionReturn(0);

@@ -40,7 +40,7 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const C
 
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(force));
-  PetscCall(FrictionAddForces(sim->solved->linearization, sol->shear, pair, force));
+  PetscCall(FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
   PetscCall(VecGetArrayRead(increment[0], &a));
   PetscCall(VecGetArrayRead(increment[1], &b));
@@ -181,10 +181,10 @@ PetscErrorCode FrictionRecall(Simulation sim)
 }
 
 /*
-   Adds the friction forces at the vertices to `force`. pair: the pair to which they belong, or PETSC_DECIDE for all
-   pairs.
+   Adds the friction forces at the vertices to `force`. slip: that of the rows, or its part by the mortar side; pair: the
+   pair to which they belong, or PETSC_DECIDE for all pairs.
 */
-PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt pair, Vec force)
+PetscErrorCode FrictionAddForces(ContactLinearization lin, Mat slip, Vec shear, PetscInt pair, Vec force)
 {
   PetscScalar *f;
   Vec          own;
@@ -198,7 +198,7 @@ PetscErrorCode FrictionAddForces(ContactLinearization lin, Vec shear, PetscInt p
     if (pair != PETSC_DECIDE && lin->pair[r] != pair) f[2 * r] = f[2 * r + 1] = 0.0;
   }
   PetscCall(VecRestoreArray(own, &f));
-  PetscCall(MatMultTransposeAdd(lin->slip, own, force, force));
+  PetscCall(MatMultTransposeAdd(slip, own, force, force));
   PetscCall(VecDestroy(&own));
   PetscFunctionReturn(0);
 }

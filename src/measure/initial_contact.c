@@ -123,7 +123,11 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
 
     if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
-    if (area == 0.0)
+    if (area == 0.0 && sim->scene->pairs[p].self)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",
+        sim->scene->pairs[p].name, sim->scene->pairs[p].self));
+    else if (area == 0.0)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
         "faces and clearance",
@@ -137,6 +141,14 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
   const char *wanted = StartJudge(pair, start);
 
   PetscFunctionBegin;
+  if (pair->self) {
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  %s: %" PetscInt_FMT " vertices of %s have another part of it within reach", pair->name, start->n, pair->self));
+    if (start->n)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "; gap %.5g to %.5g", (double)start->least, (double)start->largest));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscFunctionReturn(0);
+  }
   if (!start->n) {
     PetscCall(PetscViewerASCIIPrintf(viewer,
       "  %s: no vertex of %s has %s within reach; WARNING: the pair does nothing unless the faces come closer\n",

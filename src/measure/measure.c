@@ -194,7 +194,8 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
     PetscCall(VecDuplicate(u, &contact));
     PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->solved->linearization->mass));
     PetscCall(MatMultTranspose(sim->solved->linearization->J, weighted, contact));
-    PetscCall(FrictionAddForces(sim->solved->linearization, sol->shear, PETSC_DECIDE, contact));
+    PetscCall(FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, sol->shear, PETSC_DECIDE,
+      contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
     PetscCall(FrictionMeasure(sim, u, sol, report));
     PetscCall(MeasureActionReaction(sim, contact, report));

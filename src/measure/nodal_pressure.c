@@ -102,11 +102,11 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
   PetscFunctionBegin;
   *facets = (CoverFacets){0};
   PetscCall(CoverAddFace(sim->dm, pair->nonmortar, facets));
-  PetscCall(CoverAddFace(sim->dm, pair->mortar, facets));
+  if (!pair->self) PetscCall(CoverAddFace(sim->dm, pair->mortar, facets));
   PetscCall(VecDuplicate(carried, &whole));
   PetscCall(VecZeroEntries(whole));
   PetscCall(ElasticityAddFacetAreas(sim->elasticity, pair->nonmortar, whole));
-  PetscCall(ElasticityAddFacetAreas(sim->elasticity, pair->mortar, whole));
+  if (!pair->self) PetscCall(ElasticityAddFacetAreas(sim->elasticity, pair->mortar, whole));
   PetscCall(VecDuplicate(carried, &facets->cover));
   PetscCall(VecZeroEntries(facets->cover));
   PetscCall(VecGetLocalSize(carried, &n));

@@ -202,7 +202,7 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
     if (p < sim->report.steps[s].npairs) coarseness = PetscMax(coarseness, sim->report.steps[s].pairs[p].coarseness);
   }
-  if (!softer && coarseness > PAIR_COARSE)
+  if (!softer && !pair->self && coarseness > PAIR_COARSE)
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "contact pair \"%s\": facets of the nonmortar face %s are %.2g times as large as those of the mortar face %s, "
       "whose vertices can penetrate between its constraints: swap the two faces, or refine %s",

@@ -70,12 +70,14 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
 PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 {
   const SceneContactPair *faces = &sim->scene->pairs[pair];
-  const PetscInt          n     = sim->solved->linearization->nlocal;
+  ContactLinearization    lin   = sim->solved->linearization;
+  const PetscInt          n     = lin->nlocal;
   const PetscScalar      *mass;
   PetscReal              *force;
 
   PetscFunctionBegin;
   *rows       = (PairRows){.n = n,
+          .self               = (PetscBool)(faces->self != NULL),
           .frictional         = (PetscBool)(sim->solved->linearization->slip && SceneContactPairHasFriction(faces))};
   rows->young = PetscMin(SceneFaceBody(sim->scene, faces->mortar)->material.young,
     SceneFaceBody(sim->scene, faces->nonmortar)->material.young);
@@ -83,8 +85,8 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
     &rows->closed, n, &rows->length));
   PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
   PetscCall(PetscMalloc1(3 * n, &force));
-  PetscCall(PairRowsSum(sim, pair, PairCover(sim->solved->linearization), 3, n, rows->normal));
-  PetscCall(PairRowsSum(sim, pair, sim->solved->linearization->J, 0, n, force));
+  PetscCall(PairRowsSum(sim, pair, rows->self ? lin->mortar_cover : PairCover(lin), 3, n, rows->normal));
+  PetscCall(PairRowsSum(sim, pair, rows->self ? lin->mortar : lin->J, 0, n, force));
   PetscCall(VecGetArrayRead(sim->solved->linearization->mass, &mass));
   for (PetscInt r = 0; r < n; ++r) {
     PetscReal *normal = &rows->normal[3 * r], size = VectorNorm(normal);

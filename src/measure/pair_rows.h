@@ -19,6 +19,7 @@ typedef struct {
   PetscReal *facing;     /* size of the mortar facets that the row faces [length] */
   PetscReal *length;     /* facet size with which the row's gap is compared: the row's own, or that of the mortar
                             side if only the mortar side's means are resolved [length] */
+  PetscBool  self;       /* both sides are the same face, which is in contact with itself */
   PetscBool  frictional; /* the pair has friction */
   PetscReal *slips;      /* 1 if the row slips, otherwise 0 */
   PetscReal *shear,
@@ -35,7 +36,7 @@ PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
    pair_spread.c: transfers values from rows to vertices and back, in proportion to the shared area. The first value of
    `sides` is 1 at vertices of the mortar side, -1 on the nonmortar side, and 0 elsewhere.
 */
-PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, Vec sides);
+PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, const PairRows *, Vec sides);
 PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);
 PETSC_INTERN Mat            PairCover(ContactLinearization);
 PETSC_INTERN PetscErrorCode PairSpread(Simulation, const PairRows *, const PetscReal value[], Vec sides, PetscInt to,

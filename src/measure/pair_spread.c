@@ -26,21 +26,6 @@ PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscI
   PetscFunctionReturn(0);
 }
 
-/*
-   Marks the vertices of both sides in the first value of `sides`: 1 on the mortar side, -1 on the nonmortar side.
-   Collective.
-*/
-PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, Vec sides)
-{
-  const SceneContactPair *faces = &sim->scene->pairs[pair];
-
-  PetscFunctionBegin;
-  PetscCall(VecZeroEntries(sides));
-  PetscCall(PairMarkFace(sim->dm, faces->mortar, 0, 1, sides));
-  PetscCall(PairMarkFace(sim->dm, faces->nonmortar, 0, -1, sides));
-  PetscFunctionReturn(0);
-}
-
 /* Returns the matrix by which areas are distributed to vertices */
 Mat PairCover(ContactLinearization lin)
 {
@@ -82,13 +67,14 @@ static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal val
 }
 
 /*
-   Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
-   is the integral of the rows' field times B's shape function; over a side these sum to the sum of w_A value_A.
+   Adds to v[to] at the vertices B: factor x sum_A mass_A A_AB . n_A share_A value_A (value NULL: 1). sides: the factor
+   is multiplied by its first value; NULL: 1
 */
-PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
+static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, const PetscReal value[],
+  PetscReal factor, Vec sides, PetscInt to, Vec v)
 {
   ContactLinearization lin = sim->solved->linearization;
-  const PetscScalar   *t, *side, *mass;
+  const PetscScalar   *t, *side = NULL, *mass;
   PetscScalar         *y, *a;
   PetscInt             n;
   Vec                  weighted, spread;
@@ -108,15 +94,17 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
       y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
     PetscCall(VecRestoreArrayWrite(weighted, &y));
     PetscCall(VecRestoreArrayRead(lin->mass, &mass));
-    PetscCall(MatMultTranspose(PairCover(lin), weighted, spread));
+    PetscCall(MatMultTranspose(A, weighted, spread));
     PetscCall(VecGetArrayRead(spread, &t));
-    PetscCall(VecGetArrayRead(sides, &side));
+    if (sides) PetscCall(VecGetArrayRead(sides, &side));
     PetscCall(VecGetArray(v, &a));
     for (PetscInt i = 0; i < n; i += 3) {
-      if (PetscRealPart(side[i]) != 0.0) a[i + to] += side[i] * t[i + c];
+      const PetscReal times = side ? factor * PetscRealPart(side[i]) : factor;
+
+      if (times != 0.0) a[i + to] += times * t[i + c];
     }
     PetscCall(VecRestoreArray(v, &a));
-    PetscCall(VecRestoreArrayRead(sides, &side));
+    if (sides) PetscCall(VecRestoreArrayRead(sides, &side));
     PetscCall(VecRestoreArrayRead(spread, &t));
   }
   PetscCall(VecDestroy(&spread));
@@ -124,8 +112,71 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Copies v[from] at the mortar vertices to component c of `along`, which is zero elsewhere */
-static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
+/*
+   Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
+   is the integral of the rows' field times B's shape function; over a side these sum to the sum of w_A value_A. If both
+   sides are one face, the cover is the difference of their integrals, and twice the part of the mortar side less the
+   cover is the sum of their integrals.
+*/
+PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
+{
+  ContactLinearization lin = sim->solved->linearization;
+
+  PetscFunctionBegin;
+  PetscCall(PairSpreadBy(sim, rows, PairCover(lin), value, rows->self ? -1.0 : 1.0, rows->self ? NULL : sides, to, v));
+  if (rows->self) PetscCall(PairSpreadBy(sim, rows, lin->mortar_cover, value, 2.0, NULL, to, v));
+  PetscFunctionReturn(0);
+}
+
+/* Marks the vertices of a face in contact with itself by the side on which more of their area is */
+static PetscErrorCode PairMarkSelf(Simulation sim, const PairRows *rows, Vec sides)
+{
+  PetscScalar       *s;
+  const PetscScalar *a;
+  PetscInt           n;
+  Vec                areas; /* of both sides, of the mortar side */
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sides, &areas));
+  PetscCall(VecZeroEntries(areas));
+  PetscCall(PairSpread(sim, rows, NULL, NULL, 0, areas));
+  PetscCall(PairSpreadBy(sim, rows, sim->solved->linearization->mortar_cover, NULL, 1.0, NULL, 1, areas));
+  PetscCall(VecGetLocalSize(sides, &n));
+  PetscCall(VecGetArrayRead(areas, &a));
+  PetscCall(VecGetArray(sides, &s));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal both = PetscRealPart(a[i]), mortar = PetscRealPart(a[i + 1]);
+
+    if (both > 0.0) s[i] = 2.0 * mortar >= both ? 1.0 : -1.0;
+  }
+  PetscCall(VecRestoreArray(sides, &s));
+  PetscCall(VecRestoreArrayRead(areas, &a));
+  PetscCall(VecDestroy(&areas));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Marks the vertices of both sides in the first value of `sides`: 1 on the mortar side, -1 on the nonmortar side.
+   Collective.
+*/
+PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, const PairRows *rows, Vec sides)
+{
+  const SceneContactPair *faces = &sim->scene->pairs[pair];
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(sides));
+  if (rows->self) {
+    PetscCall(PairMarkSelf(sim, rows, sides));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PairMarkFace(sim->dm, faces->mortar, 0, 1, sides));
+  PetscCall(PairMarkFace(sim->dm, faces->nonmortar, 0, -1, sides));
+  PetscFunctionReturn(0);
+}
+
+/* along: v[from] at the mortar vertices (of a face in contact with itself at all of them), as component c of a vector;
+   0 elsewhere */
+static PetscErrorCode PairPlaceAlong(const PairRows *rows, PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
 {
   const PetscScalar *side, *a;
   PetscScalar       *b;
@@ -138,7 +189,7 @@ static PetscErrorCode PairPlaceAlong(PetscInt c, Vec sides, Vec v, PetscInt from
   PetscCall(VecGetArrayRead(v, &a));
   PetscCall(VecGetArray(along, &b));
   for (PetscInt i = 0; i < n; i += 3) {
-    if (PetscRealPart(side[i]) > 0.0) b[i + c] = a[i + from];
+    if (rows->self || PetscRealPart(side[i]) > 0.0) b[i + c] = a[i + from];
   }
   PetscCall(VecRestoreArray(along, &b));
   PetscCall(VecRestoreArrayRead(v, &a));
@@ -162,8 +213,8 @@ PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v
   PetscCall(VecDuplicate(lin->mass, &sum));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(PairPlaceAlong(c, sides, v, from, along));
-    PetscCall(MatMult(PairCover(lin), along, sum));
+    PetscCall(PairPlaceAlong(rows, c, sides, v, from, along));
+    PetscCall(MatMult(rows->self ? lin->mortar_cover : PairCover(lin), along, sum));
     PetscCall(VecGetArrayRead(sum, &s));
     for (PetscInt r = 0; r < rows->n; ++r) {
       if (rows->area[r] > 0.0)

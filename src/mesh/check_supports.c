@@ -595,6 +595,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
+    if (pair->self) continue;
     if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
     else PetscCall(SupportAddPair(&support, pair));
   }

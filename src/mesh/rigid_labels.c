@@ -1,7 +1,9 @@
-/* Rigid bodies: a label for each, like that of a face, with all points that have unknowns and the boundary facets */
+/* Labels like those of faces for whole bodies. Of a rigid body: all points that have unknowns, and the boundary facets.
+   Of a body in contact with itself: the boundary facets and their points */
 #include "meshimpl.h"
+#include <petscsf.h>
 
-/* Labels the points of a cell; boundary: of the facets, from number fstart on */
+/* Labels the points of a cell of a rigid body; boundary: of the facets, from number fstart on */
 static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[],
   DMLabel whole)
 {
@@ -18,6 +20,49 @@ static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, Pets
   PetscFunctionReturn(0);
 }
 
+/* Labels the boundary facets of a body that is not rigid, and their points, also where another rank has the facet */
+static PetscErrorCode RigidLabelBoundary(DM dm, DMLabel body, PetscInt number, const PetscBool boundary[],
+  DMLabel whole)
+{
+  PetscInt cstart, cend, fstart, npoints, nroots, *mark;
+  PetscSF  sf;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
+  PetscCall(DMPlexGetHeightStratum(dm, 1, &fstart, NULL));
+  PetscCall(DMPlexGetChart(dm, NULL, &npoints));
+  PetscCall(PetscCalloc1(npoints, &mark));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    const PetscInt *facets;
+    PetscInt        of, nfacets;
+
+    PetscCall(DMLabelGetValue(body, c, &of));
+    PetscCall(DMPlexGetConeSize(dm, c, &nfacets));
+    PetscCall(DMPlexGetCone(dm, c, &facets));
+    for (PetscInt f = 0; of == number && f < nfacets; ++f) {
+      PetscInt n, *closure = NULL;
+
+      if (!boundary[facets[f] - fstart]) continue;
+      PetscCall(DMPlexGetTransitiveClosure(dm, facets[f], PETSC_TRUE, &n, &closure));
+      for (PetscInt i = 0; i < n; ++i) mark[closure[2 * i]] = 1;
+      PetscCall(DMPlexRestoreTransitiveClosure(dm, facets[f], PETSC_TRUE, &n, &closure));
+    }
+  }
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
+  if (nroots >= 0) {
+    PetscCall(PetscSFReduceBegin(sf, MPIU_INT, mark, mark, MPI_MAX));
+    PetscCall(PetscSFReduceEnd(sf, MPIU_INT, mark, mark, MPI_MAX));
+    PetscCall(PetscSFBcastBegin(sf, MPIU_INT, mark, mark, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(sf, MPIU_INT, mark, mark, MPI_REPLACE));
+  }
+  for (PetscInt p = 0; p < npoints; ++p) {
+    if (mark[p]) PetscCall(DMLabelSetValue(whole, p, 1));
+  }
+  PetscCall(PetscFree(mark));
+  PetscFunctionReturn(0);
+}
+
 /* Call after the last refinement */
 PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
 {
@@ -27,7 +72,8 @@ PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
   char       name[256];
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || bodies[b].material.type == MATERIAL_RIGID);
+  for (PetscInt b = 0; b < nbodies; ++b)
+    any = (PetscBool)(any || bodies[b].whole || bodies[b].material.type == MATERIAL_RIGID);
   if (!any) PetscFunctionReturn(0);
   PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &body));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
@@ -35,11 +81,12 @@ PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
   PetscCall(PetscMalloc1(fend - fstart, &boundary));
   PetscCall(MeshMarkBoundary(dm, boundary));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    if (bodies[b].material.type != MATERIAL_RIGID) continue;
+    if (!bodies[b].whole && bodies[b].material.type != MATERIAL_RIGID) continue;
     PetscCall(PetscSNPrintf(name, sizeof(name), "%s" SCENE_WHOLE_BODY, bodies[b].name));
     PetscCall(DMCreateLabel(dm, name));
     PetscCall(DMGetLabel(dm, name, &whole));
-    for (PetscInt c = cstart; c < cend; ++c) {
+    if (bodies[b].whole) PetscCall(RigidLabelBoundary(dm, body, b, boundary, whole));
+    for (PetscInt c = cstart; c < cend && !bodies[b].whole; ++c) {
       PetscInt of;
 
       PetscCall(DMLabelGetValue(body, c, &of));

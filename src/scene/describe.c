@@ -312,20 +312,24 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *here = &scene->pairs[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar,
-      here->nonmortar, GapTypes[here->gap]));
+    if (here->self)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s in contact with itself, gap %s, ", here->name, here->self,
+        GapTypes[here->gap]));
+    else
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: mortar %s, nonmortar %s, gap %s, ", here->name, here->mortar,
+        here->nonmortar, GapTypes[here->gap]));
     if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
     else
       PetscCall(
         PetscViewerASCIIPrintf(viewer, "facets pair within a distance that is chosen from the size of the faces\n"));
-    if (here->why) {
+    if (here->why && !here->self) {
       PetscCall(PetscViewerASCIIPrintf(viewer, "    found by a rule; %s is nonmortar because %s; ", here->nonmortar,
         here->why));
       if (here->apart < PETSC_MAX_REAL)
         PetscCall(PetscViewerASCIIPrintf(viewer, "smallest distance at the start %.4g\n", (double)here->apart));
       else PetscCall(PetscViewerASCIIPrintf(viewer, "the faces meet during the run\n"));
     }
-    PetscCall(DescribeSides(dm, here, viewer));
+    if (!here->self) PetscCall(DescribeSides(dm, here, viewer));
   }
   PetscFunctionReturn(0);
 }

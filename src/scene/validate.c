@@ -180,12 +180,17 @@ static PetscErrorCode SceneValidateContact(MPI_Comm comm, const char file[], Sce
     const SceneContactPair *here = &scene->pairs[p];
     PetscBool               same, straight[2], crossed[2];
 
-    PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
-    PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
+    if (here->self) PetscCall(SceneValidateSelf(comm, file, scene, here));
+    else {
+      PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->mortar));
+      PetscCall(SceneValidateFace(comm, file, scene, "contact pair", here->name, here->nonmortar));
+    }
     PetscCall(SceneValidatePairEffects(comm, file, scene, here));
     PetscCall(PetscStrcmp(here->mortar, here->nonmortar, &same));
-    SceneRequire(!same, "%s: contact pair \"%s\" has the same face \"%s\" on both sides", file, here->name,
-      here->mortar);
+    SceneRequire(!same || here->self,
+      "%s: contact pair \"%s\" has the same face \"%s\" on both sides: contact of a face with itself is written "
+      "self: %s",
+      file, here->name, here->mortar, here->mortar);
     for (PetscInt q = 0; q < p; ++q) {
       const SceneContactPair *other = &scene->pairs[q];
 

@@ -369,9 +369,14 @@ static PetscErrorCode AttemptFindPassed(Simulation sim, PetscReal time, Vec u, S
     PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path->u, u, &depth, &reach, &turned));
     if (turned && depth <= reach) PetscCall(AttemptFindTurned(sim, time, p, u, report));
     if (depth <= reach) continue;
-    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
-      "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
-      pair->name, pair->mortar, pair->nonmortar, (double)depth));
+    if (pair->self)
+      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+        "contact pair \"%s\": %s goes through itself within the load step, by %.3g; use smaller load steps", pair->name,
+        pair->self, (double)depth));
+    else
+      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+        "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
+        pair->name, pair->mortar, pair->nonmortar, (double)depth));
     PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   PetscFunctionReturn(0);

@@ -161,7 +161,7 @@ static PetscErrorCode TestNearest(PetscRandom r)
       if (m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > cosine) continue;
       best = PetscMin(best, ContactClosestPoint(&facets.x[12 * f], x, xi, y));
     }
-    ContactFindNearest(&tree, &facets, cosine, reach, x, n, &nearest);
+    ContactFindNearest(&tree, &facets, cosine, reach, x, n, NULL, NULL, &nearest);
     wrong += (nearest.facet >= 0) != (best <= reach);
     if (nearest.facet < 0) continue;
     ++nfound;

@@ -21,7 +21,7 @@ src/error src/options src/files src/material src/model src/report
 src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
 src/scene/format src/scene/sections src/scene
 src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
-src/contact/geometry src/contact/surface src/contact/search src/contact/detect src/contact/smooth src/contact/assembly src/contact/gaps src/contact
+src/contact/geometry src/contact/surface src/contact/search src/contact/self src/contact/detect src/contact/smooth src/contact/assembly src/contact/gaps src/contact
 src/loads src/constraints src/dynamics src/state src/measure src/step src/run
 src/output src/checkpoint
 apps

@@ -7,13 +7,23 @@
 /* The corresponding fraction for a row of a smooth pair, whose entries are sums of more terms. */
 #define SLOPE_DROP 1e-12
 
-PetscErrorCode ContactAssemblyCreate(Contact contact, ContactAssembly *as)
+static void AssemblyStart(Contact contact, ContactParts parts, ContactAssembly *as)
 {
-  PetscFunctionBegin;
-  PetscCall(PetscMemzero(as, sizeof(*as)));
+  as->parts       = parts;
   as->dim         = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
   as->rigid.width = as->by_cover.width = as->by_node.width = as->by_normal.width = 3;
   for (PetscInt c = 0; c < as->dim; ++c) as->coupling[c].width = 1;
+}
+
+PetscErrorCode ContactAssemblyCreate(Contact contact, ContactParts parts, ContactAssembly *as)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(as, sizeof(*as)));
+  AssemblyStart(contact, parts, as);
+  if (contact->self) {
+    PetscCall(PetscNew(&as->mortar));
+    AssemblyStart(contact, PetscMin(parts, CONTACT_FORCES), as->mortar);
+  }
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
   PetscCall(VecDuplicate(as->gap, &as->cover));
@@ -57,6 +67,8 @@ PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[
 PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
 {
   PetscFunctionBegin;
+  if (as->mortar) PetscCall(ContactAssemblyDestroy(as->mortar));
+  PetscCall(PetscFree(as->mortar));
   PetscCall(ContactEntriesDestroy(&as->rigid));
   PetscCall(ContactEntriesDestroy(&as->by_cover));
   PetscCall(ContactEntriesDestroy(&as->by_node));
@@ -221,7 +233,7 @@ static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEnt
    (mean gap) times the derivative of int phi_A. A shrinking covered area would otherwise count as a shrinking gap.
    Under pressure the mean gap is zero, and nothing is subtracted.
 */
-static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat slopes)
+static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, ContactEntries *entries, Mat slopes)
 {
   PetscInt           n;
   PetscScalar       *m;
@@ -239,7 +251,7 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
   PetscCall(VecRestoreArrayRead(as->cover, &cover));
   PetscCall(VecRestoreArray(mean, &m));
   PetscCall(MatGetLocalSize(slopes, NULL, &n));
-  PetscCall(SlopesCreateMatrix(contact, n, &as->by_cover, &by_cover));
+  PetscCall(SlopesCreateMatrix(contact, n, entries, &by_cover));
   PetscCall(MatDiagonalScale(by_cover, mean, NULL));
   PetscCall(MatAXPY(slopes, -1.0, by_cover, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&by_cover));
@@ -248,15 +260,16 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Mat 
 }
 
 /* Collective. Computes the derivatives of the weighted gaps of smooth pairs [length^2], not yet divided by the masses,
-   for patches that keep their shape. Rows of other pairs are empty. */
-static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, Mat *rigid)
+   with patches that keep their shape. Rows of other pairs are empty. as: gaps and covered areas; part: the assembly
+   itself, or its part of the mortar side */
+static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, ContactAssembly *part, Mat *rigid)
 {
   PetscInt n;
 
   PetscFunctionBegin;
   PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
-  PetscCall(SlopesCreateMatrix(contact, n, &as->rigid, rigid));
-  PetscCall(SlopesHoldCover(contact, as, *rigid));
+  PetscCall(SlopesCreateMatrix(contact, n, &part->rigid, rigid));
+  PetscCall(SlopesHoldCover(contact, as, &part->by_cover, *rigid));
   PetscFunctionReturn(0);
 }
 
@@ -409,7 +422,7 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   Mat rigid, bending;
 
   PetscFunctionBegin;
-  PetscCall(SlopesCreateRigid(contact, as, &rigid));
+  PetscCall(SlopesCreateRigid(contact, as, as, &rigid));
   PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->J));
   PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->cover));
   PetscCall(MatDestroy(&rigid));
@@ -417,6 +430,26 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
   PetscCall(SlopesCreateBending(contact, as, &bending));
   PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
   PetscCall(MatDestroy(&bending));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the parts of J, cover and slip by the mortar side */
+static PetscErrorCode LinearizationSetMortar(Contact contact, ContactAssembly *as, const PetscInt kept[],
+  ContactLinearization lin)
+{
+  const PetscBool smooth   = (PetscBool)(contact->smooth.slopes && as->parts != CONTACT_GAPS);
+  Coupling        coupling = {0};
+  Mat             rigid    = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(CouplingCreate(contact, as->mortar, &coupling));
+  if (smooth) PetscCall(SlopesCreateRigid(contact, as, as->mortar, &rigid));
+  PetscCall(CouplingCreateJacobian(contact, &coupling, rigid, lin->nlocal, kept, &lin->mortar));
+  if (smooth) PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, lin->nlocal, kept, &lin->mortar_cover));
+  else PetscCall(MatDuplicate(lin->mortar, MAT_COPY_VALUES, &lin->mortar_cover));
+  if (contact->frictional) PetscCall(ContactSlipCreateMortar(contact, coupling.mat[0], kept, lin));
+  PetscCall(MatDestroy(&rigid));
+  PetscCall(CouplingDestroy(&coupling));
   PetscFunctionReturn(0);
 }
 
@@ -431,6 +464,8 @@ static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearizatio
   if (!lin->cover) PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &lin->cover));
   PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->J));
   if (lin->slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->slip));
+  if (lin->mortar) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->mortar));
+  if (lin->mortar_slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->mortar_slip));
   if (!lin->derivative) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(lin->mass, &facets));
   PetscCall(VecGetArrayWrite(facets, &f));
@@ -463,6 +498,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
   if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
+  if (as->mortar) PetscCall(LinearizationSetMortar(contact, as, kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(ContactCyclicMerge(contact, *lin));
   (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth.slopes);

@@ -87,6 +87,7 @@ struct _n_Contact {
   PetscInt         npairs;
   ContactPairData *pairs;
   PetscBool        frictional; /* whether any pair has friction */
+  PetscBool        self;       /* whether any pair is a face in contact with itself */
   ContactRows      rows;
   ContactNormals   normals;
   ContactCyclic    cyclic; /* cuts of sectors; NULL: none */
@@ -148,12 +149,14 @@ PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
 
 /* slip.c: the slip rows of the contact rows that remain */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
+PETSC_INTERN PetscErrorCode ContactSlipCreateMortar(Contact, Mat couplings, const PetscInt kept[],
+  ContactLinearization);
 
 /* What is computed of smooth pairs: the gap; also J and lin->cover; also lin->derivative. Others always have all */
 typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
 
 /* assemble.c: the data of one contact update while it is assembled */
-typedef struct {
+typedef struct _n_ContactAssembly {
   ContactParts parts;
   Vec          gap;   /* weighted gap of each row: int phi_A gap [length^3] */
   Vec          cover; /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
@@ -164,8 +167,11 @@ typedef struct {
   ContactEntries coupling[3];
   /* derivatives of the weighted gaps of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
   ContactEntries rigid, by_cover, by_node, by_normal;
+  /* couplings and rigid derivatives with respect to the mortar side alone, of pairs whose two sides are one face; NULL:
+     there are none */
+  struct _n_ContactAssembly *mortar;
 } ContactAssembly;
-PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactAssembly *);
+PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactParts, ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[],
   const PetscReal value[], const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *, const PetscInt row[4], const PetscInt node[4],

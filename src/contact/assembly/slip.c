@@ -120,7 +120,8 @@ static PetscErrorCode SlipFillRow(Mat couplings, PetscInt row, PetscReal mass, c
 }
 
 /* Collective. Creates a matrix with two empty rows for each row of J, preallocated for rows with friction */
-static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin,
+  Mat *slip)
 {
   PetscInt rstart, cstart, cend, *diagonal, *offdiagonal;
 
@@ -141,7 +142,7 @@ static PetscErrorCode SlipCreateMatrix(Contact contact, Mat couplings, const Pet
     PetscCall(MatRestoreRow(couplings, rstart + kept[k], &n, &node, NULL));
   }
   PetscCall(MatCreateAIJ(contact->comm, 2 * lin->nlocal, 3 * (cend - cstart), PETSC_DETERMINE, PETSC_DETERMINE, 0,
-    diagonal, 0, offdiagonal, &lin->slip));
+    diagonal, 0, offdiagonal, slip));
   PetscCall(PetscFree2(diagonal, offdiagonal));
   PetscFunctionReturn(0);
 }
@@ -155,7 +156,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
 
   PetscFunctionBegin;
   PetscCall(ContactFindHeld(contact));
-  PetscCall(SlipCreateMatrix(contact, couplings, kept, lin));
+  PetscCall(SlipCreateMatrix(contact, couplings, kept, lin, &lin->slip));
   PetscCall(PetscCalloc1(6 * lin->nlocal, &lin->tangent));
   PetscCall(PetscCalloc1(lin->nlocal, &lin->covered));
   PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
@@ -176,5 +177,29 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(lin->slip, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Creates the part of the slip by the mortar side, after ContactSlipCreate(). couplings: integrals of rows with its
+   vertices */
+PetscErrorCode ContactSlipCreateMortar(Contact contact, Mat couplings, const PetscInt kept[], ContactLinearization lin)
+{
+  const PetscScalar *mass;
+  PetscReal          cover;
+  PetscInt           rstart, start;
+
+  PetscFunctionBegin;
+  PetscCall(SlipCreateMatrix(contact, couplings, kept, lin, &lin->mortar_slip));
+  PetscCall(MatGetOwnershipRange(couplings, &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(lin->mortar_slip, &start, NULL));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt k = 0; k < lin->nlocal; ++k) {
+    if (!contact->pairs[lin->pair[k]].frictional) continue;
+    PetscCall(SlipFillRow(couplings, rstart + kept[k], PetscRealPart(mass[k]), &lin->tangent[6 * k], start + 2 * k,
+      lin->mortar_slip, &cover));
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(MatAssemblyBegin(lin->mortar_slip, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(lin->mortar_slip, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }

@@ -119,9 +119,34 @@ static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const 
     pair->apart  = apart;
     pair->tie    = 0.0;
     pair->except = NULL;
+    pair->self   = NULL;
     PetscCall(PetscStrallocpy(name, &pair->name));
     PetscCall(PetscStrallocpy(mortar, &pair->mortar));
     PetscCall(PetscStrallocpy(nonmortar, &pair->nonmortar));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Adds a pair for each body of finite strain in contact with itself */
+static PetscErrorCode RuleAddSelf(Scene scene, const SceneContactPair *rule)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    const SceneBody  *body = &scene->bodies[b];
+    SceneContactPair *pair;
+
+    if (!DetectWantsSelf(scene, rule, body)) continue;
+    PetscCall(PetscRealloc(sizeof(*pair) * (scene->npairs + 1), &scene->pairs));
+    pair         = &scene->pairs[scene->npairs];
+    *pair        = *rule;
+    pair->why    = "it comes into contact with itself";
+    pair->apart  = PETSC_MAX_REAL;
+    pair->tie    = 0.0;
+    pair->except = NULL;
+    PetscCall(RuleMakeName(scene, body->name, "self", &pair->name));
+    PetscCall(PetscStrallocpy(body->name, &pair->self));
+    PetscCall(SceneContactPairSetSelf(scene->nbodies, scene->bodies, pair));
+    ++scene->npairs;
   }
   PetscFunctionReturn(0);
 }
@@ -167,6 +192,7 @@ static PetscErrorCode RulesDestroy(Scene scene)
     PetscCall(PetscFree(scene->rules[r].mortar));
     PetscCall(PetscFree(scene->rules[r].nonmortar));
     PetscCall(PetscFree(scene->rules[r].except));
+    PetscCall(PetscFree(scene->rules[r].self));
   }
   PetscCall(PetscFree(scene->rules));
   scene->nrules = 0;
@@ -195,6 +221,8 @@ static PetscErrorCode RulesDestroy(Scene scene)
   up to 32 states of the load program with the bodies moved as prescribed. Bodies in between hide what is behind them.
   The cost is O(N log N) in the number of facets, divided by the number of ranks.
 
+  With `self` each body of finite strain, too, gets a pair in contact with itself.
+
   It is an error if no surfaces face each other, and the scene lists no pairs either.
 
 .seealso: `SceneLoad()`, `ContactCreate()`
@@ -205,14 +233,15 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
   DetectPair              *found;
   const SceneContactPair **rules;
   SceneContactPair        *pairs;
-  PetscBool               *tied;
+  PetscBool               *tied, self = PETSC_FALSE;
   PetscInt                 n;
 
   PetscFunctionBegin;
   if (!scene->nrules) PetscFunctionReturn(0);
   PetscCall(ModelCreate(comm, scene, &model));
   PetscCall(DetectFacing(&model, scene, &n, &found));
-  PetscCheck(n || scene->npairs || scene->nties, comm, PETSC_ERR_USER_INPUT,
+  for (PetscInt r = 0; r < scene->nrules; ++r) self = (PetscBool)(self || scene->rules[r].self);
+  PetscCheck(n || self || scene->npairs || scene->nties, comm, PETSC_ERR_USER_INPUT,
     "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the search distance: increase "
     "the key distance, or list the contact pairs",
     scene->name);
@@ -224,6 +253,9 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
     PetscCall(RuleJoin(scene, rules[i], pairs[i].mortar, pairs[i].nonmortar, pairs[i].name, tied[i], pairs[i].why,
       found[i].apart));
     PetscCall(PetscFree(pairs[i].name));
+  }
+  for (PetscInt r = 0; r < scene->nrules; ++r) {
+    if (scene->rules[r].self) PetscCall(RuleAddSelf(scene, &scene->rules[r]));
   }
   PetscCall(PetscFree3(rules, pairs, tied));
   PetscCall(PetscFree(found));

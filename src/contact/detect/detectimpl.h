@@ -36,6 +36,7 @@ typedef struct {
 /* rules.c: the rule that applies to two surfaces. It is NULL if they get no contact. The public function is in
    detect.c. */
 PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
+PETSC_INTERN PetscBool               DetectWantsSelf(Scene, const SceneContactPair *rule, const SceneBody *);
 
 /*
    rays.c: the facets at one time of the load program, in a tree. A ray starts at a facet and runs along its normal. Its

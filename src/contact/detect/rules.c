@@ -68,3 +68,14 @@ const SceneContactPair *DetectFindRule(const DetectModel *model, Scene scene, Pe
   }
   return any && RuleExcepts(any->except, s->name[surface], s->name[other]) ? NULL : any;
 }
+
+/* Whether a rule with `self` adds the contact of a body with itself: it has finite strain, the rule does not except it,
+   and the scene lists no pair of its faces */
+PetscBool DetectWantsSelf(Scene scene, const SceneContactPair *rule, const SceneBody *body)
+{
+  if (!MaterialIsFinite(&body->material) || RuleExcepts(rule->except, body->name, body->name)) return PETSC_FALSE;
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    if (RuleJoins(scene->pairs[p].mortar, scene->pairs[p].nonmortar, body->name, body->name)) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}

@@ -1,5 +1,6 @@
 /* Mortar integrals of one overlap, and of all overlaps of this rank's nonmortar facets */
 #include "gapsimpl.h"
+#include "src/contact/self/selfimpl.h"
 
 /* Sums the integrals over the quadrature points of an overlap. The positions on both facets are interpolated from their
    vertices x1 and x2. */
@@ -40,6 +41,7 @@ typedef struct {
   /* int phi_A over the covered part [length^2], and derivatives; smooth pairs only */
   PetscReal     cover[4];
   ContactSlopes slopes;
+  PetscBool     self;   /* whether the face is in contact with itself */
   PetscReal (*dual)[4]; /* dual functions; NULL if the pair has none, or if too small a part of the facet is covered */
 } MortarFacet;
 
@@ -65,6 +67,9 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
   for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
   if (sloped)
     PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
+  if (sloped && facet->self)
+    PetscCall(
+      ContactAssemblyAddSlopes(assembly->mortar, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
   PetscFunctionReturn(0);
 }
 
@@ -81,6 +86,9 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
     facet->gap[a] += m.gap[a];
     for (PetscInt b = 0; b < 4; ++b) facet->D[a][b] -= m.D[a][b];
     PetscCall(ContactAssemblyAdd(assembly, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
+    if (facet->self)
+      PetscCall(
+        ContactAssemblyAdd(assembly->mortar, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
   }
   PetscFunctionReturn(0);
 }
@@ -99,15 +107,17 @@ static PetscErrorCode OverlapsDestroy(MortarOverlaps *list)
 }
 
 /*
-   Finds the overlaps of a nonmortar facet, if one of them is within the search distance; otherwise the list is empty.
+   Finds the overlaps of nonmortar facet f, if one of them is within the search distance; otherwise the list is empty.
    All overlaps of such a facet count, up to the search distance plus the diameter of the facet. If its farther end were
    left out, the gap would jump when the facet rotates.
 */
-static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const ContactRule *rule, const PetscReal x[12],
-  PetscInt border, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], MortarOverlaps *list)
+static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const ContactRule *rule, const ContactSurface *s,
+  PetscInt f, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], MortarOverlaps *list)
 {
+  const PetscReal     *x       = &s->x[12 * f];
   ContactOverlapLimits whole   = *search;
   PetscBool            is_near = PETSC_FALSE;
+  ContactSelfFacet     self    = {0};
 
   PetscFunctionBegin;
   whole.distance += ContactFacetDiameter(x);
@@ -117,15 +127,14 @@ static PetscErrorCode OverlapsFind(const ContactOverlapLimits *search, const Con
     PetscCall(PetscMalloc2(list->max, &list->mortar, list->max, &list->overlap));
   }
   list->n = 0;
+  if (s->self) self = ContactSelfOwn(s, f);
   for (PetscInt k = 0; k < nnear; ++k) {
-    ContactOverlap *overlap = &list->overlap[list->n];
-
-    if (!ContactOverlapFindAtBorder(x, border, &mortar->x[12 * near[k]], mortar->border[near[k]], &whole, rule,
-          overlap))
-      continue;
-    is_near                 = (PetscBool)(is_near || overlap->gap <= search->distance);
-    list->mortar[list->n++] = near[k];
+    if (ContactOverlapFindAtBorder(x, s->border[f], &mortar->x[12 * near[k]], mortar->border[near[k]], &whole, rule,
+          &list->overlap[list->n]))
+      list->mortar[list->n++] = near[k];
   }
+  if (s->self) PetscCall(ContactSelfSelect(&self, mortar, &list->n, list->mortar, list->overlap));
+  for (PetscInt k = 0; k < list->n; ++k) is_near = (PetscBool)(is_near || list->overlap[k].gap <= search->distance);
   if (!is_near) list->n = 0;
   PetscFunctionReturn(0);
 }
@@ -167,7 +176,8 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
   MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
          .normal               = normal,
          .row                  = &pair->row[4 * f],
-         .node                 = &pair->nonmortar.node[4 * f]};
+         .node                 = &pair->nonmortar.node[4 * f],
+         .self                 = pair->nonmortar.self};
   PetscReal       dual[4][4];
   PetscScalar     gap[4], cover[4];
 
@@ -213,6 +223,28 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
   PetscFunctionReturn(0);
 }
 
+/* Collective. Normals of a surface in contact with itself: means over the facets with overlaps. Other facets about a
+   vertex are beside an edge, or on the mortar side. meets: whether a facet has overlaps */
+static PetscErrorCode MortarSelfNormals(Contact contact, PetscInt p, const ContactOverlapLimits *limits,
+  const ContactCandidates *mortar, const ContactNear *near, MortarOverlaps *list, PetscBool meets[])
+{
+  ContactPairData *pair  = &contact->pairs[p];
+  ContactRows     *rows  = &contact->rows;
+  const PetscInt   first = rows->first[p], n = rows->first[p + 1] - first;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
+    const PetscInt begin = near->offset[f];
+
+    PetscCall(OverlapsFind(limits, &contact->rule, &pair->nonmortar, f, mortar, near->offset[f + 1] - begin,
+      near->facet + begin, list));
+    meets[f] = (PetscBool)(list->n > 0);
+  }
+  PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, meets, pair->normal, n, rows->vertex + first,
+    rows->normal + 3 * first));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const ContactCandidates *mortar,
   ContactAssembly *assembly)
 {
@@ -220,6 +252,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : CONTACT_NORMAL_COSINE, CONTACT_OVERLAP_DROP,
     pair->distance + pair->bulge, pair->depth + pair->bulge};
   MortarOverlaps             list   = {0, 0, NULL, NULL};
+  PetscBool                 *meets  = NULL;
   ContactNear                near;
 
   PetscFunctionBegin;
@@ -227,20 +260,24 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   PetscCall(ContactSearch(&pair->nonmortar, limits.distance, limits.depth, mortar, &near));
   PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  if (pair->nonmortar.self) {
+    PetscCall(PetscMalloc1(pair->nonmortar.nfacets, &meets));
+    PetscCall(MortarSelfNormals(contact, p, &limits, mortar, &near, &list, meets));
+  }
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     const PetscInt first = near.offset[f], n = near.offset[f + 1] - first;
     PetscReal      normal[12];
 
-    if (!n) continue;
+    if (!n || (meets && !meets[f])) continue;
     PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
     for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
       (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
-    PetscCall(OverlapsFind(&limits, &contact->rule, &pair->nonmortar.x[12 * f], pair->nonmortar.border[f], mortar, n,
-      near.facet + first, &list));
+    PetscCall(OverlapsFind(&limits, &contact->rule, &pair->nonmortar, f, mortar, n, near.facet + first, &list));
     PetscCall(MortarAddFacet(&contact->rule, pair, f, normal, mortar, &list, assembly));
     pair->nfacing += list.n;
   }
   PetscCall(OverlapsDestroy(&list));
+  PetscCall(PetscFree(meets));
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactNearDestroy(&near));
   PetscFunctionReturn(0);

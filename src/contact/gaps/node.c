@@ -231,7 +231,7 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
     ContactNearest   nearest;
     NodeGap          gap;
 
-    ContactFindNearest(&tree, mortar, CONTACT_NORMAL_COSINE, reach, x, n, &nearest);
+    ContactFindNearest(&tree, mortar, CONTACT_NORMAL_COSINE, reach, x, n, NULL, NULL, &nearest);
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x, margin)) continue;
     if (pair->mortar.patched)
       NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);

@@ -8,7 +8,7 @@ typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] first facet and number of facets for each receiving rank */
   PetscInt    n, *node, *border, *normal_id;
-  PetscReal  *x, *patch;
+  PetscReal  *x, *patch, *self;
 } Outgoing;
 
 /* Counts the facets whose box meets the box of each rank. If out->x is allocated, copies them to the arrays as well. */
@@ -30,6 +30,11 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
         PetscCall(PetscArraycpy(&out->x[12 * out->n], &s->x[12 * f], 12));
         PetscCall(PetscArraycpy(&out->node[4 * out->n], &s->node[4 * f], 4));
         if (s->bordered) out->border[out->n] = s->border[f];
+        if (s->self) {
+          PetscCall(PetscArraycpy(&out->self[CONTACT_SELF_REALS * out->n], &s->reference[12 * f], 12));
+          out->self[CONTACT_SELF_REALS * out->n + 12] = s->rank[f];
+          out->self[CONTACT_SELF_REALS * out->n + 13] = s->below[f];
+        }
         if (s->patched) {
           PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
           PetscCall(PetscArraycpy(&out->normal_id[4 * out->n], &s->normal_id[4 * f], 4));
@@ -96,7 +101,7 @@ static PetscErrorCode ExchangeBroadcast(PetscSF sf, PetscMPIInt count, MPI_Datat
 /* Collective. Receives those facets of the surface s, from all ranks, whose boxes meet this rank's box */
 PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const ContactSurface *s, ContactCandidates *in)
 {
-  const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 1 : 0;
+  const PetscInt nborder = s->bordered ? 1 : 0, npatch = s->patched ? 1 : 0, nself = s->self ? CONTACT_SELF_REALS : 0;
   PetscMPIInt    size;
   PetscReal     *boxes;
   PetscSF        sf;
@@ -107,21 +112,22 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
-  PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
-    &out.patch, 4 * npatch * out.n, &out.normal_id));
+  PetscCall(PetscMalloc6(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
+    &out.patch, 4 * npatch * out.n, &out.normal_id, nself * out.n, &out.self));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
-    &in->patch, 4 * npatch * in->n, &in->normal_id));
+  PetscCall(PetscMalloc6(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
+    &in->patch, 4 * npatch * in->n, &in->normal_id, nself * in->n, &in->self));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
+  if (nself) PetscCall(ExchangeBroadcast(sf, CONTACT_SELF_REALS, MPIU_REAL, out.self, in->self));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
   if (npatch) {
     PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
     PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.normal_id, in->normal_id));
   }
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree5(out.x, out.node, out.border, out.patch, out.normal_id));
+  PetscCall(PetscFree6(out.x, out.node, out.border, out.patch, out.normal_id, out.self));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -129,7 +135,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree5(in->x, in->node, in->border, in->patch, in->normal_id));
+  PetscCall(PetscFree6(in->x, in->node, in->border, in->patch, in->normal_id, in->self));
   in->n = 0;
   PetscFunctionReturn(0);
 }

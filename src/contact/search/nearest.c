@@ -13,7 +13,7 @@ static PetscReal NearestBoxDistance(const PetscReal box[6], const PetscReal x[3]
 /* Makes facet f the nearest facet if its normal opposes the vertex's normal and f is nearer than *distance. Of two
    equally near facets the first one stays. */
 static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscReal cosine, const PetscReal x[3],
-  const PetscReal normal[3], ContactNearest *nearest, PetscReal *distance)
+  const PetscReal normal[3], ContactNearestTest test, const void *context, ContactNearest *nearest, PetscReal *distance)
 {
   PetscReal n[3], xi[2], y[3], d;
 
@@ -21,6 +21,7 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
   if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] > cosine) return;
   d = ContactClosestPoint(&facets->x[12 * f], x, xi, y);
   if (d > *distance || (d == *distance && nearest->facet >= 0)) return;
+  if (test && !test(context, facets, f, xi)) return;
   *distance      = d;
   nearest->facet = f;
   for (PetscInt c = 0; c < 2; ++c) nearest->xi[c] = xi[c];
@@ -30,7 +31,8 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
 /* Finds the nearest facet within the distance `reach` of the vertex x. Only facets count for which the cosine of the
    angle between their normal and the vertex's normal is at most `cosine`. nearest->facet is -1 if there is none. */
 void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, PetscReal cosine, PetscReal reach,
-  const PetscReal x[3], const PetscReal normal[3], ContactNearest *nearest)
+  const PetscReal x[3], const PetscReal normal[3], ContactNearestTest test, const void *context,
+  ContactNearest *nearest)
 {
   PetscInt  stack[CONTACT_TREE_DEPTH], depth = 0;
   PetscReal distance = reach;
@@ -55,7 +57,7 @@ void ContactFindNearest(const ContactTree *t, const ContactCandidates *facets, P
       const PetscInt f = t->order[i];
 
       if (NearestBoxDistance(&t->box[6 * f], x) <= distance * distance)
-        NearestTryFacet(facets, f, cosine, x, normal, nearest, &distance);
+        NearestTryFacet(facets, f, cosine, x, normal, test, context, nearest, &distance);
     }
   }
 }

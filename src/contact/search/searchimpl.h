@@ -5,6 +5,7 @@
 #include "src/contact/surface/surfaceimpl.h"
 
 /* exchange.c: the mortar facets of all ranks that may face this rank's part of the nonmortar face */
+#define CONTACT_SELF_REALS 14
 typedef struct {
   /* number of facets */
   PetscInt   n;
@@ -13,6 +14,8 @@ typedef struct {
   PetscReal *x;         /* [12 n] coordinates of the deformed vertices [length] */
   PetscReal *patch;     /* [12 n] unit normals of the smooth surface; NULL unless the surface is smooth */
   PetscInt  *normal_id; /* [4 n] global numbers of these normals; NULL unless the surface is smooth */
+  PetscReal *self;      /* [CONTACT_SELF_REALS n] of a surface in contact with itself: undeformed vertices, rank, and
+                           depth below, as in ContactSurface; else not allocated */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *,
   ContactCandidates *);
@@ -43,8 +46,11 @@ typedef struct {
   /* coordinates of the closest point [length] */
   PetscReal y[3];
 } ContactNearest;
+/* Whether a point xi of a facet may be the nearest one; context: data of the function */
+typedef PetscBool (
+  *ContactNearestTest)(const void *context, const ContactCandidates *, PetscInt facet, const PetscReal xi[2]);
 PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach,
-  const PetscReal x[3], const PetscReal normal[3], ContactNearest *);
+  const PetscReal x[3], const PetscReal normal[3], ContactNearestTest, const void *context, ContactNearest *);
 
 /* search.c: the candidates of nonmortar facet f are facet[offset[f]] to facet[offset[f + 1] - 1] */
 typedef struct {

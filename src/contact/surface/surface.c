@@ -146,9 +146,10 @@ static void SurfaceNormalize(PetscInt n, PetscReal normal[])
    Collective. Computes averaged unit normals at the facets' vertices (normal), and at n vertices of the face that this
    rank owns (vertexnormal). The normal of a vertex is the sum of the area vectors of the facets of the face around it,
    on all ranks, scaled to length 1. It is zero if the area vectors cancel; the vertex then has an empty contact row.
+   only: which facets count; NULL: all
 */
-PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal normal[], PetscInt n,
-  const PetscInt vertex[], PetscReal vertexnormal[])
+PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, const PetscBool only[], PetscReal normal[],
+  PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[])
 {
   PetscSection section;
   PetscScalar *a;
@@ -165,7 +166,7 @@ PetscErrorCode ContactSurfaceNormals(DM dm, const ContactSurface *s, PetscReal n
     PetscReal area[3];
     PetscInt  offset;
 
-    if (i % 4 == 3 && s->vertex[i] == s->vertex[i - 1]) continue;
+    if ((i % 4 == 3 && s->vertex[i] == s->vertex[i - 1]) || (only && !only[i / 4])) continue;
     ContactFacetAreaVector(&s->x[12 * (i / 4)], area);
     PetscCall(PetscSectionGetOffset(section, s->vertex[i], &offset));
     for (PetscInt c = 0; c < 3; ++c) a[offset + c] += area[c];
@@ -191,5 +192,6 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscBTDestroy(&s->rim));
   PetscCall(PetscFree(s->held));
   PetscCall(PetscFree2(s->patch, s->normal_id));
+  PetscCall(PetscFree2(s->rank, s->below));
   PetscFunctionReturn(0);
 }

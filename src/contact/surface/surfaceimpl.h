@@ -38,6 +38,11 @@ typedef struct {
                        4 + a if vertex a is on the border. Bit 2 of a triangle stands for its last vertex. */
   PetscBT    rim;       /* Bit p is set if the local DMPlex point p is a vertex on the border. NULL unless bordered. */
   PetscBool  bordered;  /* whether `border` has been computed; equal on all ranks */
+  PetscBool  self;      /* whether the face comes into contact with itself; equal on all ranks */
+  PetscReal *rank;      /* [nfacets] of such a face: of two facets in contact, the one with the smaller rank is
+                           nonmortar; else NULL */
+  PetscReal *below;     /* [nfacets] of such a face: smallest depth of the undeformed cell below the facet; else NULL
+                           [length] */
   PetscReal  area;      /* area of the whole undeformed face, summed over all ranks [length^2] */
   PetscInt   body;      /* number of the body that the face belongs to */
   PetscReal  thickness; /* mean thickness of that body [length] */
@@ -45,8 +50,8 @@ typedef struct {
 PETSC_INTERN PetscErrorCode ContactSurfaceCreate(DM, const char[], const PetscReal thickness[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactVerticesDeform(DM, Vec ulocal, PetscInt n, const PetscInt vertex[], PetscReal x[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDeform(DM, Vec ulocal, ContactSurface *);
-PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, PetscReal normal[], PetscInt n,
-  const PetscInt vertex[], PetscReal vertexnormal[]);
+PETSC_INTERN PetscErrorCode ContactSurfaceNormals(DM, const ContactSurface *, const PetscBool only[],
+  PetscReal normal[], PetscInt n, const PetscInt vertex[], PetscReal vertexnormal[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceDestroy(ContactSurface *);
 
 /* trace.c: the matrix T - 1, or T^-1 - 1, where T maps the displacement of the mesh's nodes to that of the surfaces'

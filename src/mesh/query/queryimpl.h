@@ -18,7 +18,6 @@ PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 
 /* query.c: DMPlex's vertex number for each corner of a cell; the corners of a cell */
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
-PETSC_INTERN PetscErrorCode  MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 
 /* nodes.c: points that carry displacements. Their positions are first straight between the vertices in a shape's
    parameters, then mapped and curved like the vertices. MeshUpdateVertices() copies the vertices' positions back to

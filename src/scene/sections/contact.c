@@ -123,13 +123,39 @@ static PetscBool PairIsRule(const SceneContactPair *pair)
     PetscBool)(!pair->mortar || !pair->nonmortar || (!strchr(pair->mortar, '.') && !strchr(pair->nonmortar, '.')));
 }
 
+/* The sides of a pair in contact with itself are not shown, as `self` names them */
+PetscBool ScenePairHides(const void *entry, const char key[])
+{
+  const SceneContactPair *pair = entry;
+
+  return (PetscBool)(pair->self && (!strcmp(key, "mortar") || !strcmp(key, "nonmortar")));
+}
+
+/* Finishes an entry with `self`: both sides are that face, or the whole boundary of that body */
+static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[], SceneContactPair *pair)
+{
+  PetscBool any, all = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (pair->mortar || pair->nonmortar)
+    PetscCall(SceneKeysErrorOf(keys, owner, pair->mortar ? "mortar" : "nonmortar",
+      "does not go with self, which names both sides: leave one of them out"));
+  PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
+  if (any) {
+    PetscCall(SceneParseAnswer(keys, "contact_auto_self", pair->self, &all));
+    if (!all) PetscCall(PetscFree(pair->self));
+  } else PetscCall(SceneContactPairSetSelf(scene->nbodies, scene->bodies, pair));
+  PetscFunctionReturn(0);
+}
+
 /* Checks which sides are given, and that keys of rules are given only for rules. */
-static PetscErrorCode FinishSides(SceneKeys keys, const char owner[], SceneContactPair *pair)
+static PetscErrorCode FinishSides(SceneKeys keys, Scene scene, const char owner[], SceneContactPair *pair)
 {
   PetscBool any;
 
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
+  if (pair->self) PetscCall(FinishSelf(keys, scene, owner, pair));
   if (any && (pair->mortar || pair->nonmortar))
     PetscCall(SceneKeysError(keys, "%s_%s is given, but the entry %s is for all surfaces: give the entry another name",
       owner, pair->mortar ? "mortar" : "nonmortar", pair->name));
@@ -192,6 +218,39 @@ static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene sc
   PetscFunctionReturn(0);
 }
 
+/* Checks a pair in contact with itself */
+PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, const SceneContactPair *pair)
+{
+  const char     *face;
+  const PetscBool whole = (PetscBool)!strchr(pair->self, '.');
+  PetscInt        body;
+
+  PetscFunctionBegin;
+  PetscCall(ValidateSurface(comm, file, scene, pair->name, pair->self, strlen(pair->self)));
+  body = SceneFindBody(scene, pair->mortar, &face);
+  PetscCheck(scene->bodies[body].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
+    "%s: contact pair \"%s\" has self = %s, but the body \"%s\" is rigid and cannot come into contact with itself",
+    file, pair->name, pair->self, scene->bodies[body].name);
+  PetscCheck(pair->gap != GAP_NODE, comm, PETSC_ERR_USER_INPUT,
+    "%s: contact pair \"%s\" has self = %s and gap node, which is between two faces: take gap mortar or dual", file,
+    pair->name, pair->self);
+  PetscCheck(pair->interference == 0.0, comm, PETSC_ERR_USER_INPUT,
+    "%s: contact pair \"%s\" has self = %s and an interference, but a surface that is to come into contact with itself "
+    "must not overlap itself at the start: name the two faces that overlap as mortar and nonmortar",
+    file, pair->name, pair->self);
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *other  = &scene->pairs[p];
+    const PetscBool         within = (PetscBool)(other != pair && SceneFindBody(scene, other->mortar, &face) == body &&
+                                         SceneFindBody(scene, other->nonmortar, &face) == body);
+
+    PetscCheck(!within || !whole, comm, PETSC_ERR_USER_INPUT,
+      "%s: contact pair \"%s\" has self = %s, the whole surface of the body, which includes the faces of contact pair "
+      "\"%s\": leave one of the pairs out",
+      file, pair->name, pair->self, other->name);
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneValidateRules(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -224,8 +283,7 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
   PetscBool         interference, coefficient, limit;
 
   PetscFunctionBegin;
-  (void)scene;
-  PetscCall(FinishSides(keys, owner, pair));
+  PetscCall(FinishSides(keys, scene, owner, pair));
   PetscCall(SceneHasKey(keys, owner, "interference", &interference));
   PetscCall(SceneHasKey(keys, owner, "friction", &coefficient));
   PetscCall(SceneHasKey(keys, owner, "shear_limit", &limit));

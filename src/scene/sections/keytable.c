@@ -197,6 +197,9 @@ static const SceneKey contact_rows[] = {
     "the mortar (master) face, preferably the larger one; or a body, see [contact: auto](#contact-auto)"),
   TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required but in `auto`",
     "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
+  TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
+    "instead of `mortar` and `nonmortar`: a face, or a body with its whole surface, that comes into contact with "
+    "itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
     "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices (see"
@@ -343,7 +346,7 @@ const SceneList SceneLists[] = {
     .initial = &temperature_initial},
   {"body_forces", body_force_rows, sizeof(SceneBodyForce), OF_SCENE(nforces, forces), .initial = &body_force_initial},
   {"contact", contact_rows, sizeof(SceneContactPair), OF_SCENE(npairs, pairs), .initial = &contact_initial,
-    .finish = SceneFinishPair},
+    .finish = SceneFinishPair, .hides = ScenePairHides},
   {"ties", tie_rows, sizeof(SceneTie), OF_SCENE(nties, ties)},
   {"cyclic", cyclic_rows, sizeof(SceneCyclic), OF_SCENE(ncyclic, cyclic)},
   {"refinements", refinement_rows, sizeof(SceneRefinement), OF_SCENE(nrefinements, refinements),

@@ -14,6 +14,10 @@ static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], co
   PetscFunctionBegin;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     if (strcmp(scene->pairs[p].name, text)) continue;
+    if (scene->pairs[p].self && !strchr(scene->pairs[p].self, '.'))
+      PetscCall(
+        SceneKeysError(keys, "%s is %s, the contact of the whole surface of %s with itself: name a face, or a box", key,
+          text, scene->pairs[p].self));
     PetscCall(PetscStrallocpy(scene->pairs[p].mortar, &refinement->face[0]));
     PetscCall(PetscStrallocpy(scene->pairs[p].nonmortar, &refinement->face[1]));
     PetscFunctionReturn(0);

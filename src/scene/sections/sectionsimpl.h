@@ -97,10 +97,12 @@ PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, const char file[], Sc
 
 /* contact.c, ties.c, refinements.c, probes.c: keys that are not single values */
 PETSC_INTERN const SceneOwn SceneOwnInterference, SceneOwnStick, SceneOwnExcept, SceneOwnNear;
+PETSC_INTERN PetscBool      ScenePairHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishPair(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneSplitRules(Scene);
 PETSC_INTERN PetscErrorCode SceneViewPairs(Scene, PetscViewer, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneValidateRules(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateSelf(MPI_Comm, const char file[], Scene, const SceneContactPair *);
 PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, const char file[], Scene);
 PETSC_INTERN PetscBool      SceneRefinementHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishRefinement(SceneKeys, Scene, const char owner[], void *entry);
