@@ -181,8 +181,8 @@ PetscErrorCode FrictionRecall(Simulation sim)
 }
 
 /*
-   Adds the friction forces at the vertices to `force`. slip: that of the rows, or its part by the mortar side; pair: the
-   pair to which they belong, or PETSC_DECIDE for all pairs.
+   Adds the friction forces at the vertices to `force`. slip: that of the rows, or its part by the mortar side; pair:
+   the pair to which they belong, or PETSC_DECIDE for all pairs.
 */
 PetscErrorCode FrictionAddForces(ContactLinearization lin, Mat slip, Vec shear, PetscInt pair, Vec force)
 {
