@@ -76,6 +76,7 @@ PETSC_EXTERN PetscErrorCode ElasticitySetInertia(Elasticity, PetscReal inertia, 
   PetscBool *changed);
 /* Cauchy stress averaged over each cell: xx yy zz xy yz zx and von Mises, 7 values per local cell [force/length^2] */
 /* For each body with a small-strain law: largest principal strain, and rotation */
+PETSC_EXTERN PetscErrorCode ElasticityBoundStrain(Elasticity, Vec u, PetscReal bounds[][2]);
 PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][2]);
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
 /* Output fields: recovered stress at the nodes of the local section, stress at quadrature points, strain energy per

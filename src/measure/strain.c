@@ -19,6 +19,19 @@ static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
   return any;
 }
 
+/* Collective. Whether a body that may be warned of can be beyond a limit: if no quadrature point is, no mean is. values:
+   work, two per body */
+static PetscErrorCode StrainMayExceed(Simulation sim, PetscReal values[][2], PetscBool *may)
+{
+  PetscFunctionBegin;
+  *may = PETSC_FALSE;
+  PetscCall(ElasticityBoundStrain(sim->elasticity, sim->path->u, values));
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
+    *may = (PetscBool)(*may || (!sim->results->beyond[b] && sim->scene->bodies[b].material.type != MATERIAL_RIGID &&
+                                 (values[b][0] > STRAIN_LIMIT || values[b][1] > ROTATION_LIMIT)));
+  PetscFunctionReturn(0);
+}
+
 /*
    Measures the last state, and warns once of each body, in the first load step in which it is beyond the range of its
    law. Rigid bodies may rotate. Collective.
@@ -27,13 +40,15 @@ PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
 {
   Scene scene = sim->scene;
   PetscReal(*values)[2];
+  PetscBool may;
 
   PetscFunctionBegin;
   if (!sim->results->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->results->beyond));
   if (!StrainMayWarn(scene, sim->results->beyond)) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
-  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+  PetscCall(StrainMayExceed(sim, values, &may));
+  if (may) PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
+  for (PetscInt b = 0; b < scene->nbodies && may; ++b) {
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
     if (sim->results->beyond[b] || scene->bodies[b].material.type == MATERIAL_RIGID ||
