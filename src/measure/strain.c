@@ -19,8 +19,8 @@ static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
   return any;
 }
 
-/* Collective. Whether a body that may be warned of can be beyond a limit: if no quadrature point is, no mean is. values:
-   work, two per body */
+/* Collective. Whether a body that may be warned of can be beyond a limit: if no quadrature point is, no mean is.
+   values: work, two per body */
 static PetscErrorCode StrainMayExceed(Simulation sim, PetscReal values[][2], PetscBool *may)
 {
   PetscFunctionBegin;

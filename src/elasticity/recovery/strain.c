@@ -82,8 +82,8 @@ PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2
 }
 
 /*
-   Collective. Computes bounds of what ElasticityMeasureStrain() computes, in a quarter of its time: the largest Frobenius
-   norm of the strain at a quadrature point of each body, and the largest angle of rotation there [rad].
+   Collective. Computes bounds of what ElasticityMeasureStrain() computes, in a quarter of its time: the largest
+   Frobenius norm of the strain at a quadrature point of each body, and the largest angle of rotation there [rad].
 */
 PetscErrorCode ElasticityBoundStrain(Elasticity e, Vec u, PetscReal bounds[][2])
 {
