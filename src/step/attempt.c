@@ -713,7 +713,9 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
     PetscCall(StartWarn(sim, sim->solved->upcoming));
   }
+  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(StepProblemCreate(sim, time, &p));
+  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(VecDuplicate(sim->path->u, &u));
   if (first && time > (PetscReal)(first - 1) && sim->path->largest_increment > 0.0)
     PetscCall(StepProblemSetBounds(&p, sim->path->largest_increment));
@@ -726,14 +728,18 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
       PetscCall(ProximalHoldWeak(&p, u));
       PetscCall(AttemptContact(&p, PETSC_FALSE, u, report, &sol, &at_u));
     }
+    PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(AttemptFindPassed(sim, time, u, report));
+    PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));
   if (report->converged) {
+    PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(InertiaGetForce(sim, u, &inertia));
     PetscCall(ElasticityCommit(sim->elasticity, u));
     PetscCall(InertiaAdvance(sim, time, u));
+    PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(MeasureState(p.sim, p.time, p.load, inertia, u, &sol, report));
     PetscCall(VecDestroy(&inertia));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
