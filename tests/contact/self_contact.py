@@ -47,6 +47,24 @@ CLAMPS = {
 }
 
 
+BELLOWS_SCENE = """problem: bellows
+bodies:
+  - bellows: {shape: gmsh, mesh: bellows.msh, volume: body, material: neohookean, young: 1, poisson: 0.3}
+displacements:
+  - floor: {face: bellows.zmin, value: [0, 0, 0]}
+  - press: {face: bellows.zmax, value: [0, 0, -0.5]}
+  - near: {face: bellows.ymin, value: [free, 0, free]}
+  - far: {face: bellows.ymax, value: [free, 0, free]}
+contact:
+PAIRS
+load: {steps: 4}
+"""
+BELLOWS = {
+    "bellows": "  - folds: {self: bellows, distance: 1.5}",
+    "bellows_named": "  - first: {mortar: bellows.upper_1, nonmortar: bellows.lower_1}\n  - second: {mortar: bellows.upper_2, nonmortar: bellows.lower_2}",
+}
+
+
 def write_slit():
     """The vertices of the slit's upper face are not above those of the lower one"""
     size = (6, 2, 4)
@@ -67,9 +85,23 @@ def write_clamp():
     hexahedra.write("clamp.msh", [[x, y, heights[z]] for x, y, z in points], cells, faces)
 
 
+def write_bellows():
+    """Three legs, joined at alternate ends, thinner than the search distance"""
+    size, heights = (8, 1, 5), [0, 0.4, 0.6, 1.0, 1.2, 1.6]
+    points, cells, places = hexahedra.grid(size, keep=lambda i, j, k: k % 2 == 0 or (i < 1 if k == 1 else i > 6))
+    faces = hexahedra.outer_faces(cells, places, size, "inner")
+    for name, k in (("lower_1", 1), ("upper_1", 2), ("lower_2", 3), ("upper_2", 4)):
+        faces[name] = [quad for quad in faces["inner"] if all(points[v][2] == k for v in quad)]
+    hexahedra.write("bellows.msh", [[0.5 * x, 0.5 * y, heights[z]] for x, y, z in points], cells, faces)
+
+
 def write():
     write_slit()
     write_clamp()
+    write_bellows()
+    for name, sides in BELLOWS.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(BELLOWS_SCENE.replace("PAIRS", sides))
     for name, sides in (("slit_face", "self: block.slit"), ("slit_body", "self: block")):
         with open(name + ".yaml", "w") as file:
             file.write(SLIT.replace("SIDES", sides))
@@ -98,6 +130,14 @@ def compare(name, other, first, last):
         say("%s and %s, step %d: energy and forces agree to %g" % (name, other, one["step"], tolerance), worst < tolerance, worst)
 
 
+def judge_bellows():
+    """Two folds, which are two ordinary pairs; the search distance reaches over both"""
+    one, two = load("bellows")["steps"][-1], load("bellows_named")["steps"][-1]
+    forces = [sum(p["normal_force"] for p in step["pairs"]) for step in (one, two)]
+    errors = [one["energy"] / two["energy"] - 1, forces[0] / forces[1] - 1]
+    say("bellows: both folds close, energy and force of two named pairs to 1 %", min(p["normal_force"] for p in two["pairs"]) > 0 and max(abs(e) for e in errors) < 1e-2, errors)
+
+
 def judge_forces(name):
     """Action and reaction, and the balance of the body's forces"""
     step = load(name)["steps"][-1]
@@ -117,6 +157,7 @@ def judge():
 
 def long():
     judge_slit("slit_face")
+    judge_bellows()
     compare("whole_2", "whole", 1e-8, 1e-8)
     compare("whole_3", "whole", 1e-8, 1e-8)
     compare("jaws_friction", "named_friction", 1e-8, 1e-3)

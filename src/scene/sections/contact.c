@@ -238,6 +238,11 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
     "%s: contact pair \"%s\" has self = %s and an interference, but a surface that is to come into contact with itself "
     "must not overlap itself at the start: name the two faces that overlap as mortar and nonmortar",
     file, pair->name, pair->self);
+  for (PetscInt c = 0; c < scene->ncyclic; ++c)
+    PetscCheck(SceneFindBody(scene, scene->cyclic[c].from, &face) != body, comm, PETSC_ERR_USER_INPUT,
+      "%s: contact pair \"%s\" has self = %s, but the body is a sector of cyclic symmetry \"%s\": name two faces as "
+      "mortar and nonmortar",
+      file, pair->name, pair->self, scene->cyclic[c].name);
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *other  = &scene->pairs[p];
     const PetscBool         within = (PetscBool)(other != pair && SceneFindBody(scene, other->mortar, &face) == body &&
