@@ -23,23 +23,30 @@
   SHAPE(RIGID_SPHERE, RigidSphere, "rigid_sphere") \
   SHAPE(RIGID_CYLINDER, RigidCylinder, "rigid_cylinder") \
   SHAPE(RIGID_CONE, RigidCone, "rigid_cone") \
-  SHAPE(RIGID_TORUS, RigidTorus, "rigid_torus")
+  SHAPE(RIGID_TORUS, RigidTorus, "rigid_torus") \
+  SHAPE(RIGID_EXTRUDED, RigidExtruded, "rigid_extruded") \
+  SHAPE(RIGID_REVOLVED, RigidRevolved, "rigid_revolved")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
 typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
 #undef BODY_SHAPE
 PETSC_EXTERN const char *const BodyShapes[];
 
-#define BODY_OWN 16
+#define BODY_OWN 64
 
 /* Where a rigid surface has its parameters among a body's own: three numbers each of point and axis */
+#define SURFACE_MAX_PROFILE 40 /* numbers of a profile */
+
 enum {
   SURFACE_POINT   = 0,
   SURFACE_AXIS    = 3,
   SURFACE_RADIUS  = 6,
   SURFACE_SECTION = 7,
   SURFACE_ANGLE   = 8,
-  SURFACE_SIZE    = 9
+  SURFACE_SIZE    = 9,
+  SURFACE_ACROSS  = 10, /* three numbers: direction of a profile's first coordinate */
+  SURFACE_OUTSIDE = 13, /* how far the surface is outside of the profile */
+  SURFACE_PROFILE = 16  /* number of numbers, then two for each point of the profile */
 };
 
 /* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent; of a cone the radii at the start
@@ -374,7 +381,7 @@ PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time,
 /* Whether a body is a rigid surface: contact is with a formula, not with facets */
 static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
 {
-  return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_TORUS);
+  return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_REVOLVED);
 }
 
 /* The cube of one cell that moves a rigid surface: corner, unit vectors of its edges, length of the edges */

@@ -2,17 +2,60 @@
 #include "modelimpl.h"
 #include <vector3.h>
 
+/*
+   Distance from a profile: a line through points, in a plane, with the solid on its left. The first and the last
+   segment go on without end. slope: its gradient
+*/
+static PetscReal ProfileDistance(const SceneBody *body, const PetscReal x[2], PetscReal slope[2])
+{
+  const PetscInt   n     = (PetscInt)body->own[SURFACE_PROFILE] / 2;
+  const PetscReal *p     = &body->own[SURFACE_PROFILE + 1];
+  PetscReal        least = PETSC_MAX_REAL, distance = 0.0;
+
+  slope[0] = slope[1] = 0.0;
+  for (PetscInt k = 0; k + 1 < n; ++k) {
+    const PetscReal d[2]      = {p[2 * k + 2] - p[2 * k], p[2 * k + 3] - p[2 * k + 1]};
+    const PetscReal length    = PetscSqrtReal(PetscSqr(d[0]) + PetscSqr(d[1])),
+                    normal[2] = {d[1] / length, -d[0] / length};
+    const PetscReal part      = ((x[0] - p[2 * k]) * d[0] + (x[1] - p[2 * k + 1]) * d[1]) / PetscSqr(length);
+    const PetscBool before = (PetscBool)(part < 0.0 && k > 0), after = (PetscBool)(part > 1.0 && k + 2 < n);
+    const PetscInt  at   = after ? k + 1 : k;
+    const PetscReal r[2] = {x[0] - p[2 * at], x[1] - p[2 * at + 1]}, off = r[0] * normal[0] + r[1] * normal[1];
+    const PetscReal away = before || after ? PetscSqrtReal(PetscSqr(r[0]) + PetscSqr(r[1])) : PetscAbsReal(off);
+
+    if (away >= least) continue;
+    least = away;
+    if (before ||
+        after) { /* the corner is the nearest point; the solid has a convex corner if it is seen from outside */
+      const PetscInt  other   = after ? k + 1 : k - 1;
+      const PetscReal e[2]    = {p[2 * other + 2] - p[2 * other], p[2 * other + 3] - p[2 * other + 1]};
+      const PetscReal size    = PetscSqrtReal(PetscSqr(e[0]) + PetscSqr(e[1]));
+      const PetscReal outside = off + (r[0] * e[1] - r[1] * e[0]) / size;
+
+      distance = outside < 0.0 ? -away : away;
+      for (int c = 0; c < 2; ++c) slope[c] = away > 0.0 ? r[c] / distance : normal[c];
+    } else {
+      distance = off;
+      for (int c = 0; c < 2; ++c) slope[c] = normal[c];
+    }
+  }
+  return distance - body->own[SURFACE_OUTSIDE];
+}
+
 /* Unit vectors, the last one along the axis of the surface */
 static void SurfaceFrame(const SceneBody *body, PetscReal frame[3][3])
 {
-  PetscInt least = 0;
+  PetscInt  least = 0;
+  PetscReal first[3];
 
   for (PetscInt c = 0; c < 3; ++c) frame[2][c] = body->own[SURFACE_AXIS + c];
   if (!(VectorScaleToUnit(frame[2]) > 0.0)) frame[2][2] = 1.0;
   for (PetscInt c = 1; c < 3; ++c) {
     if (PetscAbsReal(frame[2][c]) < PetscAbsReal(frame[2][least])) least = c;
   }
-  for (PetscInt c = 0; c < 3; ++c) frame[0][c] = (c == least ? 1.0 : 0.0) - frame[2][least] * frame[2][c];
+  for (PetscInt c = 0; c < 3; ++c)
+    first[c] = body->shape == SHAPE_RIGID_EXTRUDED ? body->own[SURFACE_ACROSS + c] : (c == least ? 1.0 : 0.0);
+  for (PetscInt c = 0; c < 3; ++c) frame[0][c] = first[c] - VectorDot(first, frame[2]) * frame[2][c];
   (void)VectorScaleToUnit(frame[0]);
   VectorCross(frame[2], frame[0], frame[1]);
 }
@@ -45,6 +88,11 @@ static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscRe
   switch (body->shape) {
   case SHAPE_RIGID_PLANE: slope[1] = 1.0; return along;
   case SHAPE_RIGID_CYLINDER: slope[0] = 1.0; return across - radius;
+  case SHAPE_RIGID_REVOLVED: {
+    const PetscReal x[2] = {across, along};
+
+    return ProfileDistance(body, x, slope);
+  }
   case SHAPE_RIGID_SPHERE: less = radius; break;
   case SHAPE_RIGID_TORUS:
     from = radius;
@@ -70,6 +118,13 @@ PetscReal SceneSurfaceDistance(const SceneBody *body, const PetscReal x[3], Pets
 
   SurfaceFrame(body, frame);
   for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - body->own[SURFACE_POINT + c];
+  if (body->shape == SHAPE_RIGID_EXTRUDED) {
+    const PetscReal place[2] = {VectorDot(r, frame[0]), VectorDot(r, frame[1])};
+
+    distance = ProfileDistance(body, place, slope);
+    for (PetscInt c = 0; c < 3; ++c) gradient[c] = slope[0] * frame[0][c] + slope[1] * frame[1][c];
+    return distance;
+  }
   along = VectorDot(r, frame[2]);
   for (PetscInt c = 0; c < 3; ++c) r[c] -= along * frame[2][c];
   across = VectorNorm(r);

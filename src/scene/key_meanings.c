@@ -12,6 +12,7 @@ typedef struct {
 } KeyMeaning;
 
 static const KeyMeaning shape_meanings[] = {
+  {"across", "", "direction of the first coordinate of the points, normal to `direction`", ""},
   {"angles", " [degrees]",
     "first and last angle about the axis, from the next axis in the order x, y, z, x; 360 apart: a whole tube", ""},
   {"axis", "", "the axis along which the body is a prism, of a cone or a hole its own: `x`, `y`, `z`", ""},
@@ -56,7 +57,13 @@ static const KeyMeaning shape_meanings[] = {
     "number of cells along x, y, z; of a half ellipse in the core along its depth, in the core across one half, and "
     "across the ring around it",
     ""},
+  {"outside", " [L]", "how far the surface is outside of the line through the points, which rounds its corners", "0"},
   {"point", " [L]", "a point of the plane", ""},
+  {"points", " [L]",
+    "the profile, two coordinates for each point, with the solid on the left: distance from the axis and position "
+    "along "
+    "it; of an extruded one along `across`, and along direction x across",
+    ""},
   {"radii", " [L]", "inner and outer radius; of a cone those at the start and the end of its extent", ""},
   {"radius", " [L]",
     "the radius; of a torus that of the circle in the middle of the ring; of a holed box that of the hole", ""},
@@ -167,6 +174,7 @@ PetscErrorCode SceneViewShapeKeys(PetscViewer viewer)
       const char *type = k->type == KEY_REALS  ? numbers[k->n]
                          : k->type == KEY_INTS ? whole[k->n]
                          : k->type == KEY_AXIS ? "an axis"
+                         : k->type == KEY_LIST ? "list of numbers"
                          : k->type == KEY_TEXT ? "a text"
                                                : "a direction";
 

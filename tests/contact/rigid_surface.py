@@ -53,6 +53,27 @@ symmetry: [block.ymin, block.ymax]
 contact:
   - touch: {{mortar: tool.{face}, nonmortar: block.zmax}}
 """
+# A flat punch of radius 1 on a slice of a half-space, whose cells are graded towards the edge of the punch
+PUNCH = """problem: punch
+bodies:
+  - inner: {{shape: tube_arc, axis: z, radii: [0.001, 1], angles: [0, 10], extent: [-1500, 0], cells: [12, 1, 22], grading: [{inward}, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
+  - outer: {{shape: tube_arc, axis: z, radii: [1, 1500], angles: [0, 10], extent: [-1500, 0], cells: [22, 1, 22], grading: [90000, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
+  - punch: {{shape: rigid_revolved, center: [0, 0, 0], direction: [0, 0, 1], points: [0, 0, 1, 0, 1, 1]}}
+ties:
+  - seam: {{mortar: inner.outer, nonmortar: outer.inner}}
+displacements:
+  - base: {{face: inner.lmin, value: [free, free, 0]}}
+  - rest: {{face: outer.lmin, value: [free, free, 0]}}
+  - press: {{body: punch, value: [0, 0, -0.001]}}
+symmetry: [inner.amin, inner.amax, outer.amin, outer.amax]
+contact:
+  - under: {{mortar: punch.surface, nonmortar: inner.lmax}}
+  - beside: {{mortar: punch.surface, nonmortar: outer.lmax}}
+probes:
+  - two: {{body: outer, point: [2, 0, 0]}}
+"""
+# The same plane as a profile of one line, and a corner of a profile beside the block
+PROFILE = "shape: rigid_extruded, center: [0, 0, 1.1], direction: [0, 3, 0], across: [-1, 0.5, 0], points: [-1.5, 0, 1.5, 0, 1.5, 2], outside: 0.1"
 RADIUS, APPROACH, ANGLE, CONTACT = 1000, 1e-4, 89.9, 0.316
 DEPTH = CONTACT * math.pi / 2 / math.tan(math.radians(ANGLE))
 MODULUS = 1000 / (1 - 0.3**2)
@@ -80,6 +101,8 @@ SCENES = {
     "beside": BESIDE,
     "pressed": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
     "driven": DRIVEN,
+    "punch": PUNCH.format(inward=1 / 60, down=1 / 90000),
+    "profile": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}").replace("shape: rigid_plane, point: [0.3, 0.2, 1], normal: [0, 0, -2]", PROFILE),
     "rubber_1": RUBBER.format(order=1, tool=CYLINDER, face="surface"),
     "rubber_2": RUBBER.format(order=2, tool=CYLINDER, face="surface"),
     "rubber_mesh": RUBBER.format(order=1, tool=TUBE, face="outer"),
@@ -106,9 +129,14 @@ elif sys.argv[1:] == ["exact"]:
         seen = (-pair(name)["force"][2] / force - 1, load(name)["steps"][-1]["energy"] / energy - 1)
         say(f"{name}: force within 0.5 % of the closed form, energy within 0.2 %", abs(seen[0]) < 5e-3 and abs(seen[1]) < 2e-3, seen)
     same_on_three_ranks(2)
+    punch = 2 * MODULUS * 1e-3 * 10 / 360
+    seen = (-sum(one["force"][2] for one in load("punch")["steps"][-1]["pairs"]) / punch - 1, load("punch")["steps"][-1]["probes"][0]["displacement"][2] / (-2e-3 / math.pi * math.asin(0.5)) - 1)
+    say("flat punch: force, and Boussinesq's surface beside it, within 0.3 %", abs(seen[0]) < 3e-3 and abs(seen[1]) < 3e-3, seen)
 else:
     seen = pair("pressed")
     say("plane: uniform pressure of 10", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
+    seen = pair("profile")
+    say("a plane as a profile that is extruded: the same", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
     place = load("pressed")["steps"][-1]["rigid_bodies"][0]["position"]
     say("plane: its position is that of its point", all(abs(a - b) < 1e-12 for a, b in zip(place, (0.3, 0.2, 0.99))), place)
     seen = pair("driven")

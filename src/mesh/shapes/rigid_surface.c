@@ -1,6 +1,7 @@
 /*
-   Rigid surfaces: plane, sphere, cylinder, cone and torus. Contact is with the formula of the surface. The mesh is a
-   cube of one cell, which carries the rigid motion; its only face stands for the surface.
+   Rigid surfaces: plane, sphere, cylinder, cone, torus, and profiles that are extruded or revolved. Contact is with the
+   formula of the surface. The mesh is a cube of one cell, which carries the rigid motion; its only face stands for the
+   surface.
 */
 #include "shapesimpl.h"
 
@@ -11,11 +12,37 @@ static const char *const *ShapeFaces_RigidSurface(PETSC_UNUSED const SceneBody *
   return faces;
 }
 
+static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *body)
+{
+  const PetscInt   n = (PetscInt)body->own[SURFACE_PROFILE];
+  const PetscReal *p = &body->own[SURFACE_PROFILE + 1], *a = &body->own[SURFACE_AXIS], *b = &body->own[SURFACE_ACROSS];
+  PetscReal        cross = 0.0;
+
+  PetscFunctionBegin;
+  PetscCheck(n % 2 == 0 && n >= 4, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has points of %" PetscInt_FMT " numbers, but needs two for each of at least two points", body->name,
+    n);
+  for (PetscInt k = 0; k < n; k += 2) {
+    PetscCheck(k + 2 >= n || p[k] != p[k + 2] || p[k + 1] != p[k + 3], comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\" has the point (%g, %g) twice in its points", body->name, (double)p[k], (double)p[k + 1]);
+    PetscCheck(body->shape != SHAPE_RIGID_REVOLVED || p[k] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      "Body \"%s\" has the point (%g, %g) in its points, whose first number is a distance from the axis", body->name,
+      (double)p[k], (double)p[k + 1]);
+  }
+  for (PetscInt c = 0; c < 3; ++c) cross += PetscSqr(a[c] * b[(c + 1) % 3] - a[(c + 1) % 3] * b[c]);
+  PetscCheck(body->shape != SHAPE_RIGID_EXTRUDED || cross > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has across along its direction, to which it must be normal", body->name);
+  PetscCheck(body->own[SURFACE_OUTSIDE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has outside %g, which must be 0 or positive", body->name, (double)body->own[SURFACE_OUTSIDE]);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
   PetscInt64 *nvertices)
 {
   const PetscReal *own    = body->own;
-  const PetscBool  round  = (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE);
+  const PetscBool  line   = (PetscBool)(body->shape >= SHAPE_RIGID_EXTRUDED);
+  const PetscBool  round  = (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE && !line);
   PetscReal        square = 0.0;
 
   PetscFunctionBegin;
@@ -36,6 +63,7 @@ static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *bod
     (double)own[SURFACE_ANGLE]);
   PetscCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has size %g, which must be positive", body->name, (double)own[SURFACE_SIZE]);
+  if (line) PetscCall(RigidSurfaceCheckProfile(comm, body));
   *ncells    = 1;
   *nvertices = 8;
   PetscFunctionReturn(0);
@@ -102,6 +130,23 @@ static const ShapeKey torus_keys[] = {
   SURFACE_END,
 };
 
+#define PROFILE_KEYS \
+  {"points", KEY_LIST, SURFACE_MAX_PROFILE, offsetof(SceneBody, own[SURFACE_PROFILE]), PETSC_TRUE}, \
+    SURFACE_KEY("outside", 1, SURFACE_OUTSIDE, PETSC_FALSE), SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE)
+static const ShapeKey extruded_keys[] = {
+  SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
+  SURFACE_KEY("across", 3, SURFACE_ACROSS, PETSC_TRUE),
+  PROFILE_KEYS,
+  SURFACE_END,
+};
+static const ShapeKey revolved_keys[] = {
+  SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
+  SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
+  PROFILE_KEYS,
+  SURFACE_END,
+};
+
 #define SURFACE_SHAPE(keys) \
   { \
     ShapeFaces_RigidSurface, ShapeSize_RigidSurface, ShapeCreate_RigidSurface, NULL, keys \
@@ -111,3 +156,5 @@ const Shape ShapeRigidSphere   = SURFACE_SHAPE(sphere_keys);
 const Shape ShapeRigidCylinder = SURFACE_SHAPE(cylinder_keys);
 const Shape ShapeRigidCone     = SURFACE_SHAPE(cone_keys);
 const Shape ShapeRigidTorus    = SURFACE_SHAPE(torus_keys);
+const Shape ShapeRigidExtruded = SURFACE_SHAPE(extruded_keys);
+const Shape ShapeRigidRevolved = SURFACE_SHAPE(revolved_keys);

@@ -69,7 +69,14 @@ PETSC_INTERN PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *, const
 PETSC_INTERN PetscErrorCode ShapeBoundaryDestroy(ShapeBoundary *);
 
 /* Keys of shapes in scenes: values of a SceneBody. A key with an underscore may be nested, as outer: {radius: 1} */
-typedef enum { KEY_REALS, KEY_INTS, KEY_AXIS, KEY_DIRECTION, KEY_TEXT } KeyType;
+typedef enum {
+  KEY_REALS,
+  KEY_INTS,
+  KEY_AXIS,
+  KEY_DIRECTION,
+  KEY_TEXT,
+  KEY_LIST /* reals: their number, then at most n */
+} KeyType;
 
 typedef struct {
   const char *name;

@@ -24,6 +24,23 @@ PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
   PetscFunctionReturn(0);
 }
 
+/* Reads at most n numbers after their number */
+static PetscErrorCode SceneReadNumbers(SceneKeys keys, const char name[], const char text[], PetscInt n,
+  PetscReal values[])
+{
+  PetscInt count = PETSC_DECIDE;
+  char   **words;
+
+  PetscFunctionBegin;
+  PetscCall(SceneParseList(keys, name, text, &count, &words));
+  if (count > n)
+    PetscCall(SceneKeysError(keys, "%s has %" PetscInt_FMT " values, and may have %" PetscInt_FMT, name, count, n));
+  values[0] = (PetscReal)PetscMin(count, n);
+  for (PetscInt i = 0; i < PetscMin(count, n); ++i) PetscCall(SceneParseReal(keys, name, words[i], &values[1 + i]));
+  PetscCall(PetscStrToArrayDestroy((int)count, words));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
 {
   char        name[SCENE_KEY_LENGTH];
@@ -39,6 +56,7 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
   case KEY_INTS: PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value)); break;
   case KEY_AXIS: PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value)); break;
   case KEY_DIRECTION: PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value)); break;
+  case KEY_LIST: PetscCall(SceneReadNumbers(keys, name, text, key->n, (PetscReal *)value)); break;
   case KEY_TEXT: PetscCall(PetscStrallocpy(text, (char **)value)); break;
   }
   PetscFunctionReturn(0);
@@ -129,6 +147,8 @@ PetscErrorCode SceneViewShape(const SceneBody *body, PetscViewer viewer)
 
     if (SceneShapeKeyIsDefault(k, body)) continue;
     if (k->type == KEY_REALS && k->n > 1) PetscCall(SceneViewReals(viewer, k->name, k->n, (const PetscReal *)value));
+    else if (k->type == KEY_LIST)
+      PetscCall(SceneViewReals(viewer, k->name, (PetscInt) * (const PetscReal *)value, (const PetscReal *)value + 1));
     else {
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s: ", k->name));
       PetscCall(PetscViewerASCIIUseTabs(viewer, PETSC_FALSE));
