@@ -36,3 +36,5 @@ draw nothing no.png 2>&1 || ls no.png 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
 for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density", "equivalent_plastic_strain", "velocity"):
     print(field, Files("boxes").unit(field))'
+"$AMGF_DIR/bin/contact-mesh" "$AMGF_DIR/share/gmsh/two_blocks.msh" -check -picture mesh.png -quiet
+"$PYTHON" -B "$AMGF_DIR/tests/output/pictures.py" mesh.png=base,punch

@@ -1,5 +1,5 @@
 """contact-mesh IN OUT turns a mesh into a Gmsh file, or results BASE.xmf into files of VTK, OUT.pvd; contact-mesh IN -check says what is
-in a mesh."""
+in a mesh, and -picture FILE.png draws it."""
 import argparse
 import os
 import sys
@@ -41,6 +41,15 @@ def check(mesh):
         raise MeshError("a coordinate is not a number")
 
 
+def draw(mesh, path, picture):
+    """A picture of the volumes, by the drawing of share/plot"""
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3, "plot"))
+    from mesh import draw_mesh
+
+    corners = {name: [cell for block, these in rows.items() for cell in mesh.blocks[block][1][these, : KINDS[mesh.blocks[block][0]].ncorners]] for name, rows in mesh.volumes.items()}
+    draw_mesh(mesh.points, corners, picture, f"{os.path.basename(path)}: {sum(len(cells) for cells in corners.values()):,} cells")
+
+
 def write_results(source, target):
     """Results of a run as files of VTK"""
     try:
@@ -55,10 +64,11 @@ def main():
     parser.add_argument("output", nargs="?")
     parser.add_argument("-scale", "--scale", type=float, default=1.0, help="factor of all coordinates: 1e-3 takes mm to m")
     parser.add_argument("-check", "--check", action="store_true", help="prints volumes, faces, sizes and the quality of the cells")
+    parser.add_argument("-picture", "--picture", metavar="FILE.png", help="draws the volumes with the edges of their cells; needs VTK")
     parser.add_argument("-quiet", "--quiet", action="store_true", help="prints nothing where all is well")
     given = parser.parse_args()
-    if given.output is None and not given.check:
-        parser.error("an output file, or -check")
+    if given.output is None and not given.check and not given.picture:
+        parser.error("an output file, -check or -picture")
     if not np.isfinite(given.scale) or given.scale <= 0:
         sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
     if given.input.endswith(".xmf") and given.output:
@@ -77,6 +87,8 @@ def main():
     except (MeshError, OSError) as error:
         text = str(error)
         sys.exit("contact-mesh: error: " + (text if text.startswith(given.input) else f"{given.input}: {text}"))
+    if given.picture:
+        draw(mesh, given.input, given.picture)
     if not given.quiet:
         print("\n".join(report(given.input, mesh, left)))
 
