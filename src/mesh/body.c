@@ -1,9 +1,9 @@
-/* One body at level 0: checks of its parameters, and its grid */
+/* One body at level 0: checks of its parameters, and its grid on the first rank */
 #include "meshimpl.h"
 
 /*@
-  MeshCheckBody - Checks the parameters of a body's shape (for a mesh file: that it contains the named volume) and the
-  parts of its faces
+  MeshCheckBody - Checks the parameters of a body's shape, or that the mesh file contains the named volume, and the
+  parts of the body's faces
 
   Collective
 
@@ -14,7 +14,7 @@
   Level: intermediate
 
   Notes:
-  Raises an error on all ranks if something is wrong. Of a Gmsh file only the head is read.
+  An error is raised on all ranks. Only the first sections of a Gmsh file, up to the physical names, are read.
 
 .seealso: `MeshCreate()`, `MeshGetFaceNames()`
 @*/
@@ -32,7 +32,8 @@ PetscErrorCode MeshCheckBody(MPI_Comm comm, const SceneBody *body)
   PetscFunctionReturn(0);
 }
 
-/* Creates the grid of a body with a shape; it can fail only for lack of memory */
+/* Collective. Creates the grid of a body with a built-in shape on the first rank. The only error is that memory is
+   insufficient. */
 static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const Shape *shape, MeshBody *mesh)
 {
   RankError      error;
@@ -47,11 +48,12 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
   if (rank == 0) ierr = shape->create(body, &mesh->grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code,
-    "Body \"%s\": the first rank cannot make its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells,
+    "Body \"%s\": the first rank cannot create its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells,
     error.message);
   PetscFunctionReturn(0);
 }
 
+/* Collective. Reads the grid of a body from its Gmsh file on the first rank, and sends its sizes to all ranks */
 static PetscErrorCode MeshReadGrid(MPI_Comm comm, const SceneBody *body, GmshFile *file, MeshBody *mesh)
 {
   PetscInt64 size[4];
@@ -86,7 +88,9 @@ PetscErrorCode MeshCreateBodies(MPI_Comm comm, PetscInt nbodies, const SceneBody
     else PetscCall(MeshReadGrid(comm, &bodies[b], &file, &meshes[b]));
     meshes[b].order = bodies[b].order           ? bodies[b].order
                       : meshes[b].ncorners == 4 ? 2
-                                                : 1; /* straight tetrahedra of order 1 are far too stiff */
+                                                /* The default order of tetrahedra is 2, because straight tetrahedra of
+                                                   order 1 are much too stiff. */
+                                                : 1;
   }
   PetscCall(GmshFileClose(&file));
   PetscFunctionReturn(0);

@@ -1,35 +1,35 @@
 /*
    Checks that every body is held. Each body has six rigid body modes. A prescribed displacement restrains its component
-   at the vertices of its face. A contact pair, assumed closed, restrains the relative motion along the normals of its
-   nonmortar facets; with friction all relative motion. A mode outside the span of these restraints is free, and the
-   stiffness is singular for it.
+   at the vertices of its face. A contact pair is assumed closed: it restrains the relative motion along the normals of
+   its nonmortar facets, and with friction all relative motion. A mode outside the span of these restraints is free, and
+   the stiffness matrix is singular for it.
 */
 #include "meshimpl.h"
 #include <vector3.h>
 
-#define SUPPORT_BLOCK 12 /* modes of two bodies */
+#define SUPPORT_BLOCK 12 /* number of modes of the two bodies of a link */
 
-/* A link: the restraint rows of one displacement, spring, pair or tie */
+/* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, contact pair or tie */
 typedef struct {
-  PetscInt body[2]; /* the second is negative if the first is held by the ground */
+  PetscInt body[2]; /* The second body is -1 if the link is between the first body and the ground. */
 } SupportLink;
 
 typedef struct {
   DM       dm;
-  PetscInt nbodies, n; /* n: number of modes, 6 per body */
-  PetscReal (*center)[3], *size;
+  PetscInt nbodies, n;           /* number of bodies; number of modes, 6 per body */
+  PetscReal (*center)[3], *size; /* centre, and half of the largest side, of each body's bounding box [length] */
   PetscInt     nlinks;
   SupportLink *links;
-  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link the sum of the outer products of its rows */
-  PetscReal row[SUPPORT_BLOCK];                     /* a row of the last link */
+  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link, the sum of the outer products of its rows */
+  PetscReal row[SUPPORT_BLOCK];                     /* row of the last link that is being computed */
 } Support;
 
-/* Centre, and half of the largest side, of every body's bounding box */
+/* Collective. Computes the centre, and half of the largest side, of every body's bounding box [length] */
 static PetscErrorCode SupportMeasureBodies(Support *support)
 {
   MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
   PetscInt   cstart, cend;
-  PetscReal *bounds; /* smallest x, y, z, -x, -y, -z */
+  PetscReal *bounds; /* for each body, the smallest x, y, z, -x, -y, -z [length] */
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(support->n, &bounds));
@@ -59,8 +59,8 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Adds sign times the component along `direction` of the body's rigid motion t + r x (x - center)/size at the point
-   x to the row */
+/* Adds to the row: sign times the component along `direction` of the rigid motion t + r x (x - center)/size of body b
+   at the point x, as coefficients of t and r */
 static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign)
 {
@@ -75,7 +75,7 @@ static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direc
   }
 }
 
-/* Adds the row with a weight to the Gram matrix of the link, and clears it */
+/* Adds the outer product of the row, multiplied by a weight, to the link's matrix, and sets the row to zero */
 static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 {
   PetscReal *gram = support->gram[support->nlinks - 1];
@@ -89,14 +89,14 @@ static PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
   PetscFunctionReturn(0);
 }
 
-/* Starts a link between these bodies; b negative: between body a and the ground */
+/* Begins a link between bodies a and b. If b is negative or equal to a, the link is between body a and the ground. */
 static void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
 {
   support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
 }
 
-/* Body and facets of a face, and number of facets on all ranks, by which its rows are divided so that every face has
-   the same weight */
+/* Collective. Gets the facets and the body of a face, and the number of its facets on all ranks. Rows are divided by
+   this number, so that every face has equal weight. */
 static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *facets, PetscInt *body, PetscInt *total)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)support->dm);
@@ -118,8 +118,8 @@ static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *fa
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints at the vertices of a point or an edge */
-static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *spot)
+/* Adds the restraints of a displacement that is prescribed at a point or along an edge */
+static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *point)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   IS                     vertices;
@@ -127,17 +127,17 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscInt               n, total;
 
   PetscFunctionBegin;
-  PetscCall(MeshGetFaceVertices(support->dm, spot->face, &vertices));
+  PetscCall(MeshGetFaceVertices(support->dm, point->face, &vertices));
   PetscCall(ISGetLocalSize(vertices, &n));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
   PetscCall(ISGetIndices(vertices, &v));
-  SupportBeginLink(support, spot->body, PETSC_DECIDE);
+  SupportBeginLink(support, point->body, PETSC_DECIDE);
   for (PetscInt k = 0; k < 3 * n; ++k) {
     PetscReal x[1][3];
 
-    if (!spot->fixed[k % 3]) continue;
+    if (!point->fixed[k % 3]) continue;
     PetscCall(MeshGetVertexCoordinates(support->dm, 1, &v[k / 3], x));
-    SupportAddMotion(support, spot->body, axes[k % 3], x[0], 1);
+    SupportAddMotion(support, point->body, axes[k % 3], x[0], 1);
     PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
   }
   PetscCall(ISRestoreIndices(vertices, &v));
@@ -145,7 +145,8 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscFunctionReturn(0);
 }
 
-/* Adds the motions of a rigid body that are not free, if some are free; on the first rank */
+/* Adds the restraints of a rigid body some of whose motions are released, on the first rank only. *released: whether
+   any motion is */
 static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
   PetscBool *released)
 {
@@ -165,6 +166,7 @@ static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement 
   PetscFunctionReturn(0);
 }
 
+/* Adds the restraints of a prescribed displacement */
 static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
 {
   static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -204,6 +206,8 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   PetscFunctionReturn(0);
 }
 
+/* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar
+   facets */
 static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *pair)
 {
   IS              facets;
@@ -241,8 +245,8 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraint of the relative motion along these axes at the vertices of the nonmortar face: a tie, or a
-   contact pair with friction */
+/* Adds the restraint of the relative motion along the given axes at the vertices of the nonmortar face. It represents a
+   tie, springs between faces, or a contact pair with friction. */
 static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
   const PetscBool along[3])
 {
@@ -276,8 +280,8 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscFunctionReturn(0);
 }
 
-/* Adds what a cyclic symmetry leaves no motion for: the body moves along the axis, and turns about it; on the first
-   rank */
+/* Adds the restraints of a cyclic symmetry, on the first rank: the only free motions of the body are the translation along
+   the axis and the rotation about it */
 static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
 {
   IS          facets;
@@ -305,7 +309,7 @@ static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
   PetscFunctionReturn(0);
 }
 
-/* Makes a row orthogonal to a unit vector */
+/* Makes a row of n numbers orthogonal to a unit vector */
 static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal row[])
 {
   PetscReal dot = 0;
@@ -314,14 +318,15 @@ static void SupportOrthogonalize(PetscInt n, const PetscReal unit[], PetscReal r
   for (PetscInt i = 0; i < n; ++i) row[i] -= dot * unit[i];
 }
 
-/* Adds the diagonal block of a link's first or second body */
+/* Adds the 6 x 6 diagonal block of a link's first (end = 0) or second body (end = 1) to `block` */
 static void SupportAddBlock(const Support *support, PetscInt link, PetscInt end, PetscReal block[36])
 {
   for (PetscInt k = 0; k < 36; ++k)
     block[k] += support->gram[link][(6 * end + k / 6) * SUPPORT_BLOCK + 6 * end + k % 6];
 }
 
-/* Whether a positive semidefinite matrix has full rank, by its Cholesky pivots */
+/* Returns whether a positive semidefinite 6 x 6 matrix has full rank. It counts the pivots of the Cholesky
+   factorization. */
 static PetscBool SupportIsFull(const PetscReal block[36])
 {
   PetscReal A[36], largest = 0;
@@ -346,7 +351,7 @@ static PetscBool SupportIsFull(const PetscReal block[36])
   return PETSC_TRUE;
 }
 
-/* Lists the links of each body: links[start[b]] to links[start[b + 1] - 1] */
+/* Lists the links of each body: those of body b are links[start[b]] to links[start[b + 1] - 1] */
 static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start, PetscInt **links)
 {
   PetscFunctionBegin;
@@ -369,8 +374,8 @@ static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start,
   PetscFunctionReturn(0);
 }
 
-/* Finds bodies held by the ground, then those held by bodies that are held, and so on. For most assemblies this
-   takes time proportional to the number of links */
+/* Finds the bodies that are held by the ground, then bodies that are held by held bodies, and so on. For most
+   assemblies the cost is proportional to the number of links. */
 static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
 {
   PetscInt *start, *links, *queue, n = 0;
@@ -405,8 +410,8 @@ static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
   PetscFunctionReturn(0);
 }
 
-/* Gathers the Gram matrix of the bodies that are not known to be held; place: position of each body in it, negative:
-   not in it */
+/* Assembles the matrix of the bodies that are not yet known to be held. place[b]: position of body b in the matrix; -1
+   if it is left out */
 static void SupportGather(const Support *support, const PetscInt place[], PetscInt n, PetscReal gram[])
 {
   for (PetscInt l = 0; l < support->nlinks; ++l) {
@@ -423,8 +428,8 @@ static void SupportGather(const Support *support, const PetscInt place[], PetscI
   }
 }
 
-/* outside: the part of each mode that is free, 1 minus its part in the span of the matrix's rows. Gram-Schmidt with
-   pivoting; the basis replaces the first rows */
+/* Computes outside[k], the free part of each mode: 1 minus the squared length of its projection onto the span of the
+   matrix's rows. Uses Gram-Schmidt orthogonalization with pivoting. The basis replaces the first rows of `gram`. */
 static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
 {
   PetscReal first = 0;
@@ -450,7 +455,7 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
       gram[best * n + i] = swap;
     }
     if (!rank) first = PetscSqrtReal(largest);
-    /* repeated, for orthogonality up to rounding */
+    /* The row is orthogonalized once more, so that it is orthogonal up to rounding. */
     for (PetscInt q = 0; q < rank; ++q) SupportOrthogonalize(n, gram + q * n, pivot);
     largest = 0;
     for (PetscInt i = 0; i < n; ++i) largest += PetscSqr(pivot[i]);
@@ -463,12 +468,13 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
   }
 }
 
-/* outside: the free part of each mode of each body. Bodies that are known to be held are left out */
+/* Collective. Computes outside[6 b + k], the free part of mode k of body b. It is 0 for bodies that are known to be
+   held. */
 static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
 {
   PetscBool *held;
   PetscInt  *place, m = 0;
-  PetscReal *gram, *loose;
+  PetscReal *gram, *free_part;
 
   PetscFunctionBegin;
   PetscCallMPI(
@@ -477,16 +483,16 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscCall(PetscMalloc2(support->nbodies, &held, support->nbodies, &place));
   PetscCall(SupportFindHeld(support, held));
   for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = held[b] ? PETSC_DECIDE : m++;
-  PetscCall(PetscCalloc2(36 * m * m, &gram, 6 * m, &loose));
+  PetscCall(PetscCalloc2(36 * m * m, &gram, 6 * m, &free_part));
   SupportGather(support, place, 6 * m, gram);
-  SupportProject(6 * m, gram, loose);
-  for (PetscInt k = 0; k < support->n; ++k) outside[k] = held[k / 6] ? 0 : loose[6 * place[k / 6] + k % 6];
-  PetscCall(PetscFree2(gram, loose));
+  SupportProject(6 * m, gram, free_part);
+  for (PetscInt k = 0; k < support->n; ++k) outside[k] = held[k / 6] ? 0 : free_part[6 * place[k / 6] + k % 6];
+  PetscCall(PetscFree2(gram, free_part));
   PetscCall(PetscFree2(held, place));
   PetscFunctionReturn(0);
 }
 
-/* Adds a spring between points; on the first rank */
+/* Adds the restraints of a spring between two points, on the first rank only */
 static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector *connector)
 {
   PetscMPIInt rank;
@@ -507,8 +513,8 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
   PetscFunctionReturn(0);
 }
 
-/* Chooses a free motion for the message: one of the six modes if it is free by itself; else a rotation (about an
-   unknown axis); else a translation. PETSC_DECIDE: none */
+/* Selects a free mode of a body for the message: a mode that is entirely free; otherwise a rotation, about an axis that
+   is then not known; otherwise a translation. Returns PETSC_DECIDE if no mode is free. */
 static PetscInt SupportFindFreest(const PetscReal outside[6])
 {
   PetscReal freest = 0;
@@ -524,6 +530,7 @@ static PetscInt SupportFindFreest(const PetscReal outside[6])
   return mode;
 }
 
+/* Collective. Reports the first body that has a free mode */
 static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
 {
   static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z",
@@ -540,14 +547,15 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
       "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name,
       scene->bodies[b].name);
     PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" is not held against %s, neither by a displacement nor by a contact pair", scene->name,
-      scene->bodies[b].name, modes[mode]);
+      "%s: body \"%s\" is not held against %s: prescribe a displacement, or add springs, a "
+      "tie or a contact pair",
+      scene->name, scene->bodies[b].name, modes[mode]);
   }
   PetscFunctionReturn(0);
 }
 
-/* Checks that the facets of a face are on the boundary of its body, which those of a surface in a Gmsh file may
-   not be */
+/* Collective. Checks that a face has facets. A surface of a Gmsh file has none if it is not on the boundary of the
+   body. */
 static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
 {
   IS       facets;
@@ -559,13 +567,14 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscCall(ISDestroy(&facets));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
   PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
-    "%s \"%s\" names the face \"%s\", but that surface of the mesh file is not on the boundary of the body", what,
-    owner, face);
+    "%s \"%s\": the face \"%s\" has no facets, because that surface of the mesh file is not on the boundary of the "
+    "body",
+    what, owner, face);
   PetscFunctionReturn(0);
 }
 
-/* Error if a body is not held, unless weak springs are requested or unheld is not NULL; unheld: which bodies are not
-   held */
+/* Collective. Finds the bodies with free modes, and reports the first of them as an error unless the scene asks for
+   weak springs. unheld: whether each body has a free mode; NULL if not needed */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -610,12 +619,12 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 }
 
 /*@
-  MeshGetUnheld - Finds the bodies that have free rigid body motions, which weak springs may restrain
+  MeshGetUnheld - Finds the bodies that have free rigid body motions
 
   Collective
 
   Input Parameters:
-+ dm    - the mesh, by `MeshCreate()`
++ dm    - the mesh, created by `MeshCreate()`
 - scene - the scene
 
   Output Parameter:
@@ -634,18 +643,18 @@ PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
 }
 
 /*@
-  MeshCheckScene - Checks a scene against its mesh: the faces it refers to have facets, and every body is supported
+  MeshCheckScene - Checks that the faces that a scene names have facets, and that every body is supported
 
   Collective
 
   Input Parameters:
-+ dm    - the mesh, by `MeshCreate()`
++ dm    - the mesh, created by `MeshCreate()`
 - scene - the scene
 
   Level: intermediate
 
   Notes:
-  A body is supported if none of its rigid body motions is free. Contact pairs count as closed.
+  A body is supported if none of its rigid body motions is free. Contact pairs are assumed closed.
 
 .seealso: `MeshCreate()`, `SceneLoad()`
 @*/

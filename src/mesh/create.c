@@ -1,9 +1,9 @@
-/* MeshCreate(): level 0, distribution, refinement, layout of the unknowns */
+/* Creates the mesh: level 0, distribution, refinement, and layout of the unknowns */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* level 0 is refined before distribution while it has fewer cells per rank, because coarse partitions are badly
-   balanced */
+/* Level 0 is refined before it is distributed, until each rank gets at least this number of cells. Coarser partitions
+   are badly balanced. */
 #define MESH_MIN_CELLS_PER_RANK 32
 
 static PetscClassId  MESH_CLASSID;
@@ -22,11 +22,12 @@ static PetscErrorCode MeshInitializePackage(void)
   PetscFunctionReturn(0);
 }
 
+/* Checks that there are bodies, and that no two have the same name */
 static PetscErrorCode MeshCheckNames(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[])
 {
   PetscFunctionBegin;
   PetscCheck(nbodies > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "A mesh needs at least one body, but %" PetscInt_FMT " are given", nbodies);
+    "A mesh needs at least one body, but the number of bodies is %" PetscInt_FMT, nbodies);
   for (PetscInt b = 0; b < nbodies; ++b) {
     for (PetscInt c = 0; c < b; ++c) {
       PetscBool same;
@@ -38,6 +39,7 @@ static PetscErrorCode MeshCheckNames(MPI_Comm comm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
+/* Collective. Distributes the mesh, with its curves and hanging vertices, by the partitioner */
 static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *hanging)
 {
   PetscPartitioner partitioner;
@@ -59,8 +61,8 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
-/* Checks the numbers of cells and vertices after refinement against the number of ranks and PETSc's integers;
-   ncells: at level 0 */
+/* Collective. Checks the numbers of cells and vertices after refinement against the number of ranks and PETSc's integer
+   type. *ncells: number of cells at level 0 */
 static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine,
   PetscInt64 *ncells)
 {
@@ -74,22 +76,30 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
     nvertices += meshes[b].nvertices;
   }
   PetscCheck(8 * nvertices < PETSC_MAX_INT, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "The %" PetscInt64_FMT " level 0 vertices are too many for PETSc's integer type", nvertices);
+    "The %" PetscInt64_FMT " level 0 vertices are too many for PETSc's integer type: use a coarser mesh, or PETSc with "
+    "64-bit indices",
+    nvertices);
   finecells = *ncells;
   for (PetscInt l = 0; l < refine; ++l) {
     PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for PETSc's integer type",
+      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT
+      " level 0 cells are too many for PETSc's integer type: refine "
+      "less often, or use PETSc with 64-bit indices",
       refine, *ncells);
     finecells *= 8;
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "There are more ranks than cells: %d ranks, and the mesh has %" PetscInt64_FMT, size, finecells);
+    "There are more ranks than cells: %d ranks, but the mesh has %" PetscInt64_FMT " cells: use fewer ranks", size,
+    finecells);
   PetscFunctionReturn(0);
 }
 
-/* Creates level 0. Large meshes from files are partitioned before the DMPlex is built; meshes of shapes, or meshes
-   that a PETSc partitioner is to divide, are not. Frees the bodies' grids */
+/*
+   Collective. Creates level 0. Large meshes from files are partitioned before the DMPlex is built. Meshes of built-in
+   shapes, and meshes for which the options name a partitioner, are not. Frees the bodies' grids. may: whether
+   partitioning before the DMPlex is built is allowed
+*/
 static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], MeshBody meshes[],
   PetscBool may, PetscBool *distributed, MeshCurves *curves, DM *dm)
 {
@@ -115,7 +125,8 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscFunctionReturn(0);
 }
 
-/* Refines uniformly; if there is local refinement, it follows before the mesh is distributed */
+/* Collective. Creates the mesh and refines it uniformly. Local refinement follows, if there is any, before the mesh is
+   distributed. */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine,
   const MeshLocalRefinement *local, DM *dm)
 {
@@ -140,7 +151,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
     PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
-      "Body \"%s\" has tetrahedra, but refinements need hexahedra: refine uniformly, or in the mesh file",
+      "Body \"%s\" has tetrahedra, but local refinement needs hexahedra: refine uniformly, or in the mesh file",
       bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));
@@ -177,19 +188,19 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
 }
 
 /*@
-  MeshCreate - Creates the mesh of all bodies, of hexahedra and tetrahedra: generated, distributed, refined, with the
-  displacements laid out
+  MeshCreate - Creates the mesh of all bodies, which consists of hexahedra and tetrahedra, distributes and refines it,
+  and lays out the displacements
 
   Collective
 
   Input Parameters:
 + comm    - communicator
 . nbodies - number of bodies, at least 1
-. bodies  - the bodies, the same on all ranks; lengths as the scene gives them
+. bodies  - the bodies, equal on all ranks
 - refine  - number of uniform refinements of level 0, at least 0
 
   Output Parameter:
-. dm - the mesh, a `DMPLEX` with one component a body
+. dm - the mesh, a `DMPLEX` with one connected component per body
 
   Options Database Keys:
 + -petscpartitioner_type <metis> - partitioner of the level 0 mesh
@@ -198,17 +209,19 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   Level: beginner
 
   Notes:
-  The label "body" holds each cell's body number, the label "<body>.<face>" the named face. The cells are generated on
-  rank 0, or read there from Gmsh files, and distributed as coarse as their balance allows, those of a scene with Gmsh
-  files before any rank makes a `DMPLEX` of them; refinement is parallel. Refined vertices of a curved body lie on its
-  true surfaces, and those inside follow the shape's own map. Those of a body from a Gmsh file of second order follow
-  its quadratic cells; of first order, arcs between the mean normals of the facets about its vertices.
+  The label "body" contains the body number of each cell. The label "<body>.<face>" contains the facets of a
+  named face, and their closure. Level 0 is created on rank 0, or read there from Gmsh files. It is refined there until
+  each rank gets enough cells for a balanced partition, and then distributed; refinement continues in parallel. Large
+  meshes of scenes with Gmsh files are distributed before any rank creates a `DMPLEX` of them. New vertices of a curved
+  body lie on its exact surfaces, and vertices inside follow the map of the shape. New vertices of a body from a Gmsh
+  file of second order follow its quadratic cells. If the file is of first order, they follow arcs that are
+  perpendicular to the mean normals of the facets around the vertices.
 
-  Bodies never share vertices, also where they come from one Gmsh file and touch there. A body that leaves its order
-  open, 0, has order 1 of hexahedra and order 2 of tetrahedra.
+  Bodies never share vertices, even if they come from one Gmsh file and touch there. A body whose order is 0 gets order
+  1 if it consists of hexahedra, and order 2 if it consists of tetrahedra.
 
-  It is an error if there are more ranks than cells, if the first rank has no memory for level 0, and if a cell is
-  inverted or flat.
+  It is an error if there are more ranks than cells, if the memory of the first rank is insufficient for level 0, or if
+  a cell is inverted or flat.
 
 .seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`,
           `ElasticityCreate()`
@@ -223,25 +236,25 @@ PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodie
 }
 
 /*@
-  MeshCreateScene - Creates the mesh of a scene, its cells refined where it says so
+  MeshCreateScene - Creates the mesh of a scene, with the uniform and the local refinements that the scene asks for
 
   Collective
 
   Input Parameters:
 + comm  - communicator
 . scene - the scene, the same on all ranks
-- marks - cells marked on earlier meshes, which are refined after the others; `NULL`: none
+- marks - cells marked on earlier meshes, which are refined after the zones of the scene; `NULL`: none
 
   Output Parameter:
-. dm - the mesh, a `DMPLEX` with one component a body
+. dm - the mesh, a `DMPLEX` with one connected component per body
 
   Level: beginner
 
   Notes:
-  Cells that the scene refines locally become eight each, after the uniform refinements, on the first rank, before the
-  mesh is distributed; neighbours of finer cells are refined with them until they differ by one refinement. Vertices
-  that hang between coarser and finer cells are nodes as others are: `MeshGetHanging()` tells whose mean they are, and
-  they lie there, also where the body is curved.
+  Local refinement divides a cell into eight. It follows the uniform refinements and is done on the first rank, before
+  the mesh is distributed. Neighbours of finer cells are refined too, until neighbours differ by at most one refinement.
+  Hanging vertices, between coarser and finer cells, are nodes of the mesh. The position of a hanging vertex is the mean
+  of the vertices that `MeshGetHanging()` gives, even if the body is curved.
 
 .seealso: `MeshCreate()`, `MeshCheckScene()`
 @*/

@@ -19,13 +19,14 @@ PetscErrorCode MeshFaceLabelName(const char body[], const char face[], size_t le
 
   Output Parameters:
 + n     - number of faces
-- names - their names, without the body's; to be freed with `MeshRestoreFaceNames()`
+- names - their names without the name of the body; free them with `MeshRestoreFaceNames()`
 
   Level: intermediate
 
   Notes:
-  These are the faces of the body's shape, or for a body from a Gmsh file its physical surfaces, then the parts of
-  faces that the scene names. Only the head of a Gmsh file is read; a surface of it may have no facet on the body.
+  These are the faces of the body's shape, or the physical surfaces of its Gmsh file, followed by the parts of
+  faces that the scene defines. Only the first sections of a Gmsh file are read, so that a surface may turn out to have
+  no facet on the body.
 
 .seealso: `MeshCreate()`, `MeshGetFacets()`
 @*/
@@ -62,7 +63,7 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
 }
 
 /*@C
-  MeshRestoreFaceNames - Frees the names that `MeshGetFaceNames()` gave
+  MeshRestoreFaceNames - Frees the names that `MeshGetFaceNames()` returned
 
   Not Collective
 

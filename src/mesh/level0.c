@@ -1,8 +1,8 @@
-/* The mesh of all bodies at level 0 and its labels, from the grids on each rank */
+/* The mesh of all bodies at level 0 and its labels, created from the grids on each rank */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* Creates the labels of all faces on all ranks; they are empty where a face has no facets */
+/* Creates the labels of all faces on all ranks. On a rank without facets of a face the label is empty. */
 static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[])
 {
   PetscFunctionBegin;
@@ -18,7 +18,7 @@ static PetscErrorCode MeshCreateLabels(DM dm, PetscInt nbodies, const SceneBody 
   PetscFunctionReturn(0);
 }
 
-/* Sets the labels of one body's cells and facets, on the rank that has them */
+/* Sets the labels of one body's cells and facets on the rank that has its grid */
 static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt number, const MeshBody *mesh,
   PetscInt firstcell, PetscInt firstvertex)
 {
@@ -34,7 +34,7 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
     for (PetscInt a = 0; a < n; ++a) corners[a] = firstvertex + grid->facets[4 * q + a];
     PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
     PetscCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
-      "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of its mesh", q, body->name);
+      "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of any cell", q, body->name);
     PetscCall(MeshFaceLabelName(body->name, mesh->faces[grid->facetface[q]], sizeof(name), name));
     PetscCall(DMSetLabelValue(dm, name, join[0], 1));
     PetscCall(DMPlexRestoreJoin(dm, n, corners, &njoin, &join));
@@ -42,7 +42,7 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
   PetscFunctionReturn(0);
 }
 
-/* Sets the labels of all bodies; DMPlex numbers the cells first, then the vertices */
+/* Sets the labels of all bodies on this rank. DMPlex numbers the cells first, then the vertices. */
 static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
   PetscInt ncells)
 {
@@ -60,8 +60,8 @@ static PetscErrorCode MeshLabelBodies(DM dm, PetscInt nbodies, const SceneBody b
   PetscFunctionReturn(0);
 }
 
-/* Adds the closure of its facets to every face's label. After distribution and refinement, a rank that has a vertex
-   of the face but none of its facets then still knows it */
+/* Collective. Adds the closure of the facets to every face's label. After distribution and refinement, a rank that has
+   a vertex of the face, but none of its facets, then still has the vertex in the label. */
 static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[])
 {
   PetscFunctionBegin;
@@ -78,7 +78,7 @@ static PetscErrorCode MeshCompleteFaceLabels(DM dm, PetscInt nbodies, const Scen
   PetscFunctionReturn(0);
 }
 
-/* Creates the cells of all bodies as DMPlex points; vertices are numbered after the cells */
+/* Creates the cells of all bodies as points of the DMPlex. The vertices are numbered after the cells. */
 static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody meshes[], PetscInt ncells,
   PetscInt nvertices)
 {
@@ -110,7 +110,7 @@ static PetscErrorCode MeshBuildCells(DM dm, PetscInt nbodies, const MeshBody mes
   PetscFunctionReturn(0);
 }
 
-/* Joins the vertices of all bodies on this rank; the caller frees coordinates */
+/* Concatenates the coordinates of all bodies' vertices on this rank. The caller frees *coordinates. */
 static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[], PetscInt nvertices,
   PetscReal **coordinates)
 {
@@ -125,7 +125,7 @@ static PetscErrorCode MeshJoinVertices(PetscInt nbodies, const MeshBody meshes[]
   PetscFunctionReturn(0);
 }
 
-/* Creates the star forest of vertices that other ranks own */
+/* Creates the star forest of the vertices that other ranks own */
 static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners *owners)
 {
   PetscMPIInt  rank;
@@ -147,7 +147,7 @@ static PetscErrorCode MeshShareVertices(DM dm, PetscInt ncells, const MeshOwners
   PetscFunctionReturn(0);
 }
 
-/* Creates the level 0 mesh; it is on the first rank only, unless the grids were distributed */
+/* Collective. Creates the level 0 mesh. It is on the first rank only, unless the grids were distributed. */
 PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const MeshBody meshes[],
   const MeshOwners *owners, DM *dm)
 {
@@ -169,7 +169,7 @@ PetscErrorCode MeshCreateLevel0(MPI_Comm comm, PetscInt nbodies, const SceneBody
   ierr = MeshBuildCells(cells, nbodies, meshes, ncells, nvertices);
   if (!ierr) ierr = MeshJoinVertices(nbodies, meshes, nvertices, &coordinates);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot make the mesh of all bodies at level 0: %s",
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot create the mesh of all bodies at level 0: %s",
     error.message);
   PetscCall(DMPlexSymmetrize(cells));
   PetscCall(DMPlexStratify(cells));

@@ -1,4 +1,4 @@
-/* Maps the shapes' parameters to space */
+/* Maps the parameters of the shapes' vertices to space */
 #include "meshimpl.h"
 #include <petscbt.h>
 
@@ -37,7 +37,7 @@ PetscErrorCode MeshMapNodes(DM dm, PetscInt nbodies, const SceneBody bodies[], P
   }
   PetscCall(VecRestoreArray(places.x, &x));
   PetscCall(PetscBTDestroy(&done));
-  /* the global coordinates, if they exist, are out of date */
+  /* The global coordinates, if they exist, are not updated here. */
   if (!curved) PetscCall(DMSetCoordinatesLocal(dm, places.x));
   PetscFunctionReturn(0);
 }

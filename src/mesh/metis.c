@@ -1,14 +1,16 @@
-/* PETSCPARTITIONER "metis": serial METIS on the gathered graph. Debian's PETSc is built without ParMETIS. */
+/* The partitioner "metis": serial METIS on the graph gathered on the first rank. ParMETIS is not used, because Debian's
+   PETSc is built without it. */
 #include "meshimpl.h"
 #include <petsc/private/partitionerimpl.h>
 #include <metis.h>
 
 #define PETSCPARTITIONERMETIS "metis"
 
-/* for more parts multilevel k-way is as good as recursive bisection, and faster (METIS manual, section 5.1) */
+/* largest number of parts for recursive bisection. For more parts multilevel k-way partitioning is as good, and faster
+   (METIS manual, section 5.1). */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
-/* Calls METIS on a whole graph; part[v] in [0, nparts) */
+/* Partitions a whole graph by METIS. part[v] is in [0, nparts). */
 PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[],
   const PetscInt weights[], PetscInt part[])
 {
@@ -37,7 +39,7 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
   PetscFunctionReturn(0);
 }
 
-/* Partitions a gathered graph, given by the degrees of its vertices; *part is allocated */
+/* Partitions a gathered graph, which is given by the degrees of its vertices. Allocates *part. */
 static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const PetscInt degree[],
   const PetscInt adjacency[], const PetscInt weights[], PetscInt **part)
 {
@@ -53,8 +55,8 @@ static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const
   PetscFunctionReturn(0);
 }
 
-/* Gathers the ranks' arrays on rank 0; *all and *total are set there only. MPI's limit on a gather keeps the graph
-   within METIS's index type */
+/* Collective. Gathers the ranks' arrays on the first rank. *all and *total are set on the first rank only; counts and
+   displs are those of MPI_Gatherv(). The size limit of a gather in MPI keeps the graph within METIS's index type. */
 static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[],
   PetscMPIInt displs[], PetscInt *total, PetscInt **all)
 {
@@ -68,7 +70,10 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallMPI(MPI_Allreduce(&local64, &sum, 1, MPIU_INT64, MPI_SUM, comm));
   PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP,
-    "The graph to be gathered for METIS has %" PetscInt64_FMT " entries; distribute a coarser mesh", sum);
+    "The graph for METIS has %" PetscInt64_FMT
+    " entries, which exceeds the size of an MPI message: distribute a coarser "
+    "mesh",
+    sum);
   PetscCall(PetscMPIIntCast(n, &count));
   PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
   *total    = (PetscInt)sum;
@@ -84,8 +89,8 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
   PetscFunctionReturn(0);
 }
 
-/* part[v] for the nv vertices of this rank; the graph is gathered on rank 0. weights may be NULL on a rank without
-   vertices even if `weighted` */
+/* Collective. Computes part[v] for the nv vertices of this rank. The graph is gathered on the first rank. On a rank
+   without vertices, weights may be NULL even if `weighted` is true. */
 static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
 {
@@ -156,8 +161,8 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
   Level: intermediate
 
   Notes:
-  Meant for the level 0 mesh, before uniform refinement: the whole graph must fit on rank 0. Up to 8 parts are made by
-  recursive bisection, more by multilevel k-way partitioning.
+  The partitioner is intended for the level 0 mesh, before uniform refinement: the whole graph must fit into the memory
+  of rank 0. Up to 8 parts are computed by recursive bisection, more by multilevel k-way partitioning.
 
   References:
 . * - G. Karypis, V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J. Sci.
@@ -173,8 +178,8 @@ static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
   PetscFunctionReturn(0);
 }
 
-/* Registers the PetscPartitioner type "metis". MeshCreate() calls it; a program that distributes its own DMPlex calls
-   it before -petscpartitioner_type metis is read. */
+/* Registers the partitioner "metis". MeshCreate() calls this function. A program that distributes its own DMPlex must
+   call it before the option -petscpartitioner_type metis is read. */
 PetscErrorCode MeshRegisterPartitioner(void)
 {
   PetscFunctionBegin;

@@ -1,24 +1,27 @@
-/* Labels of the nodes at points and edges with prescribed displacements, like the labels of faces. */
+/* Labels of the nodes at points and edges with prescribed displacements. They are used like the labels of faces. */
 #include "meshimpl.h"
 
-/* tolerance for the position of nodes, relative to the mesh's size */
+/* tolerance for the position of nodes, relative to the size of the mesh */
 static const PetscReal point_tolerance = 1e-6;
 
-static PetscReal PointLabelDistance(const SceneDisplacement *spot, const PetscReal x[3])
+/* Returns the distance of the position x from a point or an edge [length] */
+static PetscReal PointLabelDistance(const SceneDisplacement *point, const PetscReal x[3])
 {
   PetscReal along = 0.0, square = 0.0, distance = 0.0;
 
   for (PetscInt d = 0; d < 3; ++d) {
-    along += (x[d] - spot->from[d]) * (spot->to[d] - spot->from[d]);
-    square += PetscSqr(spot->to[d] - spot->from[d]);
+    along += (x[d] - point->from[d]) * (point->to[d] - point->from[d]);
+    square += PetscSqr(point->to[d] - point->from[d]);
   }
   along = square > 0.0 ? PetscMin(PetscMax(along / square, 0.0), 1.0) : 0.0;
-  for (PetscInt d = 0; d < 3; ++d) distance += PetscSqr(x[d] - spot->from[d] - along * (spot->to[d] - spot->from[d]));
+  for (PetscInt d = 0; d < 3; ++d)
+    distance += PetscSqr(x[d] - point->from[d] - along * (point->to[d] - point->from[d]));
   return PetscSqrtReal(distance);
 }
 
-/* Labels the nodes at the point or edge; nearest: distance and position of the nearest node of the body on this rank */
-static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, PetscReal tolerance, PetscReal nearest[4])
+/* Labels the nodes at a point or an edge. nearest: distance [length] and position of the nearest node of the body on
+   this rank */
+static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *point, PetscReal tolerance, PetscReal nearest[4])
 {
   DMLabel            body, label;
   PetscSection       section;
@@ -28,8 +31,8 @@ static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, Pets
 
   PetscFunctionBegin;
   nearest[0] = PETSC_MAX_REAL;
-  PetscCall(DMCreateLabel(dm, spot->face));
-  PetscCall(DMGetLabel(dm, spot->face, &label));
+  PetscCall(DMCreateLabel(dm, point->face));
+  PetscCall(DMGetLabel(dm, point->face, &label));
   PetscCall(DMGetLabel(dm, MESH_BODY_LABEL, &body));
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
@@ -39,7 +42,7 @@ static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, Pets
     PetscInt of, n, nodes[MESH_MAX_NODES];
 
     PetscCall(DMLabelGetValue(body, c, &of));
-    if (of != spot->body) continue;
+    if (of != point->body) continue;
     PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
     for (PetscInt i = 0; i < n; ++i) {
       PetscInt  offset;
@@ -47,7 +50,7 @@ static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, Pets
 
       PetscCall(PetscSectionGetOffset(section, nodes[i], &offset));
       for (PetscInt d = 0; d < 3; ++d) place[d] = PetscRealPart(x[offset + d]);
-      distance = PointLabelDistance(spot, place);
+      distance = PointLabelDistance(point, place);
       if (distance <= tolerance) PetscCall(DMLabelSetValue(label, nodes[i], 1));
       if (distance >= nearest[0]) continue;
       nearest[0] = distance;
@@ -58,7 +61,7 @@ static PetscErrorCode PointLabelLabel(DM dm, const SceneDisplacement *spot, Pets
   PetscFunctionReturn(0);
 }
 
-/* Broadcasts `nearest` from the rank with the smallest distance */
+/* Collective. Replaces `nearest` by that of the rank with the smallest distance */
 static PetscErrorCode PointLabelFindNearest(MPI_Comm comm, PetscReal nearest[4])
 {
   PetscReal   least = nearest[0];
@@ -73,7 +76,8 @@ static PetscErrorCode PointLabelFindNearest(MPI_Comm comm, PetscReal nearest[4])
   PetscFunctionReturn(0);
 }
 
-/* Labels the nodes at all points and edges with displacements, once per mesh; error if there is no node */
+/* Collective. Labels the nodes at all points and edges with prescribed displacements, once per mesh. It is an error if
+   there is no node at a point or an edge. */
 PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
 {
   MPI_Comm  comm = PetscObjectComm((PetscObject)dm);
@@ -83,17 +87,17 @@ PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
   PetscCall(DMGetBoundingBox(dm, lower, upper));
   for (PetscInt d = 0; d < 3; ++d) size = PetscMax(size, upper[d] - lower[d]);
   for (PetscInt k = 0; k < scene->ndisplacements; ++k) {
-    const SceneDisplacement *spot = &scene->displacements[k];
+    const SceneDisplacement *point = &scene->displacements[k];
     PetscBool                has;
 
-    if (spot->at == DISPLACEMENT_FACE) continue;
-    PetscCall(DMHasLabel(dm, spot->face, &has));
+    if (point->at == DISPLACEMENT_FACE) continue;
+    PetscCall(DMHasLabel(dm, point->face, &has));
     if (has) continue;
-    PetscCall(PointLabelLabel(dm, spot, point_tolerance * size, nearest));
+    PetscCall(PointLabelLabel(dm, point, point_tolerance * size, nearest));
     PetscCall(PointLabelFindNearest(comm, nearest));
     PetscCheck(nearest[0] <= point_tolerance * size, comm, PETSC_ERR_USER_INPUT,
-      "displacement \"%s\": body \"%s\" has no vertex there; the nearest one is at (%g, %g, %g)", spot->name,
-      scene->bodies[spot->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
+      "displacement \"%s\": body \"%s\" has no node at that point or edge: the nearest node is at (%g, %g, %g)",
+      point->name, scene->bodies[point->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
   }
   PetscFunctionReturn(0);
 }

@@ -1,9 +1,11 @@
-/* Labels like those of faces for whole bodies. Of a rigid body: all points that have unknowns, and the boundary facets.
-   Of a body in contact with itself: the boundary facets and their points */
+/* Creates labels of whole bodies, used like those of faces. The label of a rigid body contains all points that carry
+   unknowns, and the boundary facets. The label of a body in contact with itself contains the boundary facets and their
+   points. */
 #include "meshimpl.h"
 #include <petscsf.h>
 
-/* Labels the points of a cell of a rigid body; boundary: of the facets, from number fstart on */
+/* Adds the points of a cell to the label `whole`. Facets, which are numbered from fstart to fend, are added only if
+   they are on the boundary. */
 static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, PetscInt fend, const PetscBool boundary[],
   DMLabel whole)
 {
@@ -20,7 +22,8 @@ static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, Pets
   PetscFunctionReturn(0);
 }
 
-/* Labels the boundary facets of a body that is not rigid, and their points, also where another rank has the facet */
+/* Collective. Labels the boundary facets of a body that is not rigid, and their points, also points whose facets are on
+   other ranks */
 static PetscErrorCode RigidLabelBoundary(DM dm, DMLabel body, PetscInt number, const PetscBool boundary[],
   DMLabel whole)
 {
@@ -63,7 +66,7 @@ static PetscErrorCode RigidLabelBoundary(DM dm, DMLabel body, PetscInt number, c
   PetscFunctionReturn(0);
 }
 
-/* Call after the last refinement */
+/* Creates the labels. They must be created after the last refinement. */
 PetscErrorCode MeshLabelRigid(DM dm, PetscInt nbodies, const SceneBody bodies[])
 {
   DMLabel    body, whole;

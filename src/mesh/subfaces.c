@@ -1,7 +1,7 @@
-/* Parts of faces that a body names, cut out by bounds */
+/* Parts of faces that a body defines by bounds of the coordinates */
 #include "meshimpl.h"
 
-/* Checks that each part belongs to an earlier face, and that its name is not in use */
+/* Collective. Checks that each part belongs to a face that is defined before it, and that its name is new */
 PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
 {
   PetscInt n;
@@ -18,20 +18,20 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
       PetscCall(PetscStrcmp(names[f], subface->of, &same));
       if (same) known = PETSC_TRUE;
       PetscCall(PetscStrcmp(names[f], subface->name, &same));
-      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces of the name \"%s\"", body->name,
+      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces with the name \"%s\"", body->name,
         subface->name);
     }
     PetscCall(NamesJoin(n - body->nsubfaces + s, names, sizeof(choices), choices));
     PetscCheck(known, comm, PETSC_ERR_USER_INPUT,
-      "The face \"%s.%s\" is to be part of \"%s.%s\", which does not exist; before it, %s has: %s", body->name,
-      subface->name, body->name, subface->of, body->name, choices);
+      "The face \"%s.%s\" is defined as a part of \"%s.%s\", which does not exist: the faces of %s before it are %s",
+      body->name, subface->name, body->name, subface->of, body->name, choices);
   }
   PetscCall(MeshRestoreFaceNames(&n, &names));
   PetscFunctionReturn(0);
 }
 
-/* Whether the centroid of a facet's corners is within the bounds up to rounding. The vertices of curved bodies are
-   still parameters */
+/* Determines whether the centroid of a facet's corners is within the bounds, up to rounding. The vertices of bodies
+   with a map are still parameters here and are mapped first. */
 static PetscErrorCode SubfaceHoldsFacet(const SceneBody *body, const SceneSubface *subface, const ShapeGrid *grid,
   PetscInt facet, PetscBool *inside)
 {

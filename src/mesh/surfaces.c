@@ -1,7 +1,7 @@
 /* The surfaces of all bodies at refinement level 0 */
 #include "meshimpl.h"
 
-/* Coordinates of a grid's vertices; to be freed */
+/* Computes the coordinates of a grid's vertices [length]. The caller frees *x. */
 static PetscErrorCode SurfacesPlaceVertices(const SceneBody *body, const ShapeGrid *grid, PetscReal **x)
 {
   const Shape *shape;
@@ -16,8 +16,8 @@ static PetscErrorCode SurfacesPlaceVertices(const SceneBody *body, const ShapeGr
   PetscFunctionReturn(0);
 }
 
-/* Names the regions of a body's boundary: like the face of the shape or file that consists of the same facets, else
-   "surface_1", "surface_2", ... nfaces: number of faces of the shape or file */
+/* Names the regions of a body's boundary. A region that consists of the same facets as a face of the shape or file gets
+   the name of that face; others are named "surface_1", "surface_2", ... nfaces: number of faces of the shape or file */
 static PetscErrorCode SurfacesName(const SceneBody *body, const MeshBody *mesh, PetscInt nfaces,
   const ShapeBoundary *boundary, MeshSurfaces *s)
 {
@@ -42,7 +42,7 @@ static PetscErrorCode SurfacesName(const SceneBody *body, const MeshBody *mesh, 
   PetscFunctionReturn(0);
 }
 
-/* Adds the surfaces of a body, on the rank that has its grid */
+/* Adds the surfaces of a body on the rank that has its grid */
 static PetscErrorCode SurfacesAddBody(SceneBody *body, PetscInt number, const MeshBody *mesh, MeshSurfaces *s)
 {
   const PetscInt nown = mesh->nfaces - body->nsubfaces - body->gmsh.nsurfaces, first = s->nsurfaces;
@@ -76,6 +76,7 @@ static PetscErrorCode SurfacesAddBodies(PetscInt nbodies, SceneBody bodies[], co
   PetscFunctionReturn(0);
 }
 
+/* Collective. Sends the surfaces from the first rank to all ranks */
 static PetscErrorCode SurfacesBroadcast(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[], MeshSurfaces *s)
 {
   PetscInt    sizes[2] = {s->n, s->nsurfaces};
@@ -109,11 +110,13 @@ static PetscErrorCode SurfacesBroadcast(MPI_Comm comm, PetscInt nbodies, SceneBo
   PetscFunctionReturn(0);
 }
 
-/* Collective. Gets the surfaces of all bodies at refinement level 0. comm: communicator; nbodies: number of bodies;
-   bodies: the bodies, the same on all ranks; those from files get faces "surface_1", "surface_2", ...; surfaces: the
-   surfaces, the same on all ranks; to be freed with MeshSurfacesDestroy(). The surfaces of a shape are its faces. The
-   surfaces of a body from a file are the parts of its boundary between edges at which facets make more than 35 degrees;
-   a face of the file that is such a part gives its name. */
+/*
+   Collective. Gets the surfaces of all bodies at refinement level 0, equal on all ranks. The caller frees them by
+   MeshSurfacesDestroy(). The surfaces of a built-in shape are its faces. The surfaces of a body from a file are the
+   parts of its boundary between edges at which the normals of the facets make more than 35 degrees; these bodies get
+   additional faces "surface_1", "surface_2", ... If such a part consists of the facets of a face of the file, it has
+   the name of that face.
+*/
 PetscErrorCode MeshSurfacesCreate(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[], MeshSurfaces *surfaces)
 {
   MeshBody      *meshes;

@@ -2,8 +2,11 @@
 #include "queryimpl.h"
 #include <petscsf.h>
 
-/* Collective. Marks the facets of this rank on the boundary of a body. boundary: one value per facet, in the order of
-   its points. Such a facet has one cell here, no copy on another rank, and no finer or coarser neighbour cell. */
+/*
+   Collective. Determines which facets of this rank are on the boundary of a body. boundary: one value per facet, in the
+   order of the facets' points. A boundary facet has one cell on this rank, no copy on another rank, and no finer or
+   coarser neighbour cell.
+*/
 PetscErrorCode MeshMarkBoundary(DM dm, PetscBool boundary[])
 {
   PetscSF         sf;

@@ -1,22 +1,25 @@
-/* Evaluates fields of one mesh at points of another. Each rank has its own points and examines the cells of all ranks,
-   one block at a time. */
+/* Evaluates fields of one mesh at points of another mesh. Each rank has its own points and tests the cells of all
+   ranks, one block of cells at a time. */
 #include "queryimpl.h"
 
-#define EVALUATE_CELLS 1024 /* cells per block */
+#define EVALUATE_CELLS 1024 /* number of cells per block */
 
-/* Cells of one rank, sent to all: coordinates and fields, 3 numbers per node */
+/* A block of cells of one rank, which is sent to all ranks */
 typedef struct {
-  PetscInt   nvecs; /* number of vectors: coordinates, then the fields */
-  PetscInt   n, body[EVALUATE_CELLS], nnodes[EVALUATE_CELLS];
-  PetscReal *values; /* nvecs x MESH_MAX_NODES x 3 per cell */
+  PetscInt   nvecs;                                           /* number of vectors: the coordinates, then the fields */
+  PetscInt   n, body[EVALUATE_CELLS], nnodes[EVALUATE_CELLS]; /* number of cells; body and number of nodes of each
+                                                                 cell */
+  PetscReal *values; /* [n][nvecs][MESH_MAX_NODES][3] values of each vector at the nodes of each cell */
 } EvaluateBlock;
 
+/* Returns the values of vector `vec` at the nodes of a cell */
 static PetscReal *EvaluateBlockValues(const EvaluateBlock *block, PetscInt cell, PetscInt vec)
 {
   return &block->values[3 * MESH_MAX_NODES * (block->nvecs * cell + vec)];
 }
 
-/* Fills the block with this rank's cells from `first` on; local: coordinates, then the fields */
+/* Fills the block with this rank's cells from number `first` on. local: the coordinates, then the fields, as local
+   vectors */
 static PetscErrorCode EvaluateBlockFill(DM dm, PetscInt first, const Vec local[], EvaluateBlock *block)
 {
   PetscSection section;
@@ -45,6 +48,7 @@ static PetscErrorCode EvaluateBlockFill(DM dm, PetscInt first, const Vec local[]
   PetscFunctionReturn(0);
 }
 
+/* Collective. Sends a block from rank `from` to all ranks */
 static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, EvaluateBlock *block)
 {
   PetscFunctionBegin;
@@ -56,8 +60,8 @@ static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, Evaluat
   PetscFunctionReturn(0);
 }
 
-/* Evaluates the fields at points whose nearest position so far is in a cell of the block; number: of the block's
-   first cell */
+/* Tests the cells of the block, and evaluates the fields at those points whose nearest position so far is in one of
+   these cells. number: number of the block's first cell among the cells of all ranks */
 static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints,
   MeshLocator locator, PetscReal values[])
 {
@@ -82,7 +86,7 @@ static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt numb
   PetscFunctionReturn(0);
 }
 
-/* Processes the cells of all ranks in turn */
+/* Collective. Processes the cells of all ranks in turn */
 static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block, PetscInt npoints, MeshLocator locator,
   PetscReal values[])
 {
@@ -109,11 +113,18 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
   PetscFunctionReturn(0);
 }
 
-/* Collective. Evaluates fields of a mesh at points of the undeformed bodies; each rank has its own points. fields:
-   nfields global vectors of the mesh; points: npoints points of this rank [length]; body: the body in which each point
-   is looked for; PETSC_DECIDE: any; values: nfields x 3 per point, zeros if no cell is near; missing: number of points
-   on all ranks without a cell near. A point on a curved surface may lie outside the facets: it gets the values of the
-   nearest position in a neighbouring cell. */
+/*
+   Collective. Evaluates fields of a mesh at points of the undeformed bodies. Each rank has its own points.
+
+   - fields: nfields global vectors of the mesh
+   - points: the npoints points of this rank [length]
+   - body: the body in which each point is searched for; PETSC_DECIDE: any body
+   - values: [npoints][nfields][3] values of the fields; zeros if no cell is near a point
+   - missing: number of points, on all ranks, without a cell near
+
+   A point on a curved surface may lie outside the facets. It gets the values at the nearest position in a neighbouring
+   cell.
+*/
 PetscErrorCode MeshEvaluate(DM dm, PetscInt nfields, const Vec fields[], PetscInt npoints, const PetscReal points[][3],
   const PetscInt body[], PetscReal values[], PetscInt *missing)
 {

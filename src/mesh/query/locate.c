@@ -1,25 +1,27 @@
 /*
-   Finds the cell that contains a point. Points are sorted into the bins of a grid that is finer where points are
-   denser. Each cell examines the points in nearby bins. A point's parameters are found by inverting the cell's linear
-   or quadratic map, clamped to the cell. The nearest cell over all ranks gets the point.
+   Finds the cell that contains a point. The points are sorted into the bins of a grid, which is finer where the points
+   are denser. For each cell the points in nearby bins are tested. The parameters of a point in the cell are computed by
+   inverting the cell's linear or quadratic map, and limited to the cell. The point is assigned to the nearest cell over
+   all ranks.
 */
 #include "queryimpl.h"
 #include <vector3.h>
 
-/* a point may lie outside of its cell by this fraction of the cell's size, since curved surfaces lie outside of
-   facets */
+/* largest distance of a point from its cell, relative to the cell's size. Curved surfaces may lie outside of the
+   facets. */
 static const PetscReal locate_margin = 0.25;
 
-/* points within this fraction of a cell's size of a side count as in the cell */
+/* a point that is outside of a cell by less than this fraction of the cell's size counts as inside */
 static const PetscReal locate_rounding = 1e-12;
 
-/* Points by bin: bin b has order[start[b]] to order[start[b + 1] - 1]; along axis d bin i begins at first[d][i] */
+/* Points sorted into bins. Bin b contains the points order[start[b]] to order[start[b + 1] - 1]. Bin i along axis d
+   begins at the coordinate first[d][i] [length]. */
 typedef struct {
   PetscInt   n[3], *start, *order;
   PetscReal *first[3];
 } LocateBins;
 
-/* The last bin that begins at or before x; points outside of all bins get the nearest one */
+/* Returns the last bin along axis d that begins at or below the coordinate x, or the first bin if there is none */
 static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
 {
   PetscInt low = 0, high = bins->n[d];
@@ -33,12 +35,14 @@ static PetscInt LocateBin(const LocateBins *bins, PetscInt d, PetscReal x)
   return low;
 }
 
+/* Returns the number of the bin that contains the point x */
 static PetscInt LocateBinOfPoint(const LocateBins *bins, const PetscReal x[3])
 {
   return (LocateBin(bins, 2, x[2]) * bins->n[1] + LocateBin(bins, 1, x[1])) * bins->n[0] + LocateBin(bins, 0, x[0]);
 }
 
-/* Divides an axis into bins with equally many points, so that bins are narrow where a mesh is graded */
+/* Divides axis d into at most nbins bins with equal numbers of points, so that bins are narrow where a mesh is
+   graded */
 static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][3], PetscInt nbins, PetscInt d,
   LocateBins *bins)
 {
@@ -60,7 +64,7 @@ static PetscErrorCode LocateBinsPart(PetscInt npoints, const PetscReal points[][
   PetscFunctionReturn(0);
 }
 
-/* Creates bins with about one point each */
+/* Creates bins with about one point per bin */
 static PetscErrorCode LocateBinsCreate(PetscInt npoints, const PetscReal points[][3], LocateBins *bins)
 {
   const PetscInt side = 1 + (PetscInt)PetscCbrtReal((PetscReal)npoints);
@@ -89,7 +93,7 @@ static PetscErrorCode LocateBinsDestroy(LocateBins *bins)
   PetscFunctionReturn(0);
 }
 
-/* Shape functions of a line on [-1, 1] with 2 or 3 nodes, and their derivatives */
+/* Computes the shape functions L of a line on [-1, 1] with 2 or 3 nodes (width), and their derivatives s */
 static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s[3])
 {
   L[0]         = width == 2 ? 0.5 - 0.5 * xi : 0.5 * xi * (xi - 1);
@@ -100,7 +104,8 @@ static void LocateLine(PetscInt width, PetscReal xi, PetscReal L[3], PetscReal s
   s[width - 1] = width == 2 ? 0.5 : xi + 0.5;
 }
 
-/* Shape functions of a cell with n nodes at a point of the reference cube or tetrahedron, and their derivatives */
+/* Computes the shape functions N of a cell with n nodes at the point xi of the reference cube or tetrahedron, and their
+   derivatives dN */
 void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal dN[3][MESH_MAX_NODES])
 {
   const PetscInt width = n == 8 ? 2 : 3;
@@ -121,7 +126,7 @@ void MeshCellShape(PetscInt n, const PetscReal xi[3], PetscReal N[], PetscReal d
   }
 }
 
-/* r: vector from X(xi) to the point; J: dX_d/dxi_k */
+/* Computes r, the vector from X(xi) to the point [length], and the Jacobian matrix J[d][k] = dX_d/dxi_k */
 static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point[3], const PetscReal xi[3],
   PetscReal N[], PetscReal r[3], PetscReal J[3][3])
 {
@@ -138,7 +143,7 @@ static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point
   }
 }
 
-/* step = J^(-1) r by Cramer's rule */
+/* Solves J step = r by Cramer's rule */
 static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[3])
 {
   PetscReal det = 0;
@@ -154,7 +159,7 @@ static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[
   }
 }
 
-/* Clamps the parameters to a tetrahedron: not negative, sum at most 1 */
+/* Limits the parameters to the reference tetrahedron: none is negative, and their sum is at most 1 */
 static void LocateClampTetrahedron(PetscReal xi[3])
 {
   PetscReal sum = 0;
@@ -163,8 +168,11 @@ static void LocateClampTetrahedron(PetscReal xi[3])
   for (PetscInt k = 0; sum > 1 && k < 3; ++k) xi[k] /= sum;
 }
 
-/* Inverts the cell's map by Newton's method; steps are clamped to a cube somewhat larger than the cell, the result
-   to the cell. Returns the distance */
+/*
+   Inverts the cell's map by Newton's method. The iterates are limited to a cube somewhat larger than the cell, and the
+   result is limited to the cell. Returns the distance of the point from the cell [length]. N: shape functions at the
+   result
+*/
 static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal point[3], PetscReal N[])
 {
   const PetscBool tetrahedron = MeshIsTetrahedron(n);
@@ -190,7 +198,8 @@ static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal poin
   return VectorNorm(r);
 }
 
-/* Bounding box of a cell's nodes, with a margin */
+/* Computes the bounding box of a cell's nodes, enlarged by a margin. Returns the diagonal of the box without the margin
+   [length]. */
 static PetscReal LocateBox(PetscInt n, PetscReal X[][3], PetscReal lower[3], PetscReal upper[3])
 {
   PetscReal diagonal[3], size;
@@ -219,8 +228,11 @@ struct _n_MeshLocator {
   MeshPlace      *places;
 };
 
-/* Creates a locator, which finds the cells that contain given points. n: number of points; points: borrowed until the
-   locator is destroyed [length]; body: the body in which each point is looked for, borrowed, too; PETSC_DECIDE: any. */
+/*
+   Creates a locator, which finds the cells that contain n given points. points: their coordinates [length], used until
+   the locator is destroyed; body: the body in which each point is searched for, PETSC_DECIDE for any body, also used
+   until then
+*/
 PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshLocator *locator)
 {
   PetscFunctionBegin;
@@ -234,24 +246,26 @@ PetscErrorCode MeshLocatorCreate(PetscInt n, const PetscReal points[][3], const 
   PetscFunctionReturn(0);
 }
 
-/* Stores the position if it is nearer than earlier ones; for equal distances up to rounding the body with the
-   smaller number is preferred */
+/* Stores the position of point i in a cell if the cell is nearer than all earlier cells. If two distances are equal up
+   to rounding, the body with the smaller number is preferred. */
 static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscReal X[][3])
 {
   MeshPlace      *nearest = &locator->places[i];
   const PetscReal rounding =
     locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
 
-  /* the point is inside a cell already */
+  /* The point is inside an earlier cell already. */
   if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return;
   place.distance = LocateInCell(place.n, X, locator->points[i], place.N);
   if (place.distance < nearest->distance + rounding) *nearest = place;
 }
 
-/* Tests which points are in a cell or near it. cell: a number for the cell; body: its body; n: its number of nodes: 8
-   or 27 of a hexahedron, 4 or 10 of a tetrahedron; X: their positions, in the order of MeshGetCellNodes() [length]. A
-   point is assigned to the nearest cell; of equally near cells to one of the first body, and there to the first one
-   added. Cells farther away than a quarter of their size are ignored. */
+/*
+   Tests which points are in a cell or near it. cell: number of the cell; body: its body; n: number of its nodes (8 or
+   27 for a hexahedron, 4 or 10 for a tetrahedron); X: their coordinates, in the order of MeshGetCellNodes() [length]. A
+   point is assigned to the nearest cell. Among equally near cells, the body with the smallest number is preferred, then
+   the first cell that was added. Cells farther away than a quarter of their size are ignored.
+*/
 PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3])
 {
   const LocateBins *bins = &locator->bins;
@@ -281,8 +295,8 @@ PetscErrorCode MeshLocatorAddCell(MeshLocator locator, PetscInt cell, PetscInt b
   PetscFunctionReturn(0);
 }
 
-/* Gets the places of the points in the cells added so far. places: one per point, borrowed; its cell is negative if no
-   cell is near. */
+/* Gets the position of each point in the cells added so far. places: one entry per point, owned by the locator. The
+   number of its cell is negative if no cell is near. */
 PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **places)
 {
   PetscFunctionBegin;
@@ -300,7 +314,8 @@ PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
   PetscFunctionReturn(0);
 }
 
-/* Chooses for each point the rank with the nearest position; among equals the first body, then the first rank */
+/* Collective. Selects for each point the rank with the nearest position. Among equal distances, the body with the
+   smallest number is preferred, then the first rank. */
 static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace places[])
 {
   PetscMPIInt rank;
@@ -332,11 +347,16 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the cells that contain points of the undeformed bodies. n, points: the points, the same on all
-   ranks [length]; body: the body in which each point is looked for; PETSC_DECIDE: any; places: one per point. Its cell
-   is a local DMPlex point on one rank and negative on the others. Its distance from the cell is the same on all ranks,
-   and PETSC_MAX_REAL if no cell is near. A point on a curved surface may lie outside the facets: it gets the nearest
-   position in a neighbouring cell. */
+/*
+   Collective. Finds the cells that contain points of the undeformed bodies.
+
+   - points: the n points, equal on all ranks [length]
+   - body: the body in which each point is searched for; PETSC_DECIDE: any body
+   - places: one entry per point. Its cell is a local DMPlex point on one rank and negative on the other ranks. Its
+     distance from the cell is equal on all ranks, and PETSC_MAX_REAL if no cell is near.
+
+   A point on a curved surface may lie outside the facets. It gets the nearest position in a neighbouring cell.
+*/
 PetscErrorCode MeshLocate(DM dm, PetscInt n, const PetscReal points[][3], const PetscInt body[], MeshPlace places[])
 {
   MeshLocator        locator;

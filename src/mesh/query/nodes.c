@@ -1,14 +1,16 @@
 /*
-   Nodes: the points of the mesh that carry a displacement. In a body of order 1 these are its vertices. In a body of
-   order 2 hexahedra have 27 nodes, on vertices, edges, facets and cell, in the order i + 3 j + 9 k (vertices: i + 2 j +
-   4 k); tetrahedra have 10, on vertices and edges.
+   Nodes are the points of the mesh that carry a displacement. In a body of order 1 these are the vertices. In a body of
+   order 2, hexahedra have 27 nodes, on vertices, edges, facets and the cell; tetrahedra have 10 nodes, on vertices and
+   edges. Node i + 3 j + 9 k of a hexahedron is at the position (i, j, k)/2 of the reference cube; its vertex i + 2 j +
+   4 k is at (i, j, k).
 */
 #include "queryimpl.h"
 
-#define MESH_PLACES "nodes" /* key of the nodes' coordinates, composed on the mesh if they are not its vertices alone */
+/* key under which the nodes' coordinates are composed with the mesh, if not all nodes are vertices */
+#define MESH_PLACES "nodes"
 
-/* Creates the section: three components at every vertex; in bodies of order 2 also at every other point of
-   hexahedra, and at every edge of tetrahedra; none constrained */
+/* Creates the section: three components at every vertex; in bodies of order 2 also at every other point of hexahedra,
+   and at every edge of tetrahedra. No component is constrained. */
 PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
 {
   PetscSection section;
@@ -47,7 +49,7 @@ PetscErrorCode MeshSetSection(DM dm, const PetscInt orders[])
   PetscFunctionReturn(0);
 }
 
-/* Index of a vertex among n, or n */
+/* Returns the index of a vertex among n vertices, or n if it is not among them */
 static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex)
 {
   PetscInt a = 0;
@@ -56,8 +58,8 @@ static PetscInt NodesFind(PetscInt n, const PetscInt vertices[], PetscInt vertex
   return a;
 }
 
-/* Position of an edge, facet or cell in the cell, i + 3 j + 9 k, as the centre of its own vertices. In a tetrahedron
-   an edge is in the middle of two vertices; negative: more than two */
+/* Computes the number of the node on an edge, a facet or the cell, from the mean position of the vertices of that
+   point. In a tetrahedron *place is -1 for points with more than two vertices, which carry no node. */
 static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt vertices[8], PetscInt point,
   PetscInt *place)
 {
@@ -83,7 +85,7 @@ static PetscErrorCode NodesFindPlace(DM dm, PetscInt ncorners, const PetscInt ve
   PetscFunctionReturn(0);
 }
 
-/* Whether the edges of a facet have values in a section */
+/* Determines whether the edges of a facet have values in a section */
 static PetscErrorCode NodesHasEdges(DM dm, PetscSection section, PetscInt facet, PetscBool *has)
 {
   const PetscInt *edges;
@@ -97,7 +99,7 @@ static PetscErrorCode NodesHasEdges(DM dm, PetscSection section, PetscInt facet,
   PetscFunctionReturn(0);
 }
 
-/* The points of a cell with values in a section: its vertices, or all nodes of order 2 */
+/* Gets the points of a cell that have values in a section: the vertices, or all nodes of order 2 */
 PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, PetscInt *n,
   PetscInt points[MESH_MAX_NODES])
 {
@@ -125,11 +127,15 @@ PetscErrorCode MeshGetCellPoints(DM dm, PetscSection section, PetscInt cell, Pet
   PetscFunctionReturn(0);
 }
 
-/* Gets the points of a cell that carry a displacement, of hexahedra in tensor order. cell: the cell, a local DMPlex
-   point; n: their number: 8, or 27 in a body of order 2; of a tetrahedron 4, or 10; nodes: local DMPlex points,
-   MESH_MAX_NODES at most: vertices, number i + 2 j + 4 k at the corner (i, j, k) of the reference cube; of order 2
-   vertices, edges, facets and the cell, number i + 3 j + 9 k at (i, j, k)/2. Of a tetrahedron the vertices, then the
-   edges 01, 12, 02, 03, 13 and 23. */
+/*
+   Gets the points of a cell that carry a displacement. cell: a local DMPlex point; n: number of nodes; nodes: local
+   DMPlex points, at most MESH_MAX_NODES.
+
+   - hexahedron of order 1: 8 vertices; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube
+   - hexahedron of order 2: 27 vertices, edges, facets and the cell; number i + 3 j + 9 k is at (i, j, k)/2
+   - tetrahedron of order 1: 4 vertices
+   - tetrahedron of order 2: 10 points, the vertices and then the edges 01, 12, 02, 03, 13 and 23
+*/
 PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES])
 {
   PetscSection section;
@@ -140,10 +146,12 @@ PetscErrorCode MeshGetCellNodes(DM dm, PetscInt cell, PetscInt *n, PetscInt node
   PetscFunctionReturn(0);
 }
 
-/* Gets the points of a boundary facet that carry a displacement. facet: the facet, a local DMPlex point with one cell;
-   n: their number: 4, or 9 in a body of order 2; of a triangle 3, or 6; nodes: local DMPlex points,
-   MESH_MAX_FACET_NODES at most: the vertices counterclockwise seen from outside the body; of order 2 then the edges,
-   each between the vertex of its number and the next, and the facet, unless it is a triangle. */
+/*
+   Gets the points of a boundary facet that carry a displacement. facet: a local DMPlex point with one cell; n: number
+   of nodes; nodes: local DMPlex points, at most MESH_MAX_FACET_NODES. The vertices come first, counterclockwise seen
+   from outside the body: 4, or 3 of a triangle. In a body of order 2 the edges follow, edge e from vertex e to the
+   next, and then the facet itself unless it is a triangle: 9 nodes, or 6 of a triangle.
+*/
 PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES])
 {
   PetscSection    section;
@@ -172,10 +180,13 @@ PetscErrorCode MeshGetFacetNodes(DM dm, PetscInt facet, PetscInt *n, PetscInt no
   PetscFunctionReturn(0);
 }
 
-/* Gets the four-node facets into which the nodes of a boundary facet divide it. facet: the facet, a local DMPlex point
-   with one cell; n: their number: 1, the facet itself, or 4 in a body of order 2; pieces: the nodes of each, local
-   DMPlex points, counterclockwise seen from outside the body; of order 2 vertex, edge, facet, edge. Triangles have
-   their last node twice; those of order 2 are cut into vertex, edge, edge, and the three edges. */
+/*
+   Gets the facets into which the nodes of a boundary facet divide it. facet: a local DMPlex point with one cell; n:
+   number of pieces: 1, the facet itself, or 4 in a body of order 2; pieces: the four nodes of each piece, local DMPlex
+   points, counterclockwise seen from outside the body. A piece of a quadrilateral of order 2 consists of vertex, edge,
+   facet and edge. A triangular piece has its last node twice. A triangle of order 2 is divided into three pieces of
+   vertex, edge and edge, and one piece of the three edges.
+*/
 PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt pieces[MESH_MAX_FACET_PIECES][4])
 {
   PetscInt nnodes, nodes[MESH_MAX_FACET_NODES];
@@ -194,9 +205,10 @@ PetscErrorCode MeshGetFacetPieces(DM dm, PetscInt facet, PetscInt *n, PetscInt p
   PetscFunctionReturn(0);
 }
 
-/* Gets the reference coordinates of all nodes of this rank. dm: mesh from MeshCreate(); places: local vector laid out
-   as the displacements are, 3 coordinates a node [length]; the mesh's own. If no body has order 2, it is the vector of
-   the vertices' coordinates. */
+/*
+   Gets the undeformed coordinates of all nodes of this rank. places: a local vector with the layout of displacements, 3
+   coordinates per node [length], owned by the mesh. If no body has order 2, it is the coordinate vector of the DMPlex.
+*/
 PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 {
   PetscFunctionBegin;
@@ -215,8 +227,8 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
 - nbodies - number of bodies
 
   Output Parameter:
-. nnodes - for each body, on all ranks: 8 or 27 of hexahedra of order 1 or 2, 4 or 10 of tetrahedra; all cells of a
-           body have as many
+. nnodes - number of nodes of each cell of a body, equal on all ranks: 8 or 27 for hexahedra of order 1 or 2, 4 or 10
+           for tetrahedra
 
   Level: intermediate
 
@@ -243,7 +255,7 @@ PetscErrorCode MeshGetBodyNodes(DM dm, PetscInt nbodies, PetscInt nnodes[])
   PetscFunctionReturn(0);
 }
 
-/* Coordinates and section of all nodes if the mesh has them, or of its vertices */
+/* Gets the coordinates and the section of all nodes (`nodes` is true), or of the vertices only */
 PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
 {
   PetscFunctionBegin;
@@ -257,7 +269,8 @@ PetscErrorCode MeshGetPlaces(DM dm, PetscBool nodes, MeshPlaces *places)
   PetscFunctionReturn(0);
 }
 
-/* The 27 nodes of a straight cell from its corners (trilinear), or the 10 of a tetrahedron */
+/* Computes the nodes of a straight cell of order 2 from its corners: 27 by trilinear interpolation, or 10 for a
+   tetrahedron */
 void MeshPlacesSetStraight(PetscInt ncorners, const PetscReal corners[][3], PetscReal places[MESH_MAX_NODES][3])
 {
   for (PetscInt i = 0; ncorners == 4 && i < 30; ++i)
@@ -276,6 +289,7 @@ void MeshPlacesSetStraight(PetscInt ncorners, const PetscReal corners[][3], Pets
   }
 }
 
+/* Computes the coordinates of all nodes from the vertices of their straight cells */
 static PetscErrorCode NodesFillCells(DM dm, PetscScalar x[])
 {
   PetscSection section;
@@ -303,7 +317,7 @@ static PetscErrorCode NodesFillCells(DM dm, PetscScalar x[])
   PetscFunctionReturn(0);
 }
 
-/* copies to a plain vector, because a vector of the mesh would reference the mesh that holds it */
+/* Creates the coordinate vector of the nodes, if any body has order 2 */
 PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
 {
   PetscSection section;
@@ -315,7 +329,8 @@ PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
   PetscFunctionBegin;
   for (PetscInt b = 0; b < nbodies; ++b) any = (PetscBool)(any || orders[b] > 1);
   if (!any) PetscFunctionReturn(0);
-  /* Copies the vertices' coordinates from the nodes', after these were moved */
+  /* This is a plain vector, because a vector of the mesh would hold a reference to the mesh with which it is
+     composed. */
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(PetscSectionGetStorageSize(section, &n));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &places));
@@ -328,7 +343,7 @@ PetscErrorCode MeshCreateNodes(DM dm, PetscInt nbodies, const PetscInt orders[])
   PetscFunctionReturn(0);
 }
 
-/* the global coordinates, if they exist, are out of date */
+/* Copies the coordinates of the vertices from those of the nodes to the DMPlex, after the nodes were moved */
 PetscErrorCode MeshUpdateVertices(DM dm)
 {
   MeshPlaces         from, to;
@@ -353,7 +368,7 @@ PetscErrorCode MeshUpdateVertices(DM dm)
     PetscCall(VecRestoreArray(to.x, &y));
     PetscCall(VecRestoreArrayRead(from.x, &x));
   }
-  /* Updates the global coordinates, if they exist, which are still those from before */
+  /* This discards the global coordinates, which are out of date. */
   PetscCall(DMSetCoordinatesLocal(dm, to.x));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /* Undeformed coordinates and bodies of the nodes that this rank owns. */
 #include "queryimpl.h"
 
-/* Body of each owned node; this rank has a cell of every owned node */
+/* Determines the body of each owned node. This rank has a cell of every node that it owns. */
 static PetscErrorCode VertexPlacesFindBodies(DM dm, PetscSection global, PetscInt rstart, PetscInt body[])
 {
   DMLabel  label;

@@ -1,15 +1,17 @@
 /* Locates the probes of a scene in its mesh */
 #include "queryimpl.h"
 
-/* a point outside of its cell by less than this fraction of the cell's size is on the curved surface between facets */
+/* A point that is outside of its cell by less than this fraction of the cell's size counts as being on the curved
+   surface between facets. */
 static const PetscReal probe_tolerance = 0.1;
 
+/* Reports a point of a probe that is not in its body */
 static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, const PetscReal x[3],
   const MeshPlace *place)
 {
   const char *what   = probe->line ? "a point of the line" : "the point",
              *body   = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
-  const char *advice = probe->line ? ": let the line end before, and another one begin behind" : "";
+  const char *advice = probe->line ? ": end the line before that point, and begin another one behind it" : "";
   MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;
@@ -26,18 +28,18 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
   Collective
 
   Input Parameters:
-+ dm    - the mesh, by `MeshCreate()`
++ dm    - the mesh, created by `MeshCreate()`
 - scene - the scene
 
   Output Parameters:
-+ n      - points of all probes in turn
-. points - the points; free with `PetscFree()` [length]
-- places - their places, as `MeshLocate()` finds them; free with `PetscFree()`
++ n      - number of points of all probes
+. points - the coordinates of the points [length]; free them with `PetscFree()`
+- places - the positions in cells that `MeshLocate()` finds; free them with `PetscFree()`
 
   Level: intermediate
 
   Notes:
-  A point outside of its body by more than a tenth of a cell is an error.
+  It is an error if a point is outside of its body by more than a tenth of the size of a cell.
 
 .seealso: `MeshCheckScene()`
 @*/

@@ -1,9 +1,10 @@
-/* Quality checks of cells */
+/* Checks of the shape of cells */
 #include "queryimpl.h"
 #include <vector3.h>
 #include <petscdt.h>
 
-/* Gauss points of hexahedra, or the quadrature points of tetrahedra */
+/* Gets the Gauss points of hexahedra of order 2, or the quadrature points of tetrahedra of order 2; order 1 needs
+   none */
 static PetscErrorCode QualityIntegrationPoints(PetscInt n, PetscInt *npoints, PetscReal xi[][3])
 {
   PetscReal weight[MESH_MAX_NODES], x[3], w[3];
@@ -46,7 +47,8 @@ PetscErrorCode MeshQualityTableCreate(PetscInt n, MeshQualityTable *table)
   PetscFunctionReturn(0);
 }
 
-/* Smallest Jacobian determinant, divided by the cube of the longest derivative at a node */
+/* Returns the smallest Jacobian determinant at the points of the table, divided by the cube of the longest derivative
+   at a node. It is dimensionless, and not positive for an inverted or flat cell. */
 PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
 {
   PetscReal smallest = PETSC_MAX_REAL, longest = 0;
@@ -66,7 +68,7 @@ PetscReal MeshCellQuality(const MeshQualityTable *table, PetscReal x[][3])
   return longest > 0 ? smallest / (longest * longest * longest) : 0;
 }
 
-/* Whether a is before b in lexicographic order */
+/* Returns whether a comes before b in lexicographic order */
 static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
 {
   for (PetscInt d = 0; d < 3; ++d) {
@@ -75,7 +77,8 @@ static PetscBool QualityIsBefore(const PetscReal a[3], const PetscReal b[3])
   return PETSC_FALSE;
 }
 
-/* Raises an error for the first body with bad cells, with their smallest position; count and place are this rank's */
+/* Collective. Reports the first body with inverted or flat cells. count: number of such cells on this rank; place: the
+   lexicographically smallest of their centres on this rank */
 static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], const PetscInt count[],
   PetscReal place[][3])
 {
@@ -108,7 +111,8 @@ static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneB
 PetscErrorCode MeshCheckCells(DM dm, PetscInt nbodies, const SceneBody bodies[], PetscBool mapped)
 {
   MeshPlaces         places;
-  MeshQualityTable  *tables; /* tables of linear and quadratic hexahedra and tetrahedra, created on demand */
+  MeshQualityTable  *tables; /* tables of linear and quadratic hexahedra and tetrahedra, created when they are first
+                                needed */
   const PetscScalar *array;
   PetscInt           cstart, cend, *count;
   PetscReal(*place)[3];

@@ -1,8 +1,11 @@
-/* Queries of a mesh: faces, their vertices and unknowns, vertices of cells and facets */
+/* Queries of a mesh: faces, their vertices and unknowns, and the vertices of cells and facets */
 #include "queryimpl.h"
 
-/* DMPlex has the vertices at the bottom of a cell reversed. Returns the order that gives tensor order (x fastest)
-   for a hexahedron, and right-handed edges from the first vertex for a tetrahedron */
+/*
+   Returns the number that each corner of a cell has in the closure of DMPlex. The corners are in tensor order (x
+   fastest) for a hexahedron. For a tetrahedron, the edges from the first corner are right-handed. DMPlex lists the
+   vertices at the bottom of a cell in the opposite direction.
+*/
 const PetscInt *MeshPlexCorners(PetscInt ncorners)
 {
   static const PetscInt hexahedron[8] = {0, 3, 1, 2, 4, 5, 7, 6}, tetrahedron[4] = {1, 0, 2, 3};
@@ -10,7 +13,7 @@ const PetscInt *MeshPlexCorners(PetscInt ncorners)
   return ncorners == 4 ? tetrahedron : hexahedron;
 }
 
-/* Points of a face label's stratum 1 within [start, end), as a sorted index set; may be empty */
+/* Gets the points of a face label within [start, end) as a sorted index set, which may be empty */
 static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start, PetscInt end, IS *points)
 {
   PetscBool       has;
@@ -40,7 +43,7 @@ static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start
 }
 
 /*@
-  MeshGetFacets - Gets the facets of a named face that this rank has
+  MeshGetFacets - Gets the facets of a named face on this rank
 
   Collective
 
@@ -49,12 +52,12 @@ static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start
 - face - name of the face, "<body>.<face>"
 
   Output Parameter:
-. facets - the facets as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+. facets - the facets as local DMPlex points, sorted; a sequential index set, which may be empty
 
   Level: intermediate
 
   Notes:
-  Every facet is on exactly one rank. A name that is not a face of the mesh is an error.
+  Every facet is on exactly one rank. It is an error if the mesh has no face with this name.
 
 .seealso: `MeshCreate()`, `MeshGetFaceVertices()`
 @*/
@@ -69,7 +72,7 @@ PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
 }
 
 /*@
-  MeshGetFaceVertices - Gets the vertices of a named face that this rank has, also those whose facets are on other ranks
+  MeshGetFaceVertices - Gets the vertices of a named face on this rank, including those whose facets are on other ranks
 
   Collective
 
@@ -78,7 +81,7 @@ PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
 - face - name of the face, "<body>.<face>"
 
   Output Parameter:
-. vertices - the vertices as local DMPlex points, sorted; a sequential index set, empty on ranks without any
+. vertices - the vertices as local DMPlex points, sorted; a sequential index set, which may be empty
 
   Level: intermediate
 
@@ -143,8 +146,8 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
   PetscFunctionReturn(0);
 }
 
-/* Gets the vertices of a boundary facet, counterclockwise seen from outside the body. facet: the facet, a local DMPlex
-   point with one cell; vertices: its 4 vertices, local DMPlex points; of a triangle 3, the last one twice. */
+/* Gets the vertices of a boundary facet, counterclockwise seen from outside the body. facet: a local DMPlex point with
+   one cell; vertices: local DMPlex points, 4 of a quadrilateral; a triangle has its third vertex twice */
 PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
 {
   const PetscInt *cells, *cone, *orientation;
@@ -167,7 +170,7 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
   for (PetscInt p = 0; p < npoints; ++p) {
     const PetscInt q = closure[2 * p];
 
-    /* a negative orientation: the cell has the facet's vertices in reverse order */
+    /* If the orientation is negative, the cell has the facet's vertices in reverse order. */
     if (q >= vstart && q < vend) {
       vertices[sign < 0 ? ncorners - 1 - n : n] = q;
       ++n;
@@ -178,8 +181,8 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
   PetscFunctionReturn(0);
 }
 
-/* Gets the vertices of a hexahedron in tensor order. cell: the cell, a local DMPlex point; vertices: its 8 vertices,
-   local DMPlex points; number i + 2 j + 4 k is at the corner (i, j, k) of the reference cube. */
+/* Gets the 8 vertices of a hexahedron in tensor order. cell, vertices: local DMPlex points; vertex i + 2 j + 4 k is at
+   the corner (i, j, k) of the reference cube */
 PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
 {
   PetscInt n;
@@ -190,7 +193,7 @@ PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])
   PetscFunctionReturn(0);
 }
 
-/* The 8 vertices of a hexahedron in tensor order, or the 4 of a tetrahedron */
+/* Gets the 8 vertices of a hexahedron in tensor order, or the 4 vertices of a tetrahedron */
 PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, PetscInt vertices[8])
 {
   PetscInt        npoints, vstart, vend, n = 0, plex[8], *closure = NULL;
@@ -213,8 +216,8 @@ PetscErrorCode MeshGetCellCorners(DM dm, PetscInt cell, PetscInt *ncorners, Pets
   PetscFunctionReturn(0);
 }
 
-/* Gets the reference coordinates of vertices. dm: mesh from MeshCreate(); n: number of vertices; vertices: local DMPLEX
-   points; places: 3 coordinates a vertex [length]. */
+/* Gets the undeformed coordinates of n vertices. vertices: local DMPlex points; places: 3 coordinates per vertex
+   [length] */
 PetscErrorCode MeshGetVertexCoordinates(DM dm, PetscInt n, const PetscInt vertices[], PetscReal places[][3])
 {
   Vec                coordinates;

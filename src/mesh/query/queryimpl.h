@@ -1,27 +1,29 @@
-/*
-   Queries of an existing mesh: nodes, cells, facets, location of points.
-*/
+/* Queries of an existing mesh: nodes, cells, facets, and the location of points. */
 #ifndef QUERYIMPL_H
 #define QUERYIMPL_H
 
 #include "src/mesh/shapes/shapesimpl.h"
 
-/* boundary.c */
-#define MESH_INNER_LABEL "inner" /* label of facets with one cell that are inside a body (local refinement) */
+/* boundary.c: the name of a label. It contains the facets with one cell that are inside a body, between finer and
+   coarser cells. */
+#define MESH_INNER_LABEL "inner"
 
-/* names.c: lists of names; joined by commas, or the word none, truncated to size */
+/* names.c: lists of names. NamesJoin() joins them by commas to a text, or writes the word none if there are none; the
+   text is truncated to size. */
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
-/* tetrahedron.c: position of a node on the reference tetrahedron */
+/* tetrahedron.c: position of a node in the reference tetrahedron */
 PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 
-/* query.c: DMPlex's vertex number for each corner of a cell; the corners of a cell */
+/* query.c: the number of each corner of a cell in the closure of DMPlex, and the corners of a cell */
 PETSC_INTERN const PetscInt *MeshPlexCorners(PetscInt ncorners);
 
-/* nodes.c: points that carry displacements. Their positions are first straight between the vertices in a shape's
-   parameters, then mapped and curved like the vertices. MeshUpdateVertices() copies the vertices' positions back to
-   DMPlex. */
+/*
+   nodes.c: points that carry displacements. First, their coordinates are those of straight cells between the vertices,
+   which may be parameters of a shape. Then they are mapped to space or to curves like the vertices.
+   MeshUpdateVertices() copies the coordinates of the vertices back to the DMPlex.
+*/
 typedef struct {
   PetscSection section;
   Vec          x; /* coordinates [length], or a shape's parameters */
@@ -35,9 +37,11 @@ PETSC_INTERN void           MeshPlacesSetStraight(PetscInt ncorners, const Petsc
             PetscReal places[MESH_MAX_NODES][3]);
 PETSC_INTERN PetscErrorCode MeshUpdateVertices(DM);
 
-/* quality.c: derivatives of a cell's shape functions at its nodes, then at the quadrature points of order 2; the
-   smallest Jacobian determinant there. Collective error if a cell is inverted or flat at a corner; mapped: at any of
-   these points, also in bodies that are mapped after refinement */
+/*
+   quality.c: checks that no cell is inverted or flat. A table contains the derivatives of a cell's shape functions at
+   its nodes and, for order 2, at the quadrature points. MeshCheckCells() is collective. If `mapped` is false, it checks
+   the vertices of bodies that are already mapped to space; otherwise it checks all nodes of all bodies.
+*/
 #define MESH_QUALITY_PLACES (2 * MESH_MAX_NODES)
 typedef struct {
   PetscInt  nnodes, nplaces;
@@ -47,10 +51,10 @@ PETSC_INTERN PetscErrorCode MeshQualityTableCreate(PetscInt nnodes, MeshQualityT
 PETSC_INTERN PetscReal      MeshCellQuality(const MeshQualityTable *, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
-/* places.c: undeformed coordinates and body of each owned node, in the order of global vectors */
+/* places.c: undeformed coordinates and body of each node that this rank owns, in the order of global vectors */
 typedef struct {
-  Vec       x;    /* [length] */
-  PetscInt *body; /* one per node */
+  Vec       x;    /* global vector of coordinates [length] */
+  PetscInt *body; /* body of each owned node */
 } VertexPlaces;
 
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);

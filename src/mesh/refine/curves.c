@@ -1,12 +1,14 @@
-/* Quadratic cells of bodies whose mesh file has them; refined vertices lie on their edges and facets */
+/* The curves of a mesh: quadratic cells of bodies whose mesh file has such cells. Refined vertices lie on their edges
+   and facets. */
 #include "refineimpl.h"
 
-/* Number of coordinates that describe a cell with this many corners */
+/* Returns the number of coordinates that describe a quadratic cell with this number of corners */
 PetscInt MeshCurveSize(PetscInt ncorners)
 {
   return ncorners == 4 ? 30 : 81;
 }
 
+/* Collective. Creates the curves of the level 0 mesh from the grids of the bodies */
 PetscErrorCode MeshCurvesCreate(DM dm, PetscInt nbodies, const MeshBody meshes[], MeshCurves *curves)
 {
   PetscInt  pstart, pend, n, *first;
@@ -52,6 +54,7 @@ PetscErrorCode MeshCurvesDestroy(MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Distributes the curves with the mesh. sf: migration of the mesh's points */
 PetscErrorCode MeshCurvesDistribute(PetscSF sf, DM distributed, MeshCurves *curves)
 {
   MeshCurves   there = {NULL, NULL};
@@ -68,7 +71,7 @@ PetscErrorCode MeshCurvesDistribute(PetscSF sf, DM distributed, MeshCurves *curv
   PetscFunctionReturn(0);
 }
 
-/* Position of a point in a tetrahedron */
+/* Computes the position x of the point xi in a quadratic tetrahedron [length] */
 static void CurveEvaluateTetrahedron(const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
 {
   PetscReal N[10], dN[3][MESH_MAX_NODES];
@@ -78,7 +81,7 @@ static void CurveEvaluateTetrahedron(const PetscScalar places[], const PetscReal
   for (PetscInt i = 0; i < 30; ++i) x[i % 3] += N[i / 3] * PetscRealPart(places[i]);
 }
 
-/* Position of a point in a cell, xi in [0, 1]^3 */
+/* Computes the position x of the point xi in [0, 1]^3 in a quadratic cell [length] */
 static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const PetscReal xi[3], PetscReal x[3])
 {
   PetscReal n[3][3];
@@ -100,12 +103,15 @@ static void CurveEvaluate(PetscInt ncorners, const PetscScalar places[], const P
   }
 }
 
-/* Corners in [0, 1]^3 of the children of one refined cell, in DMPlex's order, which is the same for every cell */
+/* The corners, in the parameters of a cell, of the parts into which refinement divides the cell. They are in the order
+   of DMPlex, which is equal for all cells. */
 typedef struct {
   PetscInt n;
   PetscReal (*corners)[8][3];
 } CurveChildren;
 
+/* Computes the parts of a cell with this number of corners after `levels` refinements, by refining the reference
+   cell */
 static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, CurveChildren *children)
 {
   PetscInt        cell[8], cstart, cend, n;
@@ -135,8 +141,8 @@ static PetscErrorCode CurveGetChildren(PetscInt levels, PetscInt ncorners, Curve
   PetscFunctionReturn(0);
 }
 
-/* Children of a tetrahedron and of a hexahedron. Both have n, so that cell c of the refined mesh is child c % n of
-   cell c / n; tetrahedra come before hexahedra */
+/* Computes the parts of a tetrahedron, children[0], and of a hexahedron, children[1]. Both have n parts, so that cell c
+   of the refined mesh is part c % n of cell c / n. DMPlex numbers tetrahedra before hexahedra. */
 static PetscErrorCode CurveGetAllChildren(PetscInt levels, CurveChildren children[2])
 {
   PetscFunctionBegin;
@@ -151,7 +157,7 @@ static PetscErrorCode CurveDestroyChildren(CurveChildren children[2])
   PetscFunctionReturn(0);
 }
 
-/* Quadratic nodes of the part of a cell with these corners */
+/* Computes the quadratic nodes of the part of a cell with these corners */
 static void CurveCut(PetscInt ncorners, const PetscScalar places[], const PetscReal corners[8][3], PetscScalar part[])
 {
   PetscReal xi[MESH_MAX_NODES][3], place[3];
@@ -207,14 +213,16 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscFunctionReturn(0);
 }
 
-/* Corners in [0, 1]^3 of a part of a cell created by local refinement */
+/* Computes the corners in [0, 1]^3 of a part of a cell that local refinement has created. place: position of the part
+   in the cell, and its level */
 static void CurveGetPart(const PetscInt place[4], PetscReal corners[8][3])
 {
   for (PetscInt i = 0; i < 24; ++i)
     corners[i / 3][i % 3] = (PetscReal)(place[i % 3] + (i / 3 >> i % 3 & 1)) / (PetscReal)(1 << place[3]);
 }
 
-/* Positions of such a part's corners; unchanged if its cell has no curve */
+/* Replaces the positions of such a part's corners by those on the curve of its cell. They stay unchanged if the cell
+   has no curve. */
 PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *hexes, PetscInt cell,
   PetscReal places[8][3])
 {
@@ -233,7 +241,7 @@ PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *he
   PetscFunctionReturn(0);
 }
 
-/* Creates the curves of the parts of cells that local refinement created */
+/* Replaces the curves by those of the parts that local refinement has created */
 PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *curves)
 {
   MeshCurves         there = {NULL, NULL};
@@ -310,7 +318,7 @@ PetscErrorCode MeshCurvesApply(const MeshCurves *curves, PetscInt levels, DM fin
   PetscCall(VecRestoreArray(at.x, &x));
   PetscCall(VecRestoreArrayRead(curves->places, &places));
   PetscCall(CurveDestroyChildren(children));
-  /* the global coordinates, if they exist, are out of date */
+  /* This discards the global coordinates, which are out of date. */
   if (!nodes) PetscCall(DMSetCoordinatesLocal(fine, at.x));
   PetscFunctionReturn(0);
 }

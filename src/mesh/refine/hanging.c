@@ -1,12 +1,13 @@
-/* Hanging vertices in the middle of an edge or side of a coarser cell. Their position and displacement are the mean
-   of its 2 or 4 vertices, none of which hangs itself. */
+/* Hanging vertices are in the middle of an edge or a side of a coarser cell. Their position and displacement are the
+   mean of the 2 or 4 vertices of that edge or side, none of which hangs itself. */
 #include "refineimpl.h"
 #include <petscsf.h>
 
-#define MESH_HANGING "hanging" /* key of the matrix of the means, composed on the mesh; one row per node */
+/* key under which the matrix of means is composed with the mesh; the matrix has one row per node */
+#define MESH_HANGING "hanging"
 
-/* Data that are distributed with the mesh: the number of each cell; for each vertex its number and, if it hangs,
-   those of up to four others */
+/* Creates the data that are distributed with the mesh: the number of each cell; the number of each vertex; and, if the
+   vertex hangs, the numbers of the 2 or 4 vertices of which it is the mean, filled up with -1 */
 PetscErrorCode MeshHangingCreate(const MeshHexes *hexes, DM dm, MeshHanging *hanging)
 {
   PetscInt   pstart, pend, n, offset = 0;
@@ -41,6 +42,7 @@ PetscErrorCode MeshHangingDestroy(MeshHanging *hanging)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Distributes the data with the mesh. sf: migration of the mesh's points */
 PetscErrorCode MeshHangingDistribute(PetscSF sf, DM before, MeshHanging *hanging)
 {
   PetscSection section;
@@ -56,11 +58,12 @@ PetscErrorCode MeshHangingDistribute(PetscSF sf, DM before, MeshHanging *hanging
   PetscFunctionReturn(0);
 }
 
-/* Vertices of this rank by number: the owned ones, and those of them that hang */
+/* The vertices that this rank owns, and those of them that hang. Numbers are those of the mesh on the first rank. */
 typedef struct {
-  PetscInt nowned, *number, *node; /* of owned vertices: numbers and global nodes */
-  PetscInt n, *at, *parent;        /* of hanging vertices: global nodes, and four numbers each */
-  PetscInt largest;                /* largest number on all ranks; -1: no vertices */
+  PetscInt nowned, *number, *node; /* of the owned vertices: numbers, and global numbers of the nodes */
+  PetscInt n, *at, *parent; /* of the owned hanging vertices: global numbers of the nodes, and the numbers of four
+                               vertices each, -1 for none */
+  PetscInt largest;         /* largest number on all ranks; -1 if there are no vertices */
 } HangingVertices;
 
 static PetscErrorCode HangingVerticesCreate(DM dm, const MeshHanging *hanging, HangingVertices *vertices)
@@ -93,7 +96,7 @@ static PetscErrorCode HangingVerticesCreate(DM dm, const MeshHanging *hanging, H
   PetscFunctionReturn(0);
 }
 
-/* Replaces the numbers of parents by their global nodes */
+/* Collective. Replaces the numbers of the vertices in `parent` by their global node numbers */
 static PetscErrorCode HangingFindParents(MPI_Comm comm, HangingVertices *vertices)
 {
   PetscLayout layout;
@@ -124,7 +127,7 @@ static PetscErrorCode HangingFindParents(MPI_Comm comm, HangingVertices *vertice
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix of means, in the rows of hanging nodes */
+/* Collective. Creates the matrix of means: the row of a hanging node has the weights 1/2 or 1/4 */
 static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices, Mat *means)
 {
   PetscInt n;
@@ -139,16 +142,17 @@ static PetscErrorCode HangingCreateMeans(DM dm, const HangingVertices *vertices,
   for (PetscInt i = 0; i < vertices->n; ++i) {
     const PetscReal weight = vertices->parent[4 * i + 2] < 0 ? 0.5 : 0.25;
 
+    /* PETSc ignores negative columns. */
     for (PetscInt k = 0; k < 4; ++k)
-      PetscCall(MatSetValue(*means, vertices->at[i], vertices->parent[4 * i + k], weight,
-        INSERT_VALUES)); /* PETSc ignores negative columns */
+      PetscCall(MatSetValue(*means, vertices->at[i], vertices->parent[4 * i + k], weight, INSERT_VALUES));
   }
   PetscCall(MatAssemblyBegin(*means, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*means, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-/* Composes the matrix of means on the mesh, if any vertex hangs; call after the layout of the unknowns */
+/* Collective. Composes the matrix of means with the mesh if any vertex hangs. The unknowns must have been laid out
+   before. */
 PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -172,10 +176,12 @@ PetscErrorCode MeshHangingFinish(DM dm, MeshHanging *hanging)
   PetscFunctionReturn(0);
 }
 
-/* Gets the hanging vertices: those in the middle of an edge or a facet of a cell that is refined less than its
-   neighbour. dm: mesh from MeshCreateScene(); means: a square matrix of all nodes, AIJ, whose rows at hanging vertices
-   hold the weights of those that they are the mean of, none of which hangs; the others are empty. The mesh's own; NULL
-   where no vertex hangs. */
+/*
+   Gets the matrix of means of the hanging vertices, which are in the middle of an edge or a facet of a cell that is
+   refined less than its neighbour. means: a square AIJ matrix with one row and one column per node, owned by the mesh.
+   The row of a hanging vertex has the weights of the vertices of which it is the mean; none of these hangs. Other rows
+   are empty. NULL if no vertex hangs.
+*/
 PetscErrorCode MeshGetHanging(DM dm, Mat *means)
 {
   PetscFunctionBegin;
@@ -183,7 +189,7 @@ PetscErrorCode MeshGetHanging(DM dm, Mat *means)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Counts the hanging vertices of all ranks. dm: mesh from MeshCreateScene(); n: their number. */
+/* Collective. Counts the hanging vertices of all ranks */
 PetscErrorCode MeshCountHanging(DM dm, PetscInt *n)
 {
   PetscInt start = 0, end = 0;
@@ -204,7 +210,7 @@ PetscErrorCode MeshCountHanging(DM dm, PetscInt *n)
   PetscFunctionReturn(0);
 }
 
-/* Sets one component of v at the hanging nodes to the mean at their neighbours */
+/* Sets one component of v at the hanging nodes to the mean of its values at the nodes on which they depend */
 static PetscErrorCode HangingSetMeans(Mat means, PetscInt component, Vec v)
 {
   Vec                from, to;
@@ -232,7 +238,7 @@ static PetscErrorCode HangingSetMeans(Mat means, PetscInt component, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sets the positions of hanging vertices from those of the others */
+/* Collective. Sets the positions of hanging vertices to the mean of the vertices on which they depend */
 PetscErrorCode MeshHangingPlace(DM dm)
 {
   Mat means;

@@ -1,17 +1,18 @@
 /*
-   Hexahedra on one rank, some refined more than others. Each refined cell becomes eight. Cells with a common side or
-   edge differ by at most one refinement. A vertex in the middle of an edge or side of an unrefined cell hangs there.
+   Hexahedra on one rank, some refined more than others. Refinement divides a cell into eight. Cells with a common side
+   or edge differ by at most one refinement. A vertex in the middle of an edge or a side of a coarser cell hangs there.
 */
 #include "refineimpl.h"
 #include <petsc/private/hashmapij.h>
 
-/* Middle vertices by the two ends of their edge, or by a diagonal of their side */
+/* Tables of the vertices in the middle of edges and sides. The key of an edge consists of its two ends, that of a side
+   of the two ends of a diagonal. */
 struct _n_MeshMiddles {
   PetscHMapIJ edges, sides;
 };
 
-/* Corners of a cell around its position i + 3 j + 9 k (vertices at even i, j, k): the vertex itself, the ends of an
-   edge, the corners of a side, or all */
+/* Lists the corners of a cell around its position i + 3 j + 9 k, whose vertices are at even i, j, k: the vertex itself,
+   the ends of an edge, the corners of a side, or all corners. Returns their number. */
 static PetscInt HexAround(PetscInt place, PetscInt corners[8])
 {
   const PetscInt at[3] = {place % 3, place / 3 % 3, place / 9};
@@ -26,7 +27,7 @@ static PetscInt HexAround(PetscInt place, PetscInt corners[8])
   return n;
 }
 
-/* Vertices around a position of a cell */
+/* Lists the vertices around a position of a cell and returns their number */
 static PetscInt HexesGetAround(const MeshHexes *hexes, PetscInt cell, PetscInt place, PetscInt around[8])
 {
   const PetscInt n = HexAround(place, around);
@@ -35,7 +36,8 @@ static PetscInt HexesGetAround(const MeshHexes *hexes, PetscInt cell, PetscInt p
   return n;
 }
 
-/* Key of a middle vertex: the ends of its edge, or the diagonal of its side that contains the smallest vertex */
+/* Computes the key of a middle vertex: the ends of its edge, or of the diagonal of its side that contains the vertex
+   with the smallest number */
 static void HexesGetKey(PetscInt n, const PetscInt around[], PetscHashIJKey *key)
 {
   PetscInt first = 0;
@@ -45,7 +47,7 @@ static void HexesGetKey(PetscInt n, const PetscInt around[], PetscHashIJKey *key
   key->j = around[n - 1 - first];
 }
 
-/* The vertex in the middle of an edge or side; negative: none */
+/* Finds the vertex in the middle of an edge (n = 2) or of a side (n = 4). *middle is -1 if there is none. */
 static PetscErrorCode HexesFindMiddle(const MeshHexes *hexes, PetscInt n, const PetscInt around[], PetscInt *middle)
 {
   PetscHashIJKey key;
@@ -104,13 +106,15 @@ PetscErrorCode MeshHexesDestroy(MeshHexes *hexes)
   PetscFunctionReturn(0);
 }
 
-/* Adds a vertex in the middle of n others */
+/* Adds a vertex at the mean position of n vertices */
 static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscInt around[], PetscInt *vertex)
 {
   PetscFunctionBegin;
   if (hexes->nvertices == hexes->maxvertices) {
     PetscCheck(hexes->maxvertices < PETSC_MAX_INT / 16, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "local refinement makes too many vertices for PETSc's integer type: more than %" PetscInt_FMT,
+      "Local refinement creates more than %" PetscInt_FMT
+      " vertices, too many for PETSc's integer type: refine less, or "
+      "use PETSc with 64-bit indices",
       hexes->maxvertices);
     hexes->maxvertices = 2 * hexes->maxvertices + 64;
     PetscCall(PetscRealloc(3 * hexes->maxvertices * sizeof(PetscReal), &hexes->x));
@@ -125,7 +129,7 @@ static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Gets the vertex at a position of a cell; creates it unless a neighbour has it */
+/* Gets the vertex at a position of a cell, and creates it unless a neighbouring cell has created it */
 static PetscErrorCode HexesGetVertex(MeshHexes *hexes, PetscInt cell, PetscInt place, PetscInt *vertex)
 {
   PetscInt       around[8];
@@ -143,7 +147,8 @@ static PetscErrorCode HexesGetVertex(MeshHexes *hexes, PetscInt cell, PetscInt p
   PetscFunctionReturn(0);
 }
 
-/* Lists, for each vertex, the cells on whose edges and sides it hangs, in compressed rows; cells NULL: only counts */
+/* For each vertex, lists the holders: the cells on whose edges and sides the vertex hangs, in compressed rows. If
+   `cells` is NULL, only counts them. */
 static PetscErrorCode HexesFindHolders(const MeshHexes *hexes, PetscInt start[], PetscInt cells[])
 {
   PetscFunctionBegin;
@@ -161,7 +166,7 @@ static PetscErrorCode HexesFindHolders(const MeshHexes *hexes, PetscInt start[],
   PetscFunctionReturn(0);
 }
 
-/* The same, allocated */
+/* Allocates and fills the lists of HexesFindHolders() */
 static PetscErrorCode HexesCreateHolders(const MeshHexes *hexes, PetscInt **start, PetscInt **holders)
 {
   PetscFunctionBegin;
@@ -173,7 +178,8 @@ static PetscErrorCode HexesCreateHolders(const MeshHexes *hexes, PetscInt **star
   PetscFunctionReturn(0);
 }
 
-/* Marks cells for refinement: if a vertex of a marked cell hangs on another cell, that cell is marked too */
+/* Marks further cells, so that neighbours differ by at most one level: if a vertex of a marked cell hangs on another
+   cell, that cell is marked too */
 static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt *start, *holders, *pending, n = 0;
@@ -201,7 +207,8 @@ static PetscErrorCode HexesBalance(const MeshHexes *hexes, PetscBool marked[])
   PetscFunctionReturn(0);
 }
 
-/* Replaces the marks by marks of the cells on which vertices of marked cells hang; any: whether there are any */
+/* Marks the cells on which vertices of the marked cells hang, in place of the marked cells. *any: whether there are
+   such cells */
 PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], PetscBool *any)
 {
   PetscInt  *start, *holders;
@@ -224,7 +231,7 @@ PetscErrorCode MeshHexesMarkHolders(const MeshHexes *hexes, PetscBool marked[], 
   PetscFunctionReturn(0);
 }
 
-/* Splits a cell into eight parts, stored from index `to` on in the new list */
+/* Divides a cell into eight parts, which are stored from index `to` on in the new lists */
 static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, PetscInt vertex[], PetscInt root[],
   PetscInt place[])
 {
@@ -244,7 +251,7 @@ static PetscErrorCode HexesSplit(MeshHexes *hexes, PetscInt cell, PetscInt to, P
   PetscFunctionReturn(0);
 }
 
-/* Refines the marked cells, and others so that neighbours differ by at most one level */
+/* Refines the marked cells, and further cells so that neighbours differ by at most one level */
 PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
 {
   PetscInt n = 0, *vertex, *root, *place;
@@ -253,7 +260,10 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscCall(HexesBalance(hexes, marked));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     PetscCheck(n < PETSC_MAX_INT / 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "local refinement makes too many cells for PETSc's integer type: more than %" PetscInt_FMT, n);
+      "Local refinement creates more than %" PetscInt_FMT
+      " cells, too many for PETSc's integer type: refine less, or use "
+      "PETSc with 64-bit indices",
+      n);
     n += marked[c] ? 8 : 1;
   }
   PetscCall(PetscMalloc1(8 * n, &vertex));
@@ -279,7 +289,7 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscFunctionReturn(0);
 }
 
-/* hangs: which of the hexes->nvertices vertices hang */
+/* Determines which vertices hang */
 PetscErrorCode MeshHexesFindHanging(const MeshHexes *hexes, PetscBool hangs[])
 {
   PetscInt *count;

@@ -1,13 +1,14 @@
 /*
-   Thin cells along curved surfaces. A hanging vertex is on the straight edge of the coarser cell, not on the curve,
-   which may invert a fine cell. The coarser cells are then refined too, until no fine cell loses more than a fraction
-   of its volume.
+   Refines coarse cells beside thin cells along curved surfaces. A hanging vertex is on the straight edge of the coarser
+   cell, not on the curve, which may invert a fine cell. The coarser cell is then refined too, until no fine cell loses
+   more than a fraction of its quality.
 */
 #include "refineimpl.h"
 
-#define LEAST_QUALITY 0.25 /* relative to the smallest Jacobian of the cell with all its vertices on the curve */
+/* smallest quality of a cell (MeshCellQuality) relative to the same cell with all its vertices on the curve */
+#define LEAST_QUALITY 0.25
 
-/* Positions of a cell's vertices with hanging ones on the curve */
+/* Computes the positions of a cell's vertices if hanging vertices are placed on the curve too */
 static PetscErrorCode RefineInvertedPlaceCell(DM dm, const SceneBody bodies[], const MeshCurves *curves,
   const MeshHexes *hexes, PetscInt cell, PetscReal places[8][3])
 {
@@ -25,7 +26,8 @@ static PetscErrorCode RefineInvertedPlaceCell(DM dm, const SceneBody bodies[], c
   PetscFunctionReturn(0);
 }
 
-/* Computes the positions of new vertices only: a shape's map may be expensive, and vertices do not move */
+/* Computes the positions on the curves of vertices that are new. Positions of earlier vertices are kept, because a
+   shape's map may be expensive. */
 static PetscErrorCode RefineInvertedPlace(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
   PetscReal places[8][3];
@@ -34,11 +36,11 @@ static PetscErrorCode RefineInvertedPlace(DM dm, const SceneBody bodies[], const
   PetscCall(PetscRealloc(3 * hexes->nvertices * sizeof(*hexes->placed), &hexes->placed));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     const PetscInt *vertex = &hexes->vertex[8 * c];
-    PetscBool       come   = PETSC_FALSE;
+    PetscBool       is_new = PETSC_FALSE;
 
-    for (PetscInt a = 0; a < 8; ++a) come = (PetscBool)(come || vertex[a] >= hexes->nplaced);
-    if (come) PetscCall(RefineInvertedPlaceCell(dm, bodies, curves, hexes, c, places));
-    for (PetscInt a = 0; come && a < 8; ++a) {
+    for (PetscInt a = 0; a < 8; ++a) is_new = (PetscBool)(is_new || vertex[a] >= hexes->nplaced);
+    if (is_new) PetscCall(RefineInvertedPlaceCell(dm, bodies, curves, hexes, c, places));
+    for (PetscInt a = 0; is_new && a < 8; ++a) {
       if (vertex[a] >= hexes->nplaced) PetscCall(PetscArraycpy(&hexes->placed[3 * vertex[a]], places[a], 3));
     }
   }
@@ -46,7 +48,8 @@ static PetscErrorCode RefineInvertedPlace(DM dm, const SceneBody bodies[], const
   PetscFunctionReturn(0);
 }
 
-/* Quality of a cell. hangs: these vertices are placed at the mean of their neighbours; NULL: all are on the curve */
+/* Returns the quality of a cell. Vertices that hang are placed at the mean of the vertices on which they depend. If
+   hangs is NULL, all vertices are on the curve. */
 static PetscReal RefineInvertedQuality(const MeshHexes *hexes, const MeshQualityTable *table, PetscInt cell,
   const PetscBool hangs[])
 {
@@ -64,7 +67,8 @@ static PetscReal RefineInvertedQuality(const MeshHexes *hexes, const MeshQuality
   return MeshCellQuality(table, corners);
 }
 
-/* Not collective: call on the rank that has the cells */
+/* Refines cells until the quality of all cells is sufficient. Not collective: it must be called on the rank that has
+   the cells. */
 PetscErrorCode MeshHexesRefineInverted(DM dm, const SceneBody bodies[], const MeshCurves *curves, MeshHexes *hexes)
 {
   PetscBool        more = PETSC_TRUE;

@@ -1,8 +1,9 @@
-/* Local refinement of a uniformly refined mesh on the rank that has it: creates the mesh of the locally refined
-   cells, with labels and curves */
+/* Local refinement of a uniformly refined mesh on the first rank: creates the mesh of the locally refined cells, with
+   labels and curves */
 #include "refineimpl.h"
 
-/* side: number 2 d + end of a facet within its cell */
+/* Computes the number of a facet within its cell: 2 d for the lower end and 2 d + 1 for the upper end along
+   parameter d */
 static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscInt *side)
 {
   PetscInt vertices[8], npoints, sum[3] = {0, 0, 0}, *closure = NULL;
@@ -23,7 +24,8 @@ static PetscErrorCode LocalGetSide(DM dm, PetscInt cell, PetscInt facet, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* The facet of the original mesh that contains a side of a cell; negative: the side is inside an original cell */
+/* Finds the facet of the original mesh that contains a side of a cell. *facet is -1 if the side is inside an original
+   cell. */
 static PetscErrorCode LocalGetRootFacet(DM dm, const MeshHexes *hexes, PetscInt cell, PetscInt side, PetscInt *facet)
 {
   const PetscInt *place = &hexes->place[4 * cell], *cone;
@@ -41,19 +43,20 @@ static PetscErrorCode LocalGetRootFacet(DM dm, const MeshHexes *hexes, PetscInt 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode LocalIsMade(const char label[], PetscBool *made)
+/* Determines whether DMPlex creates a label itself, so that it must not be copied */
+static PetscErrorCode LocalIsBuiltIn(const char label[], PetscBool *builtin)
 {
   PetscBool same;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrcmp(label, "depth", made));
+  PetscCall(PetscStrcmp(label, "depth", builtin));
   PetscCall(PetscStrcmp(label, "celltype", &same));
-  *made = (PetscBool)(*made || same);
+  *builtin = (PetscBool)(*builtin || same);
   PetscFunctionReturn(0);
 }
 
-/* Labels a facet. A facet of the boundary gets the labels of the original facet that contains it. An inner facet with
-   only one cell lies between a coarse cell and fine cells */
+/* Labels a facet that has one cell. A facet of the boundary gets the labels of the original facet that contains it. A
+   facet inside a body lies between a coarser cell and finer cells, and gets the label MESH_INNER_LABEL. */
 static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, PetscInt facet)
 {
   const PetscInt *cells;
@@ -72,17 +75,18 @@ static PetscErrorCode LocalLabelFacet(DM dm, const MeshHexes *hexes, DM fine, Pe
   for (PetscInt l = 0; l < nlabels; ++l) {
     const char *name;
     PetscInt    value;
-    PetscBool   made;
+    PetscBool   builtin;
 
     PetscCall(DMGetLabelName(dm, l, &name));
-    PetscCall(LocalIsMade(name, &made));
-    if (made) continue;
+    PetscCall(LocalIsBuiltIn(name, &builtin));
+    if (builtin) continue;
     PetscCall(DMGetLabelValue(dm, name, root, &value));
     if (value >= 0) PetscCall(DMSetLabelValue(fine, name, facet, value));
   }
   PetscFunctionReturn(0);
 }
 
+/* Sets the body label of all cells, and the labels of all facets with one cell */
 static PetscErrorCode LocalLabelPoints(DM dm, const MeshHexes *hexes, DM fine)
 {
   PetscInt start, end;
@@ -104,7 +108,7 @@ static PetscErrorCode LocalLabelPoints(DM dm, const MeshHexes *hexes, DM fine)
   PetscFunctionReturn(0);
 }
 
-/* Collective: copies the labels of the original mesh, and labels facets inside that have one cell */
+/* Collective. Copies the labels of the original mesh, and labels the facets inside bodies that have one cell */
 static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
 {
   PetscInt nlabels;
@@ -116,12 +120,12 @@ static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
     for (PetscInt l = 0; l < nlabels; ++l) {
       const char *name;
       DMLabel     label;
-      PetscBool   made, body;
+      PetscBool   builtin, body;
 
       PetscCall(DMGetLabelName(dm, l, &name));
-      PetscCall(LocalIsMade(name, &made));
+      PetscCall(LocalIsBuiltIn(name, &builtin));
       PetscCall(PetscStrcmp(name, MESH_BODY_LABEL, &body));
-      if (made) continue;
+      if (builtin) continue;
       if (!pass) PetscCall(DMCreateLabel(fine, name));
       PetscCall(DMGetLabel(fine, name, &label));
       if (pass && !body) PetscCall(DMPlexLabelComplete(fine, label));
@@ -131,6 +135,7 @@ static PetscErrorCode LocalLabel(DM dm, const MeshHexes *hexes, DM fine)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates the mesh of the refined cells on the first rank */
 static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
 {
   const PetscInt *order = MeshPlexCorners(8);
@@ -147,7 +152,7 @@ static PetscErrorCode LocalCreateMesh(DM dm, const MeshHexes *hexes, DM *fine)
   PetscFunctionReturn(0);
 }
 
-/* Collective; the mesh is on the first rank */
+/* Collective. Refines the mesh on the first rank locally, with its curves, and creates the data of hanging vertices */
 PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBody bodies[], DM *dm, MeshCurves *curves,
   MeshHanging *hanging)
 {

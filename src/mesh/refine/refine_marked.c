@@ -1,9 +1,10 @@
-/* Cells that were marked on a sequence of meshes. The same marks reproduce the same meshes on any number of ranks */
+/* Refines cells that were marked on a sequence of meshes. Equal marks reproduce equal meshes on any number of ranks. */
 #include "refineimpl.h"
 
-#define MESH_NUMBERS "cell numbers" /* key of the cells' numbers on the first rank, composed on the mesh */
+/* key under which the numbers that the cells have on the first rank are composed with the mesh */
+#define MESH_NUMBERS "cell numbers"
 
-/* Stores the numbers of the cells with the mesh */
+/* Composes the numbers of this rank's cells with the mesh */
 PetscErrorCode MeshNumberCells(DM dm, const MeshHanging *hanging)
 {
   PetscInt cstart, cend, *number;
@@ -34,9 +35,11 @@ static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[]
   PetscFunctionReturn(0);
 }
 
-/* Collective. Marks cells of a mesh for the next one. dm: mesh from MeshCreateScene(), made with these marks; marked:
-   whether to mark each local cell; marks: zero-initialized at first; the next mesh created with them has the marked
-   cells refined. */
+/*
+   Collective. Adds the marked cells of a mesh to the marks. The next mesh that is created with these marks has the
+   marked cells refined. dm: mesh that MeshCreateScene() has created with these marks; marked: whether to mark each
+   local cell; marks: initialized with zeros before the first call
+*/
 PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
@@ -48,7 +51,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscFunctionBegin;
   PetscCall(PetscObjectQuery((PetscObject)dm, MESH_NUMBERS, (PetscObject *)&numbers));
   PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE,
-    "The cells of this mesh have no numbers: it was made without refinement marks");
+    "The cells of this mesh have no numbers, because it was created without refinement marks");
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
@@ -69,7 +72,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* Frees marks, and sets them to zeros */
+/* Frees marks and sets them to zero */
 PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
 {
   PetscFunctionBegin;
@@ -80,7 +83,7 @@ PetscErrorCode MeshMarksDestroy(MeshMarks *marks)
   PetscFunctionReturn(0);
 }
 
-/* Not collective: call on the rank that has the marks */
+/* Refines the marked cells, set by set. Not collective: it must be called on the rank that has the marks. */
 PetscErrorCode MeshHexesRefineMarks(const MeshMarks *marks, DM dm, const SceneBody bodies[], const MeshCurves *curves,
   MeshHexes *hexes)
 {

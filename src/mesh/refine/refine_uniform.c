@@ -1,4 +1,4 @@
-/* Uniform refinement */
+/* Uniform refinement: divides every cell into eight */
 #include "refineimpl.h"
 
 PetscErrorCode MeshRefine(DM *dm, PetscInt levels)

@@ -1,12 +1,12 @@
-/* Cells to refine by the scene: near a face, near both faces of a contact pair, or in a box, until they are fine
-   enough */
+/* Refines the zones of the scene: cells near a face, near both faces of a contact pair, or in a box, until they have
+   the requested level */
 #include "refineimpl.h"
 
-/* Geometry of a zone: boxes around the facets of up to two faces, and around each whole face; without a face a box
-   of its own */
+/* The geometry of a zone: up to two faces, or a box if nfaces is 0 */
 typedef struct {
-  PetscInt  nfaces, n[2];
-  PetscReal all[2][6], *facets[2];
+  PetscInt   nfaces, n[2]; /* number of faces, and number of facets of each face */
+  PetscReal  all[2][6];    /* box around each whole face, or the box of the zone [length] */
+  PetscReal *facets[2];    /* boxes around the facets of each face, 6 numbers per box [length] */
 } Zone;
 
 static void ZoneBoxClear(PetscReal box[6])
@@ -25,7 +25,7 @@ static void ZoneBoxAdd(PetscReal box[6], const PetscReal x[3])
   }
 }
 
-/* Whether two boxes are closer than this distance, up to rounding */
+/* Returns whether the distance of two boxes is at most `distance` [length], up to rounding */
 static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], PetscReal distance)
 {
   PetscReal square = 0, size = 0;
@@ -37,7 +37,7 @@ static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], Petsc
   return (PetscBool)(PetscSqrtReal(square) <= distance + 1e-9 * size);
 }
 
-/* Position of a vertex of a body; curved shapes still have parameters as coordinates */
+/* Computes the position of a vertex of a body. The coordinates of curved shapes are still parameters here. */
 static PetscErrorCode ZonePlaceVertex(const SceneBody *body, const PetscReal parameters[3], PetscReal x[3])
 {
   const Shape *shape;
@@ -49,6 +49,7 @@ static PetscErrorCode ZonePlaceVertex(const SceneBody *body, const PetscReal par
   PetscFunctionReturn(0);
 }
 
+/* Adds a face to the zone */
 static PetscErrorCode ZoneAddFace(DM dm, const SceneBody bodies[], const char face[], Zone *zone)
 {
   const PetscInt  k = zone->nfaces++;
@@ -101,7 +102,7 @@ static PetscErrorCode ZoneDestroy(Zone *zone)
   PetscFunctionReturn(0);
 }
 
-/* Whether a box is within the distance of each of the faces, or of the zone's box */
+/* Returns whether a box is within the distance of a facet of each face, or of the zone's box */
 static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal box[6])
 {
   if (!zone->nfaces) return ZoneBoxesMeet(zone->all[0], box, distance);
@@ -114,7 +115,7 @@ static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal
   return PETSC_TRUE;
 }
 
-/* Boxes around all cells, 6 numbers each */
+/* Computes the body of each cell, and the box around it, 6 numbers per cell */
 static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshHexes *hexes, PetscInt body[],
   PetscReal box[])
 {
@@ -132,7 +133,7 @@ static PetscErrorCode ZonesGetBoxes(DM dm, const SceneBody bodies[], const MeshH
   PetscFunctionReturn(0);
 }
 
-/* Error: no cell is near both faces, or in the box */
+/* Reports that no cell is near both faces, or in the box */
 static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement *refinement)
 {
   const PetscReal  *a = refinement->lower, *b = refinement->upper;
@@ -140,7 +141,7 @@ static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement 
 
   PetscFunctionBegin;
   PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "refinements \"%s\": no cell is within %g of both faces, \"%s\" and \"%s\"", refinement->name,
+    "refinements \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\"", refinement->name,
     (double)refinement->distance, refinement->face[0], refinement->face[1]);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
     "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
@@ -148,7 +149,7 @@ static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement 
     *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }
 
-/* Marks the cells of a zone that are not fine enough, and counts all its cells */
+/* Marks the cells of a zone that have not reached its level. It is an error if the zone contains no cell. */
 static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *refinement, const Zone *zone,
   const MeshHexes *hexes, const PetscInt body[], const PetscReal box[], PetscBool marked[], PetscBool *more)
 {
@@ -170,7 +171,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
   PetscFunctionReturn(0);
 }
 
-/* Not collective: refines all zones until their cells are fine enough; dm: the mesh before local refinement */
+/* Refines the zones until their cells have the requested level. Not collective. dm: the mesh before local refinement */
 PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n, const SceneRefinement refinements[],
   MeshHexes *hexes)
 {

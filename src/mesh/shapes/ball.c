@@ -1,4 +1,5 @@
-/* Octant of a ball, or several: a core, the image of a cube, and three patches between the core and the sphere */
+/* Octant of a ball, or several octants in one grid: a core, which is the image of a cube, and three patches between the
+   core and the sphere */
 #include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
@@ -17,13 +18,15 @@ static PetscErrorCode ShapeCreate_Ball(const SceneBody *body, ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-/* Trilinear map of the unit cube to the core of a ball of radius 1. Its corners on an axis, in a coordinate plane
-   and inside are at 0.5, 0.6 and 0.62 of the radius, which keeps angles in the patches and the core away from 0 and
-   180 degrees */
+/*
+   Maps the unit cube by a trilinear map to the core of a ball of radius 1. The core's corners on an axis, in a
+   coordinate plane and inside the octant are at 0.5, 0.6 and 0.62 of the radius. This keeps the angles of the cells
+   away from 0 and 180 degrees.
+*/
 static void BallCore(const PetscReal p[3], PetscReal x[3])
 {
-  static const PetscReal component[4] = {0, 0.5, 0.424, 0.358}; /* coordinates of a corner, by the number of its
-                                                                   components that are not 0 */
+  static const PetscReal component[4] = {0, 0.5, 0.424, 0.358}; /* the coordinates of a corner, indexed by the number
+                                                                   of its coordinates that are not 0 */
 
   x[0] = x[1] = x[2] = 0;
   for (PetscInt corner = 0; corner < 8; ++corner) {

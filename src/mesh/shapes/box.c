@@ -1,4 +1,4 @@
-/* Boxes of hexahedra, aligned with the axes, equal or graded along each axis */
+/* Boxes of hexahedra, aligned with the axes, with equal or graded cells along each axis */
 #include "shapesimpl.h"
 
 static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)

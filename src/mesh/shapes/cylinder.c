@@ -1,8 +1,8 @@
 /*
    Cylinder, and cone without its tip: a square core around the axis, and four patches between the core and the surface.
-   Parameters: a place in a square of half the width 2, whose core has half the width 1, and the position along the
-   axis. A place (a, b) outside of the core has m = max(|a|, |b|): the direction (a, b)/m, and m - 1 of the way from the
-   core to the surface.
+   The parameters are a point (a, b) of a square with -2 <= a, b <= 2, and the coordinate along the axis. The core is
+   the part with m = max(|a|, |b|) <= 1. A point outside of the core lies in the direction (a, b)/m, and m - 1 is the
+   fraction of the distance from the core to the surface.
 */
 #include "shapesimpl.h"
 
@@ -15,7 +15,7 @@ static const char *const *ShapeFaces_Cylinder(PETSC_UNUSED const SceneBody *body
   return faces;
 }
 
-/* Numbers of vertices of a cross-section: of the core, and of a layer around it */
+/* Returns the number of vertices of the core in one cross-section. A layer around the core has 4 n[0] vertices. */
 static PetscInt CylinderCore(const PetscInt n[3])
 {
   return (n[0] + 1) * (n[0] + 1);
@@ -54,16 +54,18 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
 
 typedef struct {
   const PetscInt *n;
-  PetscInt        side; /* of the core: 0 to 3, counterclockwise from the one at a = 1 */
+  PetscInt        side; /* number of the core's side, counterclockwise from 0 at a = 1 */
 } CylinderPatch;
 
-/* The core's lattice point i steps along a side */
+/* Computes the lattice point of the core that is i steps along a side */
 static void CylinderSide(PetscInt n, PetscInt side, PetscInt i, PetscInt at[2])
 {
   at[0] = side == 0 ? n : side == 1 ? n - i : side == 2 ? 0 : i;
   at[1] = side == 0 ? i : side == 1 ? n : side == 2 ? n - i : 0;
 }
 
+/* Returns the number of the vertex that is i steps along a side, in a layer (0: on the core's side) of cross-section
+   k */
 static PetscInt CylinderVertex(const PetscInt n[3], PetscInt layer, PetscInt side, PetscInt i, PetscInt k)
 {
   const PetscInt plane = k * (CylinderCore(n) + 4 * n[0] * n[1]);
@@ -88,7 +90,7 @@ static PetscInt CylinderCoreVertex(const void *context, PetscInt i, PetscInt j, 
   return i + (n[0] + 1) * j + k * (CylinderCore(n) + 4 * n[0] * n[1]);
 }
 
-/* Parameters of all vertices */
+/* Computes the parameters of all vertices */
 static void CylinderPlace(const SceneBody *body, PetscReal x[])
 {
   const PetscInt *n = body->cells;

@@ -1,7 +1,7 @@
-/* Common parts of the shapes: level 0 grids of graded blocks of cells, and limits of their counts */
+/* Functions that all shapes use: level 0 grids of graded blocks of cells, and limits of their numbers */
 #include "shapesimpl.h"
 
-/* Adds the facets of both sides of a block that are normal to direction d */
+/* Adds the facets of both sides of a block that are perpendicular to direction d */
 static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
 {
   const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
@@ -26,6 +26,8 @@ static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *gri
   }
 }
 
+/* Adds the cells of a block. flip: 1 if the cells' first direction is reversed, so that they are right-handed in space;
+   else 0 */
 static void ShapeBlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
 {
   for (PetscInt k = 0; k < block->n[2]; ++k) {
@@ -78,7 +80,7 @@ PetscErrorCode ShapeGridDestroy(ShapeGrid *grid)
   PetscFunctionReturn(0);
 }
 
-/* Length of the first i cells: `even` cells of length 1, then growing by the ratio */
+/* Returns the length of the first i cells: `even` cells have length 1, and the next ones grow by the ratio */
 static PetscReal ShapeGradedLength(PetscReal ratio, PetscInt even, PetscInt i)
 {
   if (i <= even) return (PetscReal)i;
@@ -134,7 +136,8 @@ PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* The first cell of each body in the mesh of all of this rank's grids; tetrahedra come before hexahedra */
+/* Computes the number of each body's first cell in the mesh of all of this rank's grids. Tetrahedra come before
+   hexahedra. */
 PetscErrorCode MeshGetFirstCells(PetscInt nbodies, const MeshBody meshes[], PetscInt first[])
 {
   PetscInt cell = 0;

@@ -1,15 +1,16 @@
 /*
-   Prism over half an ellipse, or over a quarter: an O-grid of a core and a ring, extruded. Parameters are (u, v) along
-   depth and across, and w along the axis from 0 to 1. The core is [0, 1] x [-1, 1], or [0, 1]^2 for a quarter. Outside
-   of it, with m = max(u, |v|), q = (u, v)/m is on the core's outline and s = m - 1 runs from 0 there to 1 on the arc,
-   where q is a position by arc length.
+   Prism over a half or a quarter of an ellipse: an O-grid of a core and a ring, extruded along the axis. The parameters
+   are u along the depth, v across it, and w from 0 to 1 along the axis. The core is [0, 1] x [-1, 1], or [0, 1]^2 for a
+   quarter. For a point outside of the core, with m = max(u, |v|), q = (u, v)/m is on the core's outline, and s = m - 1
+   runs from 0 on the outline to 1 on the arc. The position on the arc is linear in arc length along q.
 */
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt core[2], ring, length; /* number of cells: core along depth and across one half; ring; along the axis */
-  PetscInt middle;                /* index, across, of the plane of symmetry */
-  PetscInt nring, nsection;       /* number of vertices on the core's outline, and in the cross-section */
+  PetscInt core[2], ring, length; /* numbers of cells: of the core along the depth and across one half, of the ring,
+                                     and along the axis */
+  PetscInt middle;                /* index, across, of the vertices on the plane of symmetry */
+  PetscInt nring, nsection;       /* numbers of vertices on the core's outline and in the cross-section */
 } HalfEllipse;
 
 enum { ELLIPSE_FLAT, ELLIPSE_ARC, ELLIPSE_LMIN, ELLIPSE_LMAX, ELLIPSE_SYMMETRY };
@@ -81,7 +82,8 @@ static PetscInt EllipseCoreVertex(const void *context, PetscInt i, PetscInt j, P
   return k * e->nsection + i + (e->core[0] + 1) * j;
 }
 
-/* Vertex of the ring: layer, position `at` on the outline (v growing), position k along the axis */
+/* Returns the number of a vertex of the ring: layer (0: on the core's outline), position `at` on the outline in the
+   direction of growing v, cross-section k */
 static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k)
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
@@ -92,7 +94,7 @@ static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt
   return EllipseCoreVertex(e, e->core[0] - (at - below - across), across, k);
 }
 
-/* Vertex numbers of the three blocks of the ring, each right-handed */
+/* Functions that number the vertices of the three blocks of the ring, each right-handed: below, at the crown, above */
 static PetscInt EllipseBelowVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
 {
   const HalfEllipse *e = (const HalfEllipse *)context;
@@ -114,8 +116,8 @@ static PetscInt EllipseAboveVertex(const void *context, PetscInt i, PetscInt lay
   return EllipseRingVertex(e, layer, e->nring - 1 - i, k);
 }
 
-/* Parameter of the core's vertex i along depth (d = 0), or across (d = 1), counted from the plane of symmetry to
-   both sides */
+/* Returns the parameter of the core's vertex i along the depth (d = 0), or across (d = 1). Across, i counts from the
+   plane of symmetry and is negative on one side. */
 static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
 {
   const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i));
@@ -123,7 +125,7 @@ static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscIn
   return i < 0 ? -place : place;
 }
 
-/* Parameters u, v of a vertex on the outline */
+/* Computes the parameters u, v of a vertex on the core's outline */
 static void EllipseOutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
 {
   const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
@@ -136,6 +138,7 @@ static void EllipseOutlineParameters(const SceneBody *body, const HalfEllipse *e
   else uv[0] = EllipseCoreParameter(body, 0, e->core[0] - (at - below - across));
 }
 
+/* Computes the parameters of the vertices of cross-section k */
 static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
 {
   const PetscReal w = (PetscReal)k / e->length;
@@ -162,8 +165,8 @@ static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *
   }
 }
 
-/* Whether depth, across and axis form a left-handed system. Across points to the modelled half, or along its
-   coordinate axis if both are modelled */
+/* Returns whether the directions depth, across and axis form a left-handed system. The direction across points into the
+   half that is modelled, or along its coordinate axis if both halves are modelled. */
 static PetscBool EllipseIsMirrored(const SceneBody *body)
 {
   const PetscInt depth = body->ellipse.depth, half = body->ellipse.half;
@@ -200,9 +203,11 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
   PetscFunctionReturn(0);
 }
 
-/* Length of the arc from the crown to an angle on the auxiliary circle. 4 panels of 8 Gauss points are exact up to
-   rounding for ratios of the semi-axes up to about 5. For larger ratios the result is still monotone, and the arc is
-   divided into not quite equal parts */
+/*
+   Returns the length of the arc from the crown to an angle on the auxiliary circle [length]. The quadrature with 4
+   panels of 8 Gauss points is exact up to rounding if the ratio of the semi-axes is at most about 5. For larger ratios
+   the result is still monotone, and the arc is divided into slightly unequal parts.
+*/
 static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
 {
   static const PetscReal point[4]  = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -221,13 +226,13 @@ static PetscReal EllipseArcLength(const PetscReal semi_axes[2], PetscReal angle)
   return length;
 }
 
-/* Point (depth, across) of the quarter arc at a fraction of its length from the crown */
+/* Computes the point (depth, across) of the quarter arc at a fraction of its length from the crown [length] */
 static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, PetscReal point[2])
 {
   const PetscReal target = fraction * EllipseArcLength(semi_axes, PETSC_PI / 2);
   PetscReal       low = 0, high = PETSC_PI / 2, angle = fraction * PETSC_PI / 2;
 
-  /* Newton's method, kept within a bracket */
+  /* Newton's method is combined with bisection. */
   for (PetscInt i = 0; i < 50; ++i) {
     const PetscReal excess = EllipseArcLength(semi_axes, angle) - target;
     const PetscReal slope =
@@ -243,20 +248,20 @@ static void EllipseArcPoint(const PetscReal semi_axes[2], PetscReal fraction, Pe
   point[1] = fraction == 0 ? 0 : semi_axes[1] * PetscSinReal(angle);
 }
 
-/* Maps (u, v) with v >= 0 to (depth, across) */
+/* Maps parameters (u, v) with v >= 0 to (depth, across) [length] */
 static void EllipseSectionMap(const SceneBody *body, const PetscReal uv[2], PetscReal place[2])
 {
   const PetscReal *a       = body->ellipse.semi_axes;
   const PetscReal  ring    = body->cells[2];
   const PetscReal  total   = (PetscReal)(body->cells[0] + body->cells[1]);
   const PetscReal  edge[2] = {body->cells[0] / (body->cells[0] + ring),
-     body->cells[1] / (body->cells[1] + ring)}; /* size of the core, such that cells on the symmetry lines are equal */
+     body->cells[1] / (body->cells[1] + ring)}; /* size of the core; cells on the symmetry lines are then equal */
   const PetscReal  m = PetscMax(uv[0], uv[1]), scale = PetscMax(m, 1);
   const PetscReal  q[2] = {uv[0] / scale, uv[1] / scale};
   PetscReal        corner[2], arc[2];
 
   EllipseArcPoint(a, body->cells[1] / total, corner);
-  /* the core is bilinear; its corner lies below that of the arc by the mean thickness of the ring */
+  /* The core is bilinear. Its corner is the corner of the arc, scaled by the mean relative size of the core. */
   for (PetscInt d = 0; d < 2; ++d) corner[d] *= (edge[0] + edge[1]) / 2;
   place[0] = q[0] * (1 - q[1]) * edge[0] * a[0] + q[0] * q[1] * corner[0];
   place[1] = q[1] * (1 - q[0]) * edge[1] * a[1] + q[0] * q[1] * corner[1];

@@ -1,19 +1,21 @@
 /*
-   Box with a round hole through it. The hole is inside of the box; or its axis is on a side or an edge of the box, of
-   which there is then a half or a quarter. Parameters: a place in a square of half the width 2, whose hole has half the
-   width 1, and the position along the axis. A place (a, b) has m = max(|a|, |b|), the direction (a, b)/m, and m - 1 of
-   the way from the hole to the sides of the box.
+   Box with a round hole through it. The axis of the hole is inside of the box, or on a side or an edge of the box; the
+   body then has a half or a quarter of the hole. The parameters are a point (a, b) of a square with -2 <= a, b <= 2,
+   and the coordinate along the axis. With m = max(|a|, |b|), the point is in the direction (a, b)/m. The hole is at m =
+   1, and m - 1 is the fraction of the distance from the hole to the sides of the box.
 */
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt n, layers, first, count; /* cells of an eighth of a turn, and from the hole to the sides; eighths of a turn:
-                                       the first one, and how many there are */
-  PetscInt around;                  /* vertices around the hole */
-  PetscInt eighth;                  /* of a block */
+  /* numbers of cells along an eighth of a turn, and from the hole to the sides; number of the first eighth of a turn,
+     and number of eighths */
+  PetscInt n, layers, first, count;
+  PetscInt around; /* number of vertices around the hole in one layer */
+  PetscInt eighth; /* number of the block's eighth */
 } HoledBox;
 
-/* Distance from the hole's axis to the side at the lower (0) or upper (1) end of axis d */
+/* Returns the distance from the hole's axis to the side at the lower (end = 0) or upper (end = 1) end of axis d; 0 if
+   the axis is on that side [length] */
 static PetscReal HoledReach(const SceneBody *body, PetscInt d, PetscInt end)
 {
   const PetscReal reach = end ? body->upper[d] - body->tube.center[d] : body->tube.center[d] - body->lower[d];
@@ -21,11 +23,12 @@ static PetscReal HoledReach(const SceneBody *body, PetscInt d, PetscInt end)
   return reach > PETSC_SQRT_MACHINE_EPSILON * (body->upper[d] - body->lower[d]) ? reach : 0;
 }
 
+/* Determines which eighths of a turn the box has */
 static HoledBox HoledSetUp(const SceneBody *body)
 {
   const PetscInt s = (body->tube.axis + 1) % 3, t = (body->tube.axis + 2) % 3;
   HoledBox       h = {.n = body->cells[1], .layers = body->cells[0]};
-  PetscBool      has[4]; /* the quarters of a turn */
+  PetscBool      has[4]; /* whether the box has each quarter of a turn */
 
   for (PetscInt q = 0; q < 4; ++q)
     has[q] = (PetscBool)(HoledReach(body, s, q == 0 || q == 3) > 0 && HoledReach(body, t, q < 2) > 0);
@@ -44,6 +47,7 @@ static const char *const *ShapeFaces_HoledBox(PETSC_UNUSED const SceneBody *body
   return faces;
 }
 
+/* Checks the radius and the position of the hole */
 static PetscErrorCode HoledCheckPlace(MPI_Comm comm, const SceneBody *body)
 {
   const PetscReal radius = body->tube.radii[1];
@@ -60,9 +64,8 @@ static PetscErrorCode HoledCheckPlace(MPI_Comm comm, const SceneBody *body)
       const PetscReal reach = HoledReach(body, d, end);
 
       PetscCheck(reach == 0 || reach > radius, comm, PETSC_ERR_ARG_OUTOFRANGE,
-        "Body \"%s\": the hole of radius %g must lie inside of the box, or its axis on a side or an edge of the box, "
-        "but "
-        "the axis is %g from the side %c%s",
+        "Body \"%s\": the hole of radius %g must be inside of the box, or its axis must be on a side or an edge of the "
+        "box, but the axis is %g from the side %c%s",
         body->name, (double)radius, (double)reach, "xyz"[d], end ? "max" : "min");
     }
     PetscCheck(d == body->tube.axis ||
@@ -95,7 +98,7 @@ static PetscErrorCode ShapeSize_HoledBox(MPI_Comm comm, const SceneBody *body, P
   PetscFunctionReturn(0);
 }
 
-/* at: position around the hole in cells, from the first eighth */
+/* Returns the number of a vertex. at: position around the hole in cells, from the first eighth */
 static PetscInt HoledNumber(const HoledBox *h, PetscInt layer, PetscInt at, PetscInt k)
 {
   return at % h->around + h->around * (layer + (h->layers + 1) * k);
@@ -108,7 +111,7 @@ static PetscInt HoledVertex(const void *context, PetscInt layer, PetscInt i, Pet
   return HoledNumber(h, layer, (h->eighth - h->first) * h->n + i, k);
 }
 
-/* The place on the square of half the width 1, i of n cells into an eighth of a turn */
+/* Computes the point q on the square with max(|a|, |b|) = 1 that is i of n cells along an eighth of a turn */
 static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
 {
   static const PetscInt corners[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
@@ -119,7 +122,7 @@ static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
       (PetscReal)n;
 }
 
-/* Number of the box's side that a turn by this many eighths points to: 0, 2, 4, 6 */
+/* Returns the number of the box's side in the direction of 0, 2, 4 or 6 eighths of a turn */
 static PetscInt HoledSide(const SceneBody *body, PetscInt eighths)
 {
   const PetscInt quarter = eighths / 2 % 4, axis = (body->tube.axis + 1 + quarter % 2) % 3;
@@ -139,7 +142,8 @@ static PetscErrorCode ShapeCreate_HoledBox(const SceneBody *body, ShapeGrid *gri
 
     parts[b]        = h;
     parts[b].eighth = eighth;
-    /* The cuts through the axis are sides of the box, too, a quarter before the first and after the last eighth */
+    /* The planes that cut the hole are also sides of the box: one is a quarter of a turn before the first eighth, the
+       other a quarter after the last eighth. */
     blocks[b] = (ShapeBlock){{h.layers, h.n, length},
       {6, HoledSide(body, eighth + eighth % 2), first ? HoledSide(body, eighth + 6) : PETSC_DECIDE,
         last ? HoledSide(body, eighth + 3) : PETSC_DECIDE, 2 * axis, 2 * axis + 1},

@@ -1,22 +1,25 @@
-/* The O-grid of an octant, or of several: patches on the sides of an optional core */
+/* The O-grid of one octant or of several octants: patches on the sides of an optional core */
 #include "shapesimpl.h"
 
 typedef struct {
-  PetscInt  n[3], layers, ncore, nsurface; /* n: cells of the core's lattice; number of vertices of the core, and of one
-                                              layer outside of it */
-  PetscInt  middle[3]; /* index of the plane through the corner: 0, or n/2 if both of its sides are modelled */
+  PetscInt  n[3], layers;    /* numbers of cells of the core's lattice along the axes, and across the layers */
+  PetscInt  ncore, nsurface; /* numbers of vertices of the core, and of one layer outside of it */
+  PetscInt  middle[3]; /* index of the plane through the octant's corner: 0, or n/2 if both of its sides are modelled */
   PetscBool core;
-  PetscInt *surface; /* number of each vertex of the core's lattice on the core's outer sides; PETSC_DECIDE inside */
+  PetscInt *surface; /* number, within a layer, of each vertex of the core's lattice on the core's outer sides;
+                        PETSC_DECIDE for vertices inside */
 } Octant;
 
 typedef struct {
   const Octant *octant;
-  PetscInt      axis; /* axis normal to the patch */
-  PetscBool     low;  /* at the lower end of the axis */
+  PetscInt      axis; /* axis perpendicular to the patch */
+  PetscBool     low;  /* whether the patch is at the lower end of the axis */
 } OctantPatch;
 
-enum { OCTANT_OUTER }; /* the first face; the planes follow, and a shell's inner face is the last */
+/* The first face. The symmetry planes follow; a shell's inner face is the last one. */
+enum { OCTANT_OUTER };
 
+/* Returns whether the octants on both sides of the corner along axis d are modelled */
 static PetscBool OctantHasBoth(const SceneBody *body, PetscInt d)
 {
   return (PetscBool)(body->octant.signs[d] == OCTANT_BOTH);
@@ -37,8 +40,8 @@ const char *const *OctantFaces(const SceneBody *body)
   return body->shape == SHAPE_BALL ? ball[both] : shell[both];
 }
 
-/* Number of the face in the plane normal to an axis; PETSC_DECIDE if the body goes on beyond it. Axis 3: the inner face
-   of a shell */
+/* Returns the number of the face in the plane perpendicular to an axis, or PETSC_DECIDE if the body continues beyond
+   that plane. Axis 3 stands for the inner face of a shell. */
 static PetscInt OctantFace(const SceneBody *body, PetscInt axis)
 {
   PetscInt face = OCTANT_OUTER + 1;
@@ -59,7 +62,7 @@ static Octant OctantSetUp(const SceneBody *body, PetscBool core)
   return o;
 }
 
-/* Whether an index of the lattice is at one of the core's outer sides that are normal to the axis */
+/* Returns whether index i of the lattice is at one of the core's outer sides that are perpendicular to axis d */
 static PetscBool OctantIsOuter(const Octant *o, PetscInt d, PetscInt i)
 {
   return (PetscBool)(i == o->n[d] || (o->middle[d] && i == 0));
@@ -107,6 +110,7 @@ static PetscInt OctantLattice(const Octant *o, const PetscInt at[3])
   return at[0] + (o->n[0] + 1) * (at[1] + (o->n[1] + 1) * at[2]);
 }
 
+/* Returns the number of the vertex at the lattice point `at` in a layer */
 static PetscInt OctantVertex(const Octant *o, PetscInt layer, const PetscInt at[3])
 {
   const PetscInt lattice = OctantLattice(o, at);
@@ -122,7 +126,8 @@ static PetscInt OctantCoreVertex(const void *context, PetscInt i, PetscInt j, Pe
   return OctantVertex(((const OctantPatch *)context)->octant, 0, at);
 }
 
-/* Vertex number of a patch: layers, then the two other axes in the order that is right-handed */
+/* Returns the number of a patch's vertex. The directions are the layers and the two other axes, in the order that is
+   right-handed. */
 static PetscInt OctantPatchVertex(const void *context, PetscInt layer, PetscInt i, PetscInt j)
 {
   const OctantPatch *patch = (const OctantPatch *)context;
@@ -134,6 +139,7 @@ static PetscInt OctantPatchVertex(const void *context, PetscInt layer, PetscInt 
   return OctantVertex(patch->octant, layer, at);
 }
 
+/* Numbers the lattice points on the core's outer sides */
 static PetscErrorCode OctantNumberSurface(Octant *o)
 {
   PetscInt *number;
@@ -155,7 +161,7 @@ static PetscErrorCode OctantNumberSurface(Octant *o)
   PetscFunctionReturn(0);
 }
 
-/* Parameter of a lattice index, from -1 (if both sides are modelled) to 1 */
+/* Returns the parameter of lattice index i along axis d, from 0 to 1, or from -1 to 1 if both sides are modelled */
 static PetscReal OctantParameter(const SceneBody *body, const Octant *o, PetscInt d, PetscInt i)
 {
   const PetscReal place = ShapeGraded(body->grading[d], body->even[d], body->cells[d], PetscAbsInt(i - o->middle[d]));
@@ -163,6 +169,7 @@ static PetscReal OctantParameter(const SceneBody *body, const Octant *o, PetscIn
   return i < o->middle[d] ? -place : place;
 }
 
+/* Computes the parameters of all vertices */
 static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, ShapeGrid *grid)
 {
   PetscFunctionBegin;
@@ -184,7 +191,7 @@ static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, 
   PetscFunctionReturn(0);
 }
 
-/* The patch normal to an axis, at its upper or lower end */
+/* Returns the block of a patch */
 static ShapeBlock OctantPatchBlock(const SceneBody *body, const OctantPatch *patch)
 {
   const Octant  *o = patch->octant;

@@ -1,9 +1,10 @@
-/* The boundary of a grid, and its regions: the parts between edges at which facets make more than a given angle */
+/* The boundary of a grid, and its regions: the parts between edges at which the normals of the facets make more than a
+   given angle */
 #include "shapesimpl.h"
 #include <stdlib.h>
 #include <vector3.h>
 
-/* Something that is found by up to four vertices, ascending */
+/* An item, with the number `at`, that is identified by up to four vertices in ascending order */
 typedef struct {
   PetscInt key[4], at;
 } RegionKey;
@@ -25,7 +26,8 @@ static int RegionCompareSides(const void *a, const void *b)
   return order ? order : (((const RegionKey *)a)->at < ((const RegionKey *)b)->at ? -1 : 1);
 }
 
-/* Key of a facet of 4 vertices; a triangle repeats the last one, which the key has once */
+/* Sets the key of a facet with 4 vertices. A triangle repeats its last vertex; its key contains -1 in place of the
+   repetition. */
 static PetscErrorCode RegionFacetKey(const PetscInt vertex[4], PetscInt at, RegionKey *key)
 {
   PetscFunctionBegin;
@@ -35,7 +37,7 @@ static PetscErrorCode RegionFacetKey(const PetscInt vertex[4], PetscInt at, Regi
   PetscFunctionReturn(0);
 }
 
-/* Vertex a of side s of a cell, in the order of its corners */
+/* Returns the number, among the corners of a cell, of vertex a of side s */
 static PetscInt RegionSide(PetscInt ncorners, PetscInt s, PetscInt a)
 {
   static const PetscInt hexahedron[6][4]  = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
@@ -45,7 +47,7 @@ static PetscInt RegionSide(PetscInt ncorners, PetscInt s, PetscInt a)
   return ncorners == 4 ? tetrahedron[s][a] : hexahedron[s][a];
 }
 
-/* Turns a facet so that its vertices are counterclockwise seen from outside its cell */
+/* Reorders the vertices of a facet so that they are counterclockwise seen from outside its cell */
 static void RegionTurnOutside(const ShapeGrid *grid, const PetscReal x[], PetscInt cell, PetscInt vertex[4])
 {
   PetscReal d[2][3], n[3], out[3];
@@ -95,7 +97,7 @@ PetscErrorCode ShapeBoundaryCreate(const ShapeGrid *grid, const PetscReal x[], S
 
     if (!before && !after) sides[b->n++] = keys[i].at;
   }
-  PetscCall(PetscSortInt(b->n, sides)); /* in the order of the cells */
+  PetscCall(PetscSortInt(b->n, sides)); /* The facets are in the order of the cells. */
   PetscCall(PetscMalloc2(4 * b->n, &b->vertex, b->n, &b->region));
   for (PetscInt f = 0; f < b->n; ++f) {
     const PetscInt cell = sides[f] / nsides;
@@ -117,6 +119,7 @@ PetscErrorCode ShapeBoundaryDestroy(ShapeBoundary *b)
   PetscFunctionReturn(0);
 }
 
+/* Computes the unit normal of facet f */
 static void RegionNormal(const ShapeBoundary *b, const PetscReal x[], PetscInt f, PetscReal n[3])
 {
   const PetscInt *v = &b->vertex[4 * f];
@@ -130,14 +133,15 @@ static void RegionNormal(const ShapeBoundary *b, const PetscReal x[], PetscInt f
   (void)VectorScaleToUnit(n);
 }
 
-/* First facet of a region under construction; shortens the way for the next search */
+/* Returns the first facet of the region of facet f, while regions are being merged. Shortens the path for later
+   searches. */
 static PetscInt RegionFind(PetscInt parent[], PetscInt f)
 {
   while (parent[f] != f) f = parent[f] = parent[parent[f]];
   return f;
 }
 
-/* Numbers the regions by their first facets */
+/* Numbers the regions in the order of their first facets */
 static void RegionNumber(ShapeBoundary *b)
 {
   b->nregions = 0;
@@ -203,12 +207,12 @@ PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *b, const ShapeGrid *
     if (f >= nfaces) continue;
     PetscCall(RegionFacetKey(&grid->facets[4 * q], 0, &key));
     found = (const RegionKey *)bsearch(&key, keys, (size_t)b->n, sizeof(key), RegionCompareKeys);
-    if (!found || (name[f] >= 0 && name[f] != found->at)) name[f] = -2; /* on several regions */
+    if (!found || (name[f] >= 0 && name[f] != found->at)) name[f] = -2; /* The face has facets on several regions. */
     else if (name[f] == PETSC_DECIDE) name[f] = found->at;
     ++facets[f];
   }
   for (PetscInt f = 0; f < nfaces; ++f) {
-    if (name[f] >= 0 && facets[f] != count[name[f]]) name[f] = -2; /* a part of a region */
+    if (name[f] >= 0 && facets[f] != count[name[f]]) name[f] = -2; /* The face is only a part of a region. */
   }
   PetscCall(PetscFree2(count, facets));
   PetscCall(PetscFree(keys));

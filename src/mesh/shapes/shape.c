@@ -1,4 +1,4 @@
-/* The table of shapes */
+/* The table of shapes, and their names in scenes */
 #include "shapesimpl.h"
 
 #define SHAPE_NAME(name, shape, text) text,

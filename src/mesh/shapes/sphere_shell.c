@@ -1,9 +1,12 @@
-/* Octant of a shell, or several, between spheres that need not be concentric. A third sphere, the cap, may cut the
-   outer surface. Each surface is intersected by rays from the octant's corner, so that points stay in their
-   coordinate planes. */
+/*
+   Octant of a shell, or several octants in one grid, between two spheres that need not be concentric. A third sphere,
+   the cap, may cut the outer surface. Each surface is intersected by rays from the octant's corner, so that points in
+   coordinate planes stay there.
+*/
 #include "shapesimpl.h"
 
-/* Distance from the corner, which is inside the sphere, to the sphere along a direction */
+/* Returns the distance from the octant's corner, which is inside the sphere, to the sphere along a direction
+   [length] */
 static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere, const PetscReal direction[3])
 {
   PetscReal along = 0, square = 0;
@@ -17,6 +20,7 @@ static PetscReal SphereDistance(const SceneBody *body, const SceneSphere *sphere
   return along + PetscSqrtReal(along * along + sphere->radius * sphere->radius - square);
 }
 
+/* Computes the distances from the octant's corner to the inner and to the outer surface along a direction [length] */
 static void ShellDistances(const SceneBody *body, const PetscReal direction[3], PetscReal *inner, PetscReal *outer)
 {
   *inner = SphereDistance(body, &body->octant.inner, direction);
@@ -24,6 +28,7 @@ static void ShellDistances(const SceneBody *body, const PetscReal direction[3], 
   if (body->octant.cap.radius > 0) *outer = PetscMin(*outer, SphereDistance(body, &body->octant.cap, direction));
 }
 
+/* Checks that the octant's corner is inside a sphere */
 static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, const char what[],
   const SceneSphere *sphere)
 {
@@ -43,7 +48,7 @@ static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, con
 static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
   PetscInt64 *nvertices)
 {
-  const PetscInt samples = 8; /* number of directions along an edge of the cube of parameters */
+  const PetscInt samples = 8; /* number of test directions along an edge of the cube of parameters */
 
   PetscFunctionBegin;
   PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,

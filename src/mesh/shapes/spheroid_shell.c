@@ -1,4 +1,4 @@
-/* Octant of a shell, or several, between two ellipsoids around its corner */
+/* Octant of a shell, or several octants in one grid, between two ellipsoids that are centred at its corner */
 #include "shapesimpl.h"
 
 static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,

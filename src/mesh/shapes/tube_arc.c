@@ -1,6 +1,7 @@
 /*
-   Arc of a tube, or a whole one. Parameters: distance from the axis, angle about it, position along it. Of a whole tube
-   the first two are places in the plane, on regular polygons with a corner at each vertex: there cells are straight.
+   Arc of a tube, or a whole tube. The parameters of an arc are the distance from the axis, the angle about the axis,
+   and the position along it. For a whole tube the first two parameters are coordinates in the plane of the
+   cross-section, in which the cells are straight: circles become regular polygons with a corner at each vertex.
 */
 #include "shapesimpl.h"
 
@@ -52,7 +53,7 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscFunctionReturn(0);
 }
 
-/* Radius and angle [degrees] of a vertex to its place */
+/* Converts radius and angle [degrees] of a vertex of a whole tube into coordinates in the plane */
 static void TubeToPolygon(PetscReal p[2])
 {
   const PetscReal radius = p[0], angle = p[1] * PETSC_PI / 180;
@@ -61,7 +62,8 @@ static void TubeToPolygon(PetscReal p[2])
   p[1] = radius * PetscSinReal(angle);
 }
 
-/* A place on a regular polygon to radius and angle: along a side the angle is linear */
+/* Converts a point on a regular polygon into radius and angle [degrees]. Along a side of the polygon the angle is
+   linear. */
 static void TubeFromPolygon(const SceneBody *body, const PetscReal place[2], PetscReal p[2])
 {
   const PetscReal step = 2 * PETSC_PI / (PetscReal)body->cells[1], first = body->tube.angles[0] * PETSC_PI / 180;

@@ -1,10 +1,9 @@
-/*
-   Wedge: a prism over a triangle. Lines from the middle of the triangle to those of its sides cut it into three
-   quadrilaterals, one at each corner, with n x n cells each.
-*/
+/* Wedge: a prism over a triangle. Lines from the centre of the triangle to the middles of its sides divide the triangle
+   into three quadrilaterals, one at each corner, with n x n cells each. */
 #include "shapesimpl.h"
 
-/* Corners in the plane normal to the axis, among a body's own parameters: two numbers each */
+/* index of the corners' coordinates in `own` of SceneBody: two numbers for each corner, in the plane perpendicular to
+   the axis */
 #define WEDGE_CORNERS 0
 
 static const char *const *ShapeFaces_Wedge(PETSC_UNUSED const SceneBody *body)
@@ -14,7 +13,7 @@ static const char *const *ShapeFaces_Wedge(PETSC_UNUSED const SceneBody *body)
   return faces;
 }
 
-/* Twice the area; negative if the corners follow each other clockwise about the axis */
+/* Returns twice the area of the triangle [length^2]; negative if the corners are clockwise about the axis */
 static PetscReal WedgeArea(const SceneBody *body)
 {
   const PetscReal *c = body->own + WEDGE_CORNERS;
@@ -47,12 +46,14 @@ static PetscErrorCode ShapeSize_Wedge(MPI_Comm comm, const SceneBody *body, Pets
 }
 
 typedef struct {
-  PetscInt n, corner; /* cells along half of a side; the corner of the quadrilateral */
+  PetscInt n, corner; /* number of cells along half of a side; number of the corner */
 } WedgeBlock;
 
-/* Number of the vertices of a cross-section: the middle, then for each corner those that are not on the line to the
-   next side's middle. i: from the middle of the side before the corner; j: from the middle of the side after it; both
-   are 0 in the middle of the triangle */
+/*
+   Returns the number of a vertex in a cross-section. The centre has number 0. For each corner, the vertices follow that
+   are not on the line to the middle of the next side. i counts cells towards the middle of the side after the corner, j
+   towards the middle of the side before it; both are 0 at the centre.
+*/
 static PetscInt WedgeSection(PetscInt n, PetscInt corner, PetscInt i, PetscInt j)
 {
   if (!i && !j) return 0;
@@ -67,7 +68,8 @@ static PetscInt WedgeVertex(const void *context, PetscInt i, PetscInt j, PetscIn
   return WedgeSection(b->n, b->corner, i, j) + k * (1 + 3 * b->n * (b->n + 1));
 }
 
-/* Place in the plane at the parts a and b of the way from the middle to those of the sides after and before a corner */
+/* Computes the point at the fractions a and b of the way from the centre to the middles of the sides after and before a
+   corner */
 static void WedgePlace(const SceneBody *body, PetscInt corner, PetscReal a, PetscReal b, PetscReal place[2])
 {
   const PetscReal *c = body->own + WEDGE_CORNERS, *at = c + 2 * corner, *next = c + 2 * ((corner + 1) % 3),
