@@ -145,8 +145,8 @@ PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBoo
 PETSC_INTERN PetscErrorCode     OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
 /* Splits parameters p outside of the core into the point q on the far sides of the unit cube, and s */
 PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
-/* Computes the unit vector in the direction of a point q on the far sides. Equal steps along the cube's edges give equal
-   angles. */
+/* Computes the unit vector in the direction of a point q on the far sides. Equal steps along the cube's edges give
+   equal angles. */
 PETSC_INTERN void OctantDirection(const PetscReal q[3], PetscReal direction[3]);
 /* Computes the coordinates x of a point that is given relative to the octant's corner [length]. Components along axes
    with one octant are >= 0. */
