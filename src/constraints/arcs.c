@@ -1,19 +1,24 @@
 /*
-   Slip of bodies that turn, measured along arcs. A displacement increment is the chord of the way. For a wheel that
-   rolls by an angle t its error is R t^3/6 in the contact. Instead of the chord the motion at the end of the increment
-   is used: d = dc + t x (x1 - c1) + Q e, e = c0 + Q^T (x1 - c1) - x0, with the centres c0 and c1, the rotation vector t
-   of Q, and the deformation e.
+   The slip of rotating bodies, measured along arcs. A displacement increment is the chord of the path of a node. For a
+   wheel that rolls by an angle t, the chord differs from the arc by R t^3/6 at the contact. In place of the chord the
+   rigid motion at the end of the increment is used:
+
+     d = c1 - c0 + t x (x1 - c1) + Q e,   e = c0 + Q^T (x1 - c1) - x0.
+
+   Here x0 and x1 are the positions of the node, c0 and c1 those of the centre of rotation, Q is the rotation, t its
+   rotation vector, and e the deformation.
 */
 #include "constraintsimpl.h"
 
-/* Below it the arc is the chord to a part in a million [rad] */
+/* For smaller rotations the arc is replaced by the chord, which differs by 1e-6 of the length [rad]. */
 static const PetscReal least_angle = PETSC_PI / 180.0;
 
 typedef struct {
-  PetscBool turns, centred;
-  PetscReal c0[3], c1[3], angle[3];
+  PetscBool turns, centred;         /* whether the body rotates by more than least_angle; whether its centre is known */
+  PetscReal c0[3], c1[3], angle[3]; /* centre of rotation before and after [length]; rotation vector [rad] */
 } BodyArc;
 
+/* Returns the number of the body that a face belongs to */
 static PetscInt ArcFindBody(Scene scene, const char face[])
 {
   const Material *material = &SceneFaceBody(scene, face)->material;
@@ -23,7 +28,8 @@ static PetscInt ArcFindBody(Scene scene, const char face[])
   return body;
 }
 
-/* If two bodies touch and turn alike, the one without a centre of its own takes that of the other */
+/* If two touching bodies have equal rotations, and only one has a centre of rotation, the other one gets that centre
+   too */
 static void ArcsShareCenter(BodyArc *one, BodyArc *other)
 {
   PetscReal apart = 0.0;
@@ -37,9 +43,11 @@ static void ArcsShareCenter(BodyArc *one, BodyArc *other)
   one->centred = other->centred = PETSC_TRUE;
 }
 
-/* Finds the centre of rotation of each body. The scene gives that of a rigid body. A body without one takes the centre
-   of a body that it is tied to or in contact with, as a tyre takes that of its hub. If there is none, the centre is the
-   mean position of the nodes. */
+/*
+   Determines the centre of rotation of each body. The scene gives the centre of a rigid body. Any other body gets the
+   centre of a body that it is tied to or in contact with, as a tyre gets the centre of its hub. If there is none, the
+   centre is the mean position of its nodes.
+*/
 static PetscErrorCode ArcsFindCenters(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[])
 {
   Scene     scene = b->scene;
@@ -68,6 +76,8 @@ static PetscErrorCode ArcsFindCenters(const Bodies *b, Vec u0, const BodyPose po
   PetscFunctionReturn(0);
 }
 
+/* Determines the arcs of all bodies from the displacement u0 to their rigid motions `poses`. *any: whether any body
+   rotates */
 static PetscErrorCode ArcsFind(const Bodies *b, Vec u0, const BodyPose poses[], BodyArc arcs[], PetscBool *any)
 {
   PetscFunctionBegin;
@@ -84,7 +94,7 @@ static PetscErrorCode ArcsFind(const Bodies *b, Vec u0, const BodyPose poses[], 
   PetscFunctionReturn(0);
 }
 
-/* d - (x1 - x0) of a node */
+/* Computes d - (x1 - x0) of a node [length] */
 static void ArcGetExcess(const BodyArc *arc, const PetscReal Q[3][3], const PetscReal x0[3], const PetscReal x1[3],
   PetscReal excess[3])
 {
@@ -103,8 +113,8 @@ static void ArcGetExcess(const BodyArc *arc, const PetscReal Q[3][3], const Pets
   }
 }
 
-/* Difference between the way along arcs from displacement u0 to u1 and the chord. any: whether any body turns; if not,
-   the difference is 0 and not set */
+/* Computes the difference between the path along arcs from displacement u0 to u1 and the chord [length]. *any: whether
+   any body rotates. If none does, the difference is zero and the vector is not set. */
 PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscBool *any)
 {
   BodyPose          *poses;
@@ -143,9 +153,11 @@ PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscB
   PetscFunctionReturn(0);
 }
 
-/* The ways from displacement u0 to u1 by which forces are multiplied to get work: way[0] for forces at u0, way[1] for
-   forces at u1. They are chords, or arcs where bodies turn: forces in balance then do no work on a body that turns as
-   a whole */
+/*
+   Computes the increments from displacement u0 to u1 that are multiplied by forces to compute work [length]:
+   increment[0] for forces at u0, increment[1] for forces at u1. They are chords, or arcs if bodies rotate. Forces in
+   balance then do no work on a body that rotates rigidly.
+*/
 PetscErrorCode ArcsGetIncrements(const Bodies *b, Vec u0, Vec u1, Vec increment[2])
 {
   PetscBool any;

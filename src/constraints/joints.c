@@ -1,8 +1,8 @@
-/* Ties between faces: displacements of one face's nodes as weighted means of those of the other, as rows of a
-   matrix. */
+/* Ties between faces, as rows of a matrix: the displacement of each node of one face is a weighted mean of
+   displacements of the other face. */
 #include "constraintsimpl.h"
 
-/* Adds up all ties; tied: number of the tie of each node, -1: none */
+/* Collective. Sums the matrices of all ties. tied[i]: number of the tie of node i of this rank; -1 if it is not tied */
 static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tied[])
 {
   MPI_Comm comm = c->bodies.comm;
@@ -36,7 +36,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
   PetscFunctionReturn(0);
 }
 
-/* Error if a node to which others are tied is tied itself */
+/* Collective. It is an error if a node to which others are tied is itself tied. */
 static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const PetscInt tied[])
 {
   Vec                is_tied, held;
@@ -65,7 +65,7 @@ static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const Pet
   PetscFunctionReturn(0);
 }
 
-/* Error if such a node hangs, because a uniform stress would not be transmitted */
+/* Collective. It is an error if a tied node hangs, because a uniform stress would not be transmitted. */
 static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt tied[])
 {
   PetscInt start, end, hangs = -1;
@@ -89,8 +89,8 @@ static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt ti
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix C of the ties alone, three rows per node, and marks dependent rows; all: the same, one row per
-   node */
+/* Creates the matrix C of the ties alone, with three rows per node, from `all`, which has one row per node. Marks
+   dependent rows in `follows`. Prescribed rows do not become dependent. */
 PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[], const PetscBool prescribed[], Mat *C,
   PetscBool follows[])
 {
@@ -124,7 +124,7 @@ PetscErrorCode JointsExpand(const Constraints *c, Mat all, const PetscInt tied[]
   PetscFunctionReturn(0);
 }
 
-/* Creates C of the ties; NULL if no faces are tied */
+/* Collective. Creates the matrix C of the ties. *C is NULL if no faces are tied. */
 PetscErrorCode JointsCreate(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt n, *tied;

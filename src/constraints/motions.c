@@ -1,11 +1,9 @@
-/*
-   Rigid motions of faces and bodies: u = t + (R - 1) (X - c). t and the rotation vector of R are sums over the scene's
-   entries for the same face or body, each times the factor of its ramp.
-*/
+/* Rigid motions of faces and bodies: u = t + (R - 1) (X - c). The translation t and the rotation vector of R are sums
+   over the scene's displacements for the face or body, each multiplied by the factor of its ramp. */
 #include "constraintsimpl.h"
 #include <string.h>
 
-/* The first entry for the same face or body, which represents all of them */
+/* Returns the first displacement of the scene for the face or body of displacement d. It represents all of them. */
 PetscInt MotionFindLeader(Scene scene, PetscInt d)
 {
   PetscInt leader = 0;
@@ -14,8 +12,8 @@ PetscInt MotionFindLeader(Scene scene, PetscInt d)
   return leader;
 }
 
-/* R - 1 by Rodrigues' formula of a rotation vector r = |r| n [rad]: sin r [n] + (1 - cos r) [n]^2, in which small
-   angles keep their digits */
+/* Computes turn = R - 1 from the rotation vector r = |r| n [rad] by Rodrigues' formula: sin|r| [n] + (1 - cos|r|)
+   [n]^2. This form has no cancellation for small angles. */
 void MotionRotate(const PetscReal r[3], PetscReal turn[3][3])
 {
   PetscReal angle = 0.0, sine, versine;
@@ -33,7 +31,7 @@ void MotionRotate(const PetscReal r[3], PetscReal turn[3][3])
   }
 }
 
-/* Computes the motion; factor: of each ramp */
+/* Computes the rigid motion of a leader. factor: factor of each ramp */
 void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMotion *motion)
 {
   PetscReal r[3] = {0.0, 0.0, 0.0};
@@ -54,6 +52,7 @@ void MotionGet(Scene scene, PetscInt leader, const PetscReal factor[], RigidMoti
   MotionRotate(r, motion->turn);
 }
 
+/* Returns component i of the displacement of the point x by a rigid motion [length] */
 PetscReal MotionDisplace(const RigidMotion *motion, const PetscScalar x[3], PetscInt i)
 {
   PetscReal u = motion->t[i];

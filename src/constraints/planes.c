@@ -1,14 +1,17 @@
-/* Symmetry planes in inclined directions: n . u = 0 at their nodes. Nodes on the axis of a cyclic symmetry are on two
-   such planes. At each node as many components as there are planes depend on the others, by Gauss-Jordan elimination.
-   Those with the largest coefficients are chosen, and none that is prescribed. */
+/*
+   Symmetry planes in inclined directions: n . u = 0 at their nodes. Nodes on the axis of a cyclic symmetry are on two
+   such planes. At each node one component per plane is made dependent on the others, by Gauss-Jordan elimination. The
+   components with the largest coefficients are chosen, except those that are prescribed.
+*/
 #include "constraintsimpl.h"
 #include <vector3.h>
 
 typedef struct {
-  PetscInt  n; /* number of planes through the node */
-  PetscReal a[3][3];
+  PetscInt  n;       /* number of planes through the node */
+  PetscReal a[3][3]; /* unit normals of the planes */
 } NodePlanes;
 
+/* Lists the planes at each node of this rank */
 static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rstart, NodePlanes nodes[])
 {
   PetscFunctionBegin;
@@ -50,7 +53,8 @@ static PetscErrorCode PlanesCollect(const Constraints *constraints, PetscInt rst
   PetscFunctionReturn(0);
 }
 
-/* pivot[plane]: the dependent component; negative: no component is left for this plane */
+/* Chooses the dependent component of each plane by Gauss-Jordan elimination. pivot[p]: that component; -1 if no
+   component is left for plane p */
 static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], PetscInt pivot[3])
 {
   const PetscReal rounding = 1e-10;
@@ -79,8 +83,8 @@ static void PlanesEliminate(NodePlanes *node, const PetscBool prescribed[3], Pet
   }
 }
 
-/* Creates the matrix of u = C x for the planes alone, and marks dependent rows; given: prescribed displacements at
-   the end of the load program */
+/* Creates the matrix of u = C x for the planes alone, and marks dependent rows in `follows`. given: prescribed
+   displacements at the end of the load program. It is an error if they move a node off a plane. */
 static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes nodes[], const PetscBool prescribed[],
   Vec given, Mat *C, PetscBool follows[])
 {
@@ -123,8 +127,8 @@ static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes no
   PetscFunctionReturn(0);
 }
 
-/* Creates C; NULL if there are no inclined planes. prescribed, follows: flags of the rows of this rank: the
-   displacement is prescribed, or follows from the other components by C */
+/* Creates the matrix C of inclined symmetry planes; NULL if there are none. prescribed, follows: for each row of this
+   rank, whether its displacement is prescribed, and whether it depends on others by C */
 PetscErrorCode PlanesCreate(const Constraints *constraints, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt    n, rstart;

@@ -1,12 +1,12 @@
 /*
-   The rigid motion nearest to that of each body, x1 = c1 + Q (x0 - c0), from the positions of its nodes before and
-   after. c0 and c1 are their means, weighted with the mass. Q is the rotation in the polar decomposition of the mean
-   deformation gradient.
+   The rigid motion that is nearest to the motion of each body, x1 = c1 + Q (x0 - c0), from the positions of its nodes
+   before and after. c0 and c1 are the mean positions, weighted with the mass. Q is the rotation in the polar
+   decomposition of the mean deformation gradient.
 */
 #include "constraintsimpl.h"
 #include <string.h>
 
-/* inverse and determinant of a 3 x 3 matrix, by cofactors */
+/* Computes the inverse of a 3 x 3 matrix by cofactors, and returns the determinant */
 static PetscReal PoseInvert(const PetscReal a[3][3], PetscReal inverse[3][3])
 {
   PetscReal det = 0.0;
@@ -23,7 +23,7 @@ static PetscReal PoseInvert(const PetscReal a[3][3], PetscReal inverse[3][3])
   return det;
 }
 
-/* The rotation of F by Newton's method, Q = (Q + Q^-T) / 2 */
+/* Computes the rotation Q in the polar decomposition of F by Newton's method: Q = (Q + Q^-T) / 2 */
 static void PoseGetRotation(const PetscReal F[3][3], PetscReal Q[3][3])
 {
   const int most = 30;
@@ -42,7 +42,7 @@ static void PoseGetRotation(const PetscReal F[3][3], PetscReal Q[3][3])
   }
 }
 
-/* The rotation vector [rad], of at most pi, by the quaternion */
+/* Computes the rotation vector r [rad] of Q, of length at most pi, from the quaternion */
 void PoseGetVector(const PetscReal Q[3][3], PetscReal r[3])
 {
   const PetscReal trace = Q[0][0] + Q[1][1] + Q[2][2];
@@ -64,7 +64,8 @@ void PoseGetVector(const PetscReal Q[3][3], PetscReal r[3])
   for (int k = 0; k < 3; ++k) r[k] = sine > 0.0 ? angle * q[1 + k] / sine : 0.0;
 }
 
-/* Sums for each body: of m, m x0, m x1; or, about the means, of m dx1 dx0^T and m dx0 dx0^T. u0 NULL: zero */
+/* Sums over the nodes of each body. If poses is NULL, the sums are m x0, m x1 and m; otherwise they are m dx1 dx0^T and
+   m dx0 dx0^T about the mean positions. u0 = NULL stands for zero. */
 static PetscErrorCode PosesSum(const Bodies *b, Vec u0, Vec u1, const BodyPose poses[], PetscReal sums[][18])
 {
   const PetscScalar *x, *m, *a0 = NULL, *a1;
@@ -98,7 +99,7 @@ static PetscErrorCode PosesSum(const Bodies *b, Vec u0, Vec u1, const BodyPose p
   PetscFunctionReturn(0);
 }
 
-/* The rigid motions of all bodies from displacement u0 (NULL: undeformed) to u1 */
+/* Collective. Computes the rigid motions of all bodies from displacement u0 (NULL: undeformed) to u1 */
 PetscErrorCode PosesFind(const Bodies *b, Vec u0, Vec u1, BodyPose poses[])
 {
   PetscReal(*sums)[18];
@@ -124,7 +125,7 @@ PetscErrorCode PosesFind(const Bodies *b, Vec u0, Vec u1, BodyPose poses[])
   PetscFunctionReturn(0);
 }
 
-/* Position of a point after the rigid motion */
+/* Computes the position x1 of the point x0 after the rigid motion [length] */
 void PosePlace(const BodyPose *pose, const PetscReal x0[3], PetscReal x1[3])
 {
   for (int i = 0; i < 3; ++i) {
@@ -133,7 +134,8 @@ void PosePlace(const BodyPose *pose, const PetscReal x0[3], PetscReal x1[3])
   }
 }
 
-/* The centre of rotation that the scene gives for a rigid body; NULL: it does not turn the body */
+/* Returns the centre of rotation that the scene gives for a rigid body, or NULL if the scene does not let the body
+   rotate */
 const PetscReal *PoseFindCenter(Scene scene, PetscInt body)
 {
   const size_t     n      = strlen(scene->bodies[body].name);

@@ -1,7 +1,7 @@
-/* Prescribed displacements: from the scene's faces and components to owned global rows and values. */
+/* Prescribed displacements: converts the faces and components of the scene into owned global rows and their values */
 #include "constraintsimpl.h"
 
-/* The value of a row at factor 1 of its ramp; for rigid motions a reference to the leader */
+/* Returns the prescribed value of a row of displacement d. For a rigid motion it refers to the leader. */
 static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt component)
 {
   const SceneDisplacement *entry  = &scene->displacements[d];
@@ -18,6 +18,7 @@ static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt comp
   return (PrescribedValue){drives, 0, d};
 }
 
+/* Lists the prescribed rows of this rank and their values, with repetitions. If rows is NULL, only counts them. */
 static PetscErrorCode PrescribedCollect(DM dm, Scene scene, PetscInt *count, PetscInt *rows, PrescribedValue *values)
 {
   const SceneDisplacement *d = scene->displacements;
@@ -48,7 +49,7 @@ static PetscErrorCode PrescribedCollect(DM dm, Scene scene, PetscInt *count, Pet
   PetscFunctionReturn(0);
 }
 
-/* u: displacements of the rows; factor: of each ramp */
+/* Computes the displacements u of all prescribed rows [length]. factor: factor of each ramp */
 static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal factor[], PetscReal u[])
 {
   const PetscScalar *x;
@@ -69,8 +70,8 @@ static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal fa
   PetscFunctionReturn(0);
 }
 
-/* worst: largest difference between two values prescribed for one row if all ramps have the factor `all`; for rigid
-   motions beyond rounding */
+/* Increases *worst to the largest difference between two values that are prescribed for one row, if all ramps have the
+   factor `all` [length]. Values of rigid motions may differ by rounding. */
 static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
 {
   PetscReal *u, *factor, size = 0.0;
@@ -90,17 +91,19 @@ static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Keeps one value per row, since faces share edges. Two different values are an error on every rank */
+/* Collective. Removes repeated rows, which arise where faces share edges. It is an error if a row has two different
+   values. */
 static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
 {
   PetscInt        unique   = 0;
-  PetscReal       worst[2] = {0.0, 0.0}; /* difference of two values; 1 if only their ramps differ */
+  PetscReal       worst[2] = {0.0, 0.0}; /* the largest difference of two values of a row [length]; 1 if two values
+                                            of a row are equal but have different ramps */
   PrescribedValue work;
 
   PetscFunctionBegin;
   PetscCall(PetscSortIntWithDataArray(p->n, p->rows, p->values, sizeof(PrescribedValue), &work));
   PetscCall(PrescribedDiffer(p, 1.0, &worst[0]));
-  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* a second factor detects motions that end where they started */
+  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* A second factor detects motions that end where they started. */
   for (PetscInt k = 0; k < p->n; ++k) {
     if (unique && p->rows[unique - 1] == p->rows[k]) {
       if (p->values[unique - 1].ramp != p->values[k].ramp) worst[1] = 1.0;
@@ -130,7 +133,7 @@ PetscErrorCode PrescribedCreate(DM dm, Scene scene, const VertexPlaces *places, 
   PetscFunctionReturn(0);
 }
 
-/* Sets u to the prescribed values of this time in prescribed rows; other rows stay */
+/* Sets the prescribed rows of u to their values at a time. Other rows are unchanged. */
 PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
 {
   PetscScalar *a;
@@ -163,8 +166,8 @@ PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Sums each component of the reaction over driven rows, those with a prescribed value that is not zero; if no row is
-   driven, over all prescribed rows. (In equilibrium the sum over all rows would vanish.) */
+/* Sums each component of the reaction over driven rows, which have a prescribed value that is not zero. If no row is
+   driven, sums over all prescribed rows. In equilibrium the sum over all rows would be zero. */
 PetscErrorCode PrescribedSum(const Prescribed *p, Vec v, PetscReal sum[3])
 {
   const PetscScalar *a;

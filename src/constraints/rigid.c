@@ -1,16 +1,21 @@
 /*
-   Rigid bodies driven by forces. If a motion is free, the displacements of all nodes follow those of as many rows as
-   there are free motions: u = R x + o, where o comes from the prescribed motions. Free rotations are finite: u = place
-   + exp(angle) last (X - center) - X, and R and o are linearized about one place and one angle. A body that one of
-   small strain is tied to has small rotations, as that one's law has: R and o are those of the undeformed body.
+   Rigid bodies that forces drive. If motions are free, the displacements of all nodes of the body depend on as many
+   rows, the carrying rows, as there are free motions: u = R x + o, where o comes from the prescribed motions. Free
+   rotations are finite:
+
+     u = place + exp(angle) last (X - center) - X.
+
+   R and o are linearized about one place and one angle. If a body with a law of small strain is tied to the rigid body,
+   the rotations of the rigid body are small too: R and o are then those of the undeformed body.
 */
 #include "constraintsimpl.h"
 #include <string.h>
 
-/* Largest rotation between two states. If the gap is linearized only once, so are rotations; the error is then 6e-4 of
-   the distance from the centre */
+/* largest rotation between two states [degrees]. If the gap is linearized only once per load step, rotations are
+   linearized only once too; the error is then at most 6e-4 of the distance from the centre */
 static const PetscReal largest_angle = 45.0, largest_linearized = 2.0; /* [degrees] */
 
+/* Returns whether any motion of a rigid body is free */
 static PetscBool RigidIsReleased(const SceneDisplacement *d)
 {
   PetscBool released = PETSC_FALSE;
@@ -19,7 +24,8 @@ static PetscBool RigidIsReleased(const SceneDisplacement *d)
   return released;
 }
 
-/* Component c of the body's free motions at the position x; angles times the body's size */
+/* Computes component c of the displacement at the position x due to each free motion of the body. Rotations are
+   multiplied by the body's size. */
 static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt c, PetscReal row[6])
 {
   const PetscInt next = (c + 1) % 3, last = (c + 2) % 3;
@@ -36,7 +42,7 @@ static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt 
   }
 }
 
-/* First global row of each node that this rank owns */
+/* Gets the first global row of each node of the body that this rank owns */
 static PetscErrorCode RigidGetNodes(const Constraints *c, const RigidBody *body, IS *nodes)
 {
   PetscFunctionBegin;
@@ -44,6 +50,7 @@ static PetscErrorCode RigidGetNodes(const Constraints *c, const RigidBody *body,
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes body->size */
 static PetscErrorCode RigidMeasure(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], RigidBody *body)
 {
@@ -57,8 +64,8 @@ static PetscErrorCode RigidMeasure(const Constraints *c, PetscInt rstart, const 
   PetscFunctionReturn(0);
 }
 
-/* Finds the row whose motions have the largest component orthogonal to those of the carrying rows, unit[]; it
-   becomes the next carrying row */
+/* Collective. Finds the next carrying row: the row whose coefficients have the largest component orthogonal to those of
+   the rows found so far, for which unit[] is an orthonormal basis. carriers: coefficients of the carrying rows */
 static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, const PetscScalar x[], PetscInt n,
   const PetscInt nodes[], PetscInt found, PetscReal unit[6][6], PetscReal carriers[6][6], RigidBody *body)
 {
@@ -98,7 +105,7 @@ static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, co
   PetscFunctionReturn(0);
 }
 
-/* Inverse of an n x n matrix by Gauss-Jordan elimination with row pivoting */
+/* Inverts an n x n matrix by Gauss-Jordan elimination with row pivoting. Overwrites a. */
 static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
 {
   for (PetscInt i = 0; i < 36; ++i) inverse[i / 6][i % 6] = i / 6 == i % 6 ? 1.0 : 0.0;
@@ -131,7 +138,8 @@ static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
   }
 }
 
-/* Sets the rows of R; carrying rows are exact unit rows */
+/* Sets the rows of R that belong to a body. Carrying rows stay unit rows. Marks the body's rows in `mine` and dependent
+   rows in `follows`. */
 static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
   PetscInt n, const PetscInt nodes[], const PetscBool prescribed[], PetscBool mine[], PetscBool follows[])
 {
@@ -157,7 +165,7 @@ static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, 
   PetscFunctionReturn(0);
 }
 
-/* Whether a tie joins a body to one of a law of small strain */
+/* Returns whether a tie joins the body to a body with a law of small strain */
 static PetscBool RigidIsTiedToSmallStrain(Scene scene, PetscInt body)
 {
   PetscBool small = PETSC_FALSE;
@@ -174,7 +182,7 @@ static PetscBool RigidIsTiedToSmallStrain(Scene scene, PetscInt body)
   return small;
 }
 
-/* Undeformed */
+/* Initializes a rigid body in its undeformed position */
 static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, RigidBody *body)
 {
   const SceneDisplacement *d = &c->bodies.scene->displacements[leader];
@@ -209,7 +217,8 @@ static PetscErrorCode RigidCreateBody(const Constraints *c, PetscInt leader, Rig
   PetscFunctionReturn(0);
 }
 
-/* Sets the rows of one body. anew: other rows than before carry its motions */
+/* Collective. Chooses the carrying rows of one body, and sets its rows of R. *anew becomes true if the carrying rows
+   are not the same as before. */
 static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool prescribed[], PetscBool mine[],
   PetscBool follows[], RigidBody *body, PetscBool *anew)
 {
@@ -239,7 +248,8 @@ static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool pr
   PetscFunctionReturn(0);
 }
 
-/* R at the positions about which the bodies are linearized. prescribed, follows: flags of this rank's rows */
+/* Collective. Creates R at the positions about which the bodies are linearized. prescribed, follows: flags of this
+   rank's rows, as in PlanesCreate() */
 PetscErrorCode RigidMakeRows(const Constraints *c, const PetscBool prescribed[], PetscBool follows[], PetscBool *anew)
 {
   RigidBodies *rigid = c->rigid;
@@ -268,7 +278,8 @@ PetscErrorCode RigidMakeRows(const Constraints *c, const PetscBool prescribed[],
   PetscFunctionReturn(0);
 }
 
-/* Sets up the rigid bodies that forces drive; call after the prescribed rows. Without such bodies nothing is created */
+/* Collective. Creates the rigid bodies that forces drive. Must be called after the prescribed rows were created.
+   Without such bodies nothing is created. */
 PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], PetscBool follows[])
 {
   RigidBodies *rigid = c->rigid;
@@ -295,7 +306,8 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscFunctionReturn(0);
 }
 
-/* d exp(angle) / d angle exp(-angle), by columns: the rotation that a further angle about each axis adds */
+/* Computes (d exp(angle) / d angle) exp(-angle) by columns: the rotation axis that belongs to a change of each
+   component of the rotation vector r */
 static void RigidGetAxes(const PetscReal r[3], PetscReal axis[3][3])
 {
   const PetscReal square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], angle = PetscSqrtReal(square), small = 1e-3;
@@ -312,7 +324,7 @@ static void RigidGetAxes(const PetscReal r[3], PetscReal axis[3][3])
   }
 }
 
-/* exp(angle) last */
+/* Computes the rotation Q = exp(angle) last */
 void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
 {
   PetscReal turn[3][3];
@@ -324,7 +336,7 @@ void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
   }
 }
 
-/* Sets the displacement u of the body's nodes to its place and angle */
+/* Sets the displacement u of the body's nodes to that of its place and angle */
 static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Vec u)
 {
   const PetscReal   *center = c->bodies.scene->displacements[body->leader].center;
@@ -358,8 +370,8 @@ static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Ve
   PetscFunctionReturn(0);
 }
 
-/* Position and rotation angle of a body: those of the nodes for free components, the prescribed values for the others
-   */
+/* Sets place and angle of a body. Free components are those of the nodes; other components have the prescribed
+   values. */
 static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, const BodyPose *last, const BodyPose *now,
   RigidBody *body)
 {
@@ -379,8 +391,8 @@ static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, co
   RigidGetAxes(body->angle, body->axis);
 }
 
-/* Linearizes free rotations about the displacement u and the prescribed values of a time. u_last: displacement of the
-   last state. Replaces rigid->given */
+/* Collective. Linearizes free rotations about the displacement u and the prescribed values at a time. u_last:
+   displacement at the last state. Sets rigid->given and rigid->x. */
 PetscErrorCode RigidTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u)
 {
   RigidBodies *rigid = c->rigid;
@@ -408,8 +420,8 @@ PetscErrorCode RigidTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u
   PetscFunctionReturn(0);
 }
 
-/* The free motions of a body in a displacement u, relative to the position about which it is linearized; angles times
-   its size */
+/* Collective. Computes the free motions of a body in a displacement u, relative to the position about which it is
+   linearized. Rotations are multiplied by the body's size. */
 static PetscErrorCode RigidGetMotion(const Constraints *c, const RigidBody *body, Vec u, PetscReal motion[6])
 {
   PetscReal          moved[6] = {0.0};
@@ -434,8 +446,8 @@ static PetscErrorCode RigidGetMotion(const Constraints *c, const RigidBody *body
   PetscFunctionReturn(0);
 }
 
-/* Moves bodies that turn freely from the linearized motions in u to the finite ones. change: the largest change of
-   displacement [length] */
+/* Collective. Replaces the linearized motions of bodies with finite rotations in u by the finite motions. *change: the
+   largest change of the displacement [length] */
 PetscErrorCode RigidStraighten(const Constraints *c, Vec u, PetscReal *change)
 {
   RigidBodies *rigid = c->rigid;
@@ -462,7 +474,7 @@ PetscErrorCode RigidStraighten(const Constraints *c, Vec u, PetscReal *change)
   PetscFunctionReturn(0);
 }
 
-/* o: displacements of the dependent rows due to prescribed motions */
+/* Collective. Computes o, the displacements of the dependent rows due to prescribed motions at a time [length] */
 PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
 {
   RigidBodies       *rigid = c->rigid;
@@ -504,7 +516,8 @@ PetscErrorCode RigidMove(const Constraints *c, PetscReal time, Vec o)
   PetscFunctionReturn(0);
 }
 
-/* Adds springs on rigid bodies, the only stiffness of their rows; C: u = C x */
+/* Collective. Adds the springs on rigid bodies, which are the only stiffness of their rows, to the stiffness matrix. C:
+   u = C x */
 static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness)
 {
   PetscInt n;
@@ -527,13 +540,17 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
   PetscFunctionReturn(0);
 }
 
-/* Adds to a matrix in which all diagonal entries are allocated: springs, and, if nothing elastic resists a free
-   motion, the stiffness that holds it to the centre of proximal.c */
+/*
+   Collective. Adds stiffness for the carrying rows to a matrix in which all diagonal entries are allocated: springs,
+   and a proximal term (proximal.c) for free motions that nothing elastic resists. C: u = C x; diagonal: its entries set
+   the scale of the proximal term
+*/
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* of an elastic body of this size */
-  const PetscReal    none  = 1e-6; /* below this fraction of the stiffness: elastic bodies tied to the rigid one hold
-                                      the motion */
+  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* relative to the diagonal entry of an
+                                                                              elastic body of this size */
+  const PetscReal    none  = 1e-6; /* If the stiffness is above this fraction of the diagonal entry, elastic bodies
+                                      that are tied to the rigid body resist the motion. */
   const PetscScalar *d;
   PetscScalar       *held;
   PetscInt           first, end;
@@ -561,8 +578,8 @@ PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat 
   PetscFunctionReturn(0);
 }
 
-/* A solve has not converged if a free rotation is larger than its linearization allows. finite: rotations are
-   linearized again until they agree */
+/* Collective. Reports that a solve has not converged if a free rotation is larger than its linearization allows.
+   finite: whether rotations are linearized repeatedly until they agree with the solution */
 PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepReport *report)
 {
   PetscFunctionBegin;

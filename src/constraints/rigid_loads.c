@@ -1,18 +1,19 @@
 /*
-   Forces and moments on rigid bodies that turn freely. A force keeps its direction and acts at the present position of
-   its point; a moment keeps its axis. The dead loads at the nodes have the moment about the undeformed body, m0 =
-   moment + arm x force. This file replaces it by the present one, m = moment + (Q arm) x force. For that the nodal
-   forces f(m0) are turned with the body: Q f(Q^T m).
+   Forces and moments on rigid bodies with finite free rotations. A force keeps its direction and acts at the current
+   position of its point. A moment keeps its axis. The dead loads at the nodes have the moment of the undeformed body,
+   m0 = moment + arm x force. This file replaces it by the current moment, m = moment + (Q arm) x force. For this
+   purpose the nodal forces f(m0) are replaced by forces that rotate with the body, Q f(Q^T m).
 */
 #include "constraintsimpl.h"
 
-/* a + b x c */
+/* Computes sum = a + b x c */
 static void RigidLoadAddCross(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3], PetscReal sum[3])
 {
   for (int i = 0; i < 3; ++i) sum[i] = a[i] + b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3];
 }
 
-/* From the centroid of the body's surface to the point where a force acts; undeformed */
+/* Collective. Computes the vector from the centroid of the undeformed body's surface to the point at which a force acts
+   [length]; zero if the scene gives no point */
 static PetscErrorCode RigidLoadGetArm(const Constraints *c, const SceneTraction *load, PetscReal arm[3])
 {
   const PetscReal    unit[3] = {1.0, 0.0, 0.0}, none[3] = {0.0, 0.0, 0.0};
@@ -38,7 +39,8 @@ static PetscErrorCode RigidLoadGetArm(const Constraints *c, const SceneTraction 
   PetscFunctionReturn(0);
 }
 
-/* load += factor times the difference between the present nodal forces of one load and those of the undeformed body */
+/* Collective. Adds to `total`: factor times the difference between the current nodal forces of one load and those for
+   the undeformed body */
 static PetscErrorCode RigidLoadTurn(const Constraints *c, const SceneTraction *load, const PetscReal Q[3][3],
   PetscReal factor, Vec total)
 {
@@ -74,8 +76,8 @@ static PetscErrorCode RigidLoadTurn(const Constraints *c, const SceneTraction *l
   PetscFunctionReturn(0);
 }
 
-/* Adds the change of these loads to the dead load of a time, at the positions about which the bodies are linearized.
-   load NULL: the scene has no loads. sign -1: subtracts it */
+/* Collective. Adds to the dead load `load` at a time, multiplied by `sign`, the change of the loads on rotating rigid
+   bodies, at the positions about which the bodies are linearized. load may be NULL, if the scene has no loads. */
 PetscErrorCode RigidTurnLoads(const Constraints *c, PetscReal sign, PetscReal time, Vec load)
 {
   Scene     scene = c->bodies.scene;

@@ -1,13 +1,13 @@
 /*
-   Dependent displacements: tied faces, inclined symmetry planes, cuts of sectors, hanging vertices, and rigid bodies
-   driven by forces. They are functions of other displacements, u = C x + o, and not unknowns. x has the layout of u;
-   its values in dependent rows are meaningless. Energy, forces and gaps are those of C x + o. Forces become C^T f, the
-   stiffness C^T K C with a diagonal in dependent rows. o comes from prescribed motions of rigid bodies only. Prescribed
-   rows do not become dependent.
+   Dependent displacements: those of tied faces, inclined symmetry planes, the second faces of cyclic symmetries,
+   hanging vertices, and rigid bodies that forces drive. They are not unknowns but functions of other displacements, u =
+   C x + o. The vector x has the layout of u; its values in dependent rows are not used. Energy, forces and gaps are
+   evaluated at C x + o. Forces f become C^T f, and a stiffness K becomes C^T K C with a diagonal in dependent rows. o
+   comes from prescribed motions of rigid bodies only. Prescribed rows do not become dependent.
 */
 #include "constraintsimpl.h"
 
-/* Marks local rows that are prescribed */
+/* Marks the local rows that are prescribed */
 static PetscErrorCode TiesMarkPrescribed(const Constraints *c, PetscInt rstart, PetscBool prescribed[])
 {
   PetscFunctionBegin;
@@ -15,7 +15,8 @@ static PetscErrorCode TiesMarkPrescribed(const Constraints *c, PetscInt rstart, 
   PetscFunctionReturn(0);
 }
 
-/* Creates C of hanging vertices; NULL if none hangs. Vertices with prescribed displacements keep these */
+/* Creates the matrix C of hanging vertices; NULL if none hangs. Hanging vertices with prescribed displacements do not
+   become dependent. */
 static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool prescribed[], Mat *C, PetscBool follows[])
 {
   PetscInt start, end, *hangs;
@@ -39,7 +40,7 @@ static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool pr
   PetscFunctionReturn(0);
 }
 
-/* C = A C; if C is NULL, C = A */
+/* Computes C = A C. If *C is NULL, C = A. If A is NULL, C is unchanged. */
 static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 {
   Mat product;
@@ -57,9 +58,12 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
   PetscFunctionReturn(0);
 }
 
-/* Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging nodes and on nodes of a cut that follow
-   those of its other face, and may be such nodes themselves. Therefore planes come first, then hanging nodes, which may
-   lie between nodes on planes, and the second faces of cuts last */
+/*
+   Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging vertices and on nodes of the second face of a
+   cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie between nodes on planes. Therefore x is
+   first multiplied by the matrix of the planes, then by that of hanging vertices, then by that of cyclic symmetries. All
+   three follow once more after the ties.
+*/
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
@@ -94,7 +98,7 @@ static PetscErrorCode TiesCreateDiagonal(Vec layout, PetscReal value, Mat *diago
   PetscFunctionReturn(0);
 }
 
-/* C = joined R, if there are rigid bodies that forces drive */
+/* Computes C = joined R if there are rigid bodies that forces drive */
 static PetscErrorCode TiesJoinRigid(const Constraints *c)
 {
   Ties *ties = c->ties;
@@ -111,7 +115,8 @@ static PetscErrorCode TiesJoinRigid(const Constraints *c)
   PetscFunctionReturn(0);
 }
 
-/* Those that follow, in place of the rows of rigid bodies */
+/* Lists the dependent rows of this rank: those of elastic bodies that are in the list already, and the rows marked in
+   `follows` */
 static PetscErrorCode TiesListRows(const Constraints *c, PetscInt rstart, const PetscBool follows[])
 {
   Ties              *ties = c->ties;
@@ -136,7 +141,7 @@ static PetscErrorCode TiesListRows(const Constraints *c, PetscInt rstart, const 
   PetscFunctionReturn(0);
 }
 
-/* Creates C; call after the prescribed rows, before the stiffness */
+/* Collective. Creates C. Must be called after the prescribed rows, and before the stiffness, were created. */
 PetscErrorCode TiesCreate(const Constraints *c)
 {
   Ties      *ties = c->ties;
@@ -169,7 +174,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscFunctionReturn(0);
 }
 
-/* Updates o to the prescribed motions of a time */
+/* Updates o to the prescribed motions at a time */
 PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
 {
   Ties *ties = c->ties;
@@ -181,8 +186,8 @@ PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* Updates C and o for a displacement u since the last state, if rigid bodies turn freely. anew: the tangent of linear
-   bodies changes with C */
+/* Collective. Updates C and o if rigid bodies have finite free rotations, which are linearized about the displacement
+   u. u_last: displacement at the last state. *anew: whether the tangent of linear bodies changes with C */
 PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u, PetscBool *anew)
 {
   PetscInt   n, rstart;
@@ -206,8 +211,8 @@ PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u,
   PetscFunctionReturn(0);
 }
 
-/* Replaces the linearized motions in u by the finite ones. change: the largest change of displacement; 0 if no body
-   turns freely [length] */
+/* Collective. Replaces the linearized motions of rigid bodies in u by the finite motions. *change: the largest change
+   of the displacement [length]; 0 if no body has finite free rotations */
 PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
 {
   PetscFunctionBegin;
@@ -220,7 +225,7 @@ PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
   PetscFunctionReturn(0);
 }
 
-/* u = C u + o: the tied rows follow the others */
+/* Computes u = C u + o, so that the dependent rows follow from the others */
 PetscErrorCode TiesFollow(const Ties *ties, Vec u)
 {
   PetscFunctionBegin;
@@ -231,7 +236,7 @@ PetscErrorCode TiesFollow(const Ties *ties, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* f = C^T f: moves forces on dependent rows to the others */
+/* Computes f = C^T f, which moves forces on dependent rows to the rows on which they depend */
 PetscErrorCode TiesGather(const Ties *ties, Vec f)
 {
   PetscFunctionBegin;
@@ -242,9 +247,9 @@ PetscErrorCode TiesGather(const Ties *ties, Vec f)
 }
 
 /*
-   Moves forces on dependent rows to the others. ties: the resulting forces on the bodies, except between hanging
-   vertices and their cells. rigid: forces on rigid bodies driven by forces that keep them rigid and to their prescribed
-   motions. NULL if there are none
+   Collective. Moves forces on dependent rows to the rows on which they depend. *ties: the forces on the bodies that
+   this represents, except those between hanging vertices and their cells. *rigid: the forces on rigid bodies that keep
+   them rigid and in their prescribed motions. Both are NULL if there are none.
 */
 PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *rigid)
 {
@@ -270,6 +275,7 @@ PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *ri
   PetscFunctionReturn(0);
 }
 
+/* Sets the dependent rows of v to one value */
 PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
 {
   PetscScalar *a;
@@ -283,7 +289,8 @@ PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Clears prescribed and dependent rows and columns except for the given diagonal */
+/* Sets prescribed and dependent rows and columns to zero, except for the diagonal entries, which are set to those of
+   `diagonal` */
 static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied)
 {
   const Ties        *ties = c->ties;
@@ -309,8 +316,8 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
   PetscFunctionReturn(0);
 }
 
-/* tied = C^T K C, with all diagonal entries allocated: the product has none in dependent rows. inert: rigid bodies
-   have entries in K */
+/* Computes tied = C^T K C and allocates all diagonal entries, because the product has none in dependent rows. inert:
+   whether rigid bodies have entries in K */
 static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagonal, Mat *tied)
 {
   PetscBool aij;
@@ -327,8 +334,8 @@ static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagon
   PetscFunctionReturn(0);
 }
 
-/* Assembles the tangent at u: stiffness minus the derivative of follower loads, multiplied by C if rows are
-   dependent */
+/* Collective. Assembles the tangent at u: the stiffness minus the derivative of follower loads. If rows are dependent,
+   it is C^T K C with a diagonal in these rows. */
 PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
 {
   Ties *ties = c->ties;
@@ -357,7 +364,8 @@ PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
   PetscFunctionReturn(0);
 }
 
-/* Creates the solvers' stiffness matrix, AIJ if rows are dependent; the bodies' own stiffness is then ties.K */
+/* Collective. Creates the solvers' stiffness matrix. If rows are dependent it has type AIJ, and the stiffness of the
+   bodies alone is ties->K. */
 PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
 {
   PetscFunctionBegin;
@@ -368,7 +376,7 @@ PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
   PetscFunctionReturn(0);
 }
 
-/* Adds the forces of this rank's rows to the bodies' sums, 3 numbers per body, and sums over the ranks */
+/* Collective. Adds the forces of all rows to the sums of the bodies, 3 numbers per body [force] */
 PetscErrorCode TiesMeasure(const Constraints *c, Vec forces, PetscReal bodies[])
 {
   const PetscScalar *a;

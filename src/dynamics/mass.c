@@ -1,8 +1,9 @@
-/* The mass of the bodies, and what moves with it. */
+/* The mass matrix, nodes without mass, momentum and kinetic energy */
 #include "dynamicsimpl.h"
 #include <mesh.h>
 
-/* Sets 1 at the nodes of elastic bodies on the faces of contact pairs without friction */
+/* Sets `light` to 1 at the nodes of elastic bodies on the faces of contact pairs without friction, and to 0
+   elsewhere */
 static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
 {
   Scene scene = c->bodies.scene;
@@ -30,7 +31,7 @@ static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
   PetscFunctionReturn(0);
 }
 
-/* Rows whose velocity follows from equations of motion */
+/* Marks in d->inert the rows whose velocity follows from equations of motion */
 static PetscErrorCode MassMarkInert(const Constraints *c, Dynamics *d)
 {
   PetscScalar *a;
@@ -69,7 +70,7 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
   PetscFunctionReturn(0);
 }
 
-/* Of each body, undeformed */
+/* Collective. Computes the centre of mass of each undeformed body [length] */
 PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal centres[][3])
 {
   const PetscInt     nbodies = c->bodies.scene->nbodies;
@@ -101,8 +102,8 @@ PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* Kinetic energy v^T M v/2, momentum sum M v, and angular momentum about the origin, of all bodies at the displacement
-   u */
+/* Collective. Computes the kinetic energy v^T M v/2 [force length], the momentum sum M v, and the angular momentum
+   about the origin (spin), of all bodies at the displacement u */
 PetscErrorCode MassMeasure(const Constraints *c, const Dynamics *d, Vec u, PetscReal *kinetic, PetscReal momentum[3],
   PetscReal spin[3])
 {

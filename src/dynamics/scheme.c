@@ -1,20 +1,22 @@
 /*
-   Schemes of time integration. Generalized-alpha (Chung and Hulbert 1993; in the form of Arnold and Bruels 2007, in
-   which forces are in balance at the end of a time step): with accelerations w and auxiliary ones a,
+   Schemes of time integration.
+
+   Generalized-alpha (Chung and Hulbert 1993, in the form of Arnold and Bruels 2007, in which forces are in balance at
+   the end of a time step). Primes denote the end of the step, w the acceleration, and a the auxiliary acceleration:
 
      M w' + dE/du(u') = f' + contact,   (1 - am) a' + am a = (1 - af) w' + af w,
      u' = u + dt v + dt^2 ((1/2 - beta) a + beta a'),   v' = v + dt ((1 - gamma) a + gamma a').
 
-   So M w' = c M (u' - centre). Damping in proportion to mass adds to c and moves the centre; that in proportion to the
-   stiffness K adds K (u' - viscous), for v' = gamma/(beta dt) (u' - viscous).
+   Hence M w' = c M (u' - centre). Damping in proportion to mass adds to c and changes the centre. Damping in proportion
+   to the stiffness K adds K (u' - viscous), because v' = gamma/(beta dt) (u' - viscous).
 
-   Impact (Kane, Repetto, Ortiz and Marsden 1999): the trapezoidal rule of all forces but those of contact, which are
-   those at the end of the step. Their work is never positive where a gap is linear.
+   Impact (Kane, Repetto, Ortiz and Marsden 1999): the trapezoidal rule for all forces except those of contact, which
+   are taken at the end of the step. The work of contact forces is never positive if a gap is linear.
 
      M (v' - v)/dt + (r + r')/2 = contact,   r = dE/du - f,   u' = u + dt (v + v')/2.
 
-   Twice this is the same as generalized-alpha with am = af = 0, beta = 1/4, gamma = 1/2, a = 0 and r beside it. Contact
-   forces are half the multipliers then.
+   Twice the first equation is that of generalized-alpha with am = af = 0, beta = 1/4, gamma = 1/2, a = 0 and the
+   additional force r. Contact forces are then half the multipliers.
 */
 #include "dynamicsimpl.h"
 
@@ -31,7 +33,7 @@ static SchemeNumbers SchemeGetNumbers(const SceneDynamics *scene)
   return (SchemeNumbers){am, af, 0.25 * PetscSqr(1.0 - am + af), 0.5 - am + af};
 }
 
-/* u + dt v + dt^2 weight a */
+/* Computes continued = u + dt v + dt^2 weight a */
 static PetscErrorCode SchemeContinue(PetscReal dt, PetscReal weight, Vec u, Vec v, Vec a, Vec continued)
 {
   PetscFunctionBegin;
@@ -40,7 +42,7 @@ static PetscErrorCode SchemeContinue(PetscReal dt, PetscReal weight, Vec u, Vec 
   PetscFunctionReturn(0);
 }
 
-/* Where a step goes whose acceleration stays */
+/* Computes the displacement at the end of a time step if the acceleration remains constant */
 PetscErrorCode SchemePredict(const Dynamics *d, PetscReal dt, Vec u, Vec predicted)
 {
   PetscFunctionBegin;
@@ -48,7 +50,8 @@ PetscErrorCode SchemePredict(const Dynamics *d, PetscReal dt, Vec u, Vec predict
   PetscFunctionReturn(0);
 }
 
-/* Where v' is zero; to that of damping by stiffness */
+/* Sets the factor and the displacement `viscous` of damping in proportion to stiffness. `viscous` is the displacement
+   for which v' is zero. */
 static PetscErrorCode SchemeSetViscous(const SceneDynamics *scene, SchemeNumbers s, PetscReal dt, Vec u, Dynamics *d)
 {
   const PetscReal way = s.beta * dt / s.gamma;
@@ -62,7 +65,7 @@ static PetscErrorCode SchemeSetViscous(const SceneDynamics *scene, SchemeNumbers
   PetscFunctionReturn(0);
 }
 
-/* Sets c and the centre */
+/* Sets c and the centre for a time step that begins at u */
 PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dynamics *d)
 {
   const SchemeNumbers s      = SchemeGetNumbers(scene);
@@ -81,6 +84,7 @@ PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dyna
   PetscFunctionReturn(0);
 }
 
+/* Adds the term of damping in proportion to stiffness to the energy, and its gradient to `force`, which may be NULL */
 static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
   PetscReal stored;
@@ -101,7 +105,7 @@ static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *ener
   PetscFunctionReturn(0);
 }
 
-/* Adds the term of this step at u; force may be NULL */
+/* Adds the term of this time step at u to the energy, and its gradient to `force`, which may be NULL */
 PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
   const Vec constant[] = {d->rest, d->turn, d->excess};
@@ -120,7 +124,7 @@ PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec f
   PetscFunctionReturn(0);
 }
 
-/* (to - from)/dt */
+/* Computes rate = (to - from)/dt */
 static PetscErrorCode SchemeGetRate(PetscReal dt, Vec from, Vec to, Vec rate)
 {
   PetscFunctionBegin;
@@ -129,7 +133,7 @@ static PetscErrorCode SchemeGetRate(PetscReal dt, Vec from, Vec to, Vec rate)
   PetscFunctionReturn(0);
 }
 
-/* x, but a mean rate in rows without equation of motion */
+/* Replaces x by the mean rate (to - from)/dt in rows without an equation of motion */
 static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Vec to, Vec x)
 {
   Vec rate;
@@ -144,7 +148,7 @@ static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Ve
   PetscFunctionReturn(0);
 }
 
-/* (damping_mass M + damping_stiffness K) velocity */
+/* Computes the damping force (damping_mass M + damping_stiffness K) velocity */
 PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, Vec velocity, Vec force)
 {
   Vec elastic;
@@ -160,7 +164,8 @@ PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, V
   PetscFunctionReturn(0);
 }
 
-/* Work that damping dissipates on the way to u, by the trapezoidal rule; v: velocity there */
+/* Adds to d->damped the energy that damping dissipates between the displacements `before` and u, by the trapezoidal
+   rule. v: velocity at u */
 static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, Vec u, Vec v, Dynamics *d)
 {
   PetscScalar product;
@@ -180,7 +185,7 @@ static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, V
   PetscFunctionReturn(0);
 }
 
-/* Velocity and accelerations at u, the end of a time step */
+/* Computes velocity and accelerations at u, the end of a time step that began at `before` */
 PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec before, Vec u, Dynamics *d)
 {
   const SchemeNumbers s = SchemeGetNumbers(scene);

@@ -1,7 +1,8 @@
-/* What a time step needs before the first one. */
+/* Velocities, accelerations and forces at time 0, before the first time step */
 #include "dynamicsimpl.h"
 
-/* v + w x (X - centre of mass), as supports and ties allow */
+/* Computes the velocity v + w x (X - centre of mass) from the velocity v and the spin w of each body, as far as
+   supports and ties permit */
 static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
 {
   Scene              scene = c->bodies.scene;
@@ -34,7 +35,8 @@ static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
   PetscFunctionReturn(0);
 }
 
-/* The mass of free rows, with 1 in the diagonal of the others */
+/* Creates the mass matrix of the free rows, with 1 on the diagonal of rows that are prescribed, dependent or without
+   mass */
 static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat *A)
 {
   Mat          all;
@@ -47,7 +49,7 @@ static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat 
     PetscCall(MatConvert(d->mass, MATAIJ, MAT_INITIAL_MATRIX, &all));
     PetscCall(MatPtAP(all, c->ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, A));
     PetscCall(MatDestroy(&all));
-    PetscCall(MatShift(*A, 0.0)); /* a place for every diagonal entry */
+    PetscCall(MatShift(*A, 0.0)); /* This allocates every diagonal entry. */
   } else PetscCall(MatDuplicate(d->mass, MAT_COPY_VALUES, A));
   PetscCall(MatZeroRowsColumns(*A, c->prescribed->n, c->prescribed->rows, 1.0, NULL, NULL));
   PetscCall(MatCreateVecs(*A, &diagonal, NULL));
@@ -61,7 +63,7 @@ static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Accelerations at time 0: M a = f - dE/du - damping; zero where there is no mass */
+/* Computes the accelerations at time 0: M a = f - dE/du - damping. They are zero in rows without mass. */
 static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   PetscReal size;
@@ -109,7 +111,7 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
   PetscFunctionReturn(0);
 }
 
-/* Internal, damping and dead forces at the state u, at a time in load steps */
+/* Sets d->rest to the internal, damping and dead forces at the displacement u. time: in load steps */
 PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, PetscReal time, Vec u, Dynamics *d)
 {
   Vec add;
@@ -127,7 +129,8 @@ PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, Pet
   PetscFunctionReturn(0);
 }
 
-/* Call after the ties and before the stiffness, which contains the mass term of the first time step */
+/* Creates the data of a dynamic analysis. Must be called after the ties, and before the stiffness, which contains the
+   mass term of the first time step. */
 PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   const SceneDynamics *scene = &c->bodies.scene->dynamics;

@@ -1,14 +1,17 @@
 /*
-   Rigid bodies that turn freely, in the impact scheme. The solver balances moments with the arms x' at the end of a
-   step. The forces that keep the body rigid then do work, and energy is lost to first order. With the arms of the mean
-   of both ends they do none, because x' - x is normal to them; energy and angular momentum are then conserved.
-   Therefore nodal forces are added that have the difference of both moments and no resultant. They are computed at the
-   last iterate.
+   Rigid bodies with finite free rotations, in the impact scheme. The solver balances moments with the arms x' at the
+   end of a time step. The forces that keep the body rigid then do work, and energy is lost in proportion to the time
+   step. With the mean arms of both ends of the step they do no work, because x' - x is perpendicular to them; energy
+   and angular momentum are then conserved. Therefore nodal forces are added whose moment is the difference of both
+   moments, and whose resultant is zero. They are computed at the last iterate.
 */
 #include "dynamicsimpl.h"
 
-/* For a body: its centre of rotation before and after; the missing moment; sum w r r^T of the arms r about the mean
-   position. From these, w x r is the force per weight */
+/*
+   A rotating body: its centre of rotation before and after the time step [length]; the moment that is missing; the sum
+   of m r r^T over the arms r of the nodes about their mean position, where m is the node's mass; and the vector w, for
+   which m w x r is the additional force on a node
+*/
 typedef struct {
   PetscBool turns;
   PetscReal before[3], after[3], moment[3], arms[6], w[3];
@@ -19,7 +22,7 @@ static void TurnCross(const PetscReal a[3], const PetscReal b[3], PetscReal prod
   for (int k = 0; k < 3; ++k) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Bodies that turn, and where their centres were */
+/* Finds the bodies that rotate, and their centres of rotation before and after the step */
 static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodies[])
 {
   for (PetscInt r = 0; r < c->rigid->n; ++r) {
@@ -36,7 +39,7 @@ static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodi
   }
 }
 
-/* For the rows of each node: positions before and after, and the node's part of a vector */
+/* Gets the positions of the node with first row i before and after the step, and its part f of a vector */
 static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal before[3], PetscReal after[3],
   PetscReal f[3])
 {
@@ -47,7 +50,8 @@ static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal befo
   }
 }
 
-/* Adds -1/2 (way of each node relative to the centre) x force, and the arms */
+/* Adds to the missing moment of each body: -1/2 (displacement of each node relative to the centre) x force. Adds to the
+   sums of the arms. */
 static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force, const BodyPose poses[],
   TurnBody bodies[])
 {
@@ -79,7 +83,7 @@ static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force
   PetscFunctionReturn(0);
 }
 
-/* Solves (tr(S) I - S) w = moment, S = sum w r r^T, by Cramer's rule */
+/* Solves (tr(S) I - S) w = moment, with S = sum of m r r^T, by Cramer's rule */
 static void TurnSolve(TurnBody *body)
 {
   const PetscReal *s       = body->arms;
@@ -94,6 +98,7 @@ static void TurnSolve(TurnBody *body)
   }
 }
 
+/* Computes the additional nodal forces m w x r */
 static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose poses[], const TurnBody bodies[], Vec turn)
 {
   const PetscScalar *x, *a, *m;
@@ -121,8 +126,8 @@ static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose pos
   PetscFunctionReturn(0);
 }
 
-/* These forces for a step from a displacement to u, with the rigid bodies at their positions in u. load: dead loads at
-   the end of the step, NULL: none */
+/* Collective. Sets d->turn for a time step from the displacement `before` to u, with the rigid bodies at their
+   positions in u. load: dead loads at the end of the step; NULL if there are none */
 PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Dynamics *d)
 {
   const PetscInt nbodies = c->bodies.scene->nbodies;

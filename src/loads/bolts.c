@@ -1,15 +1,16 @@
 /*
-   Pretension of bolts. Each solve has the shortenings of the sections fixed. The energy of equilibrium is a convex
-   function of them for linear bodies, and its derivatives are the section forces. Where forces are given, the
-   shortenings follow by the method of Broyden, Fletcher, Goldfarb and Shanno from one solve to the next. The matrix
-   that it learns, the compliance of bolts and clamped parts, is kept for all solves of the run.
+   Pretension of bolts. In each solve the shortenings of the bolts' sections are fixed. For linear bodies the energy of
+   equilibrium is a convex function of the shortenings, and its derivatives are the section forces. Where the scene
+   gives forces, the shortenings are updated from one solve to the next by the method of Broyden, Fletcher, Goldfarb and
+   Shanno. The matrix of this method is the compliance of the bolts and the clamped parts. It is kept for all solves of
+   the run.
 */
 #include "loadsimpl.h"
 #include <vector3.h>
 
 static const PetscInt max_solves = 40;
 
-/* Creates the sections, and the compliance of the cut cells alone, which is used for the first shortenings */
+/* Creates the sections of the bolts */
 PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
 {
   Scene          scene = bodies->scene;
@@ -38,11 +39,12 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
   PetscFunctionReturn(0);
 }
 
-/* Length of a body along an axis [length] */
+/* Computes the length of the bolt's body along the axis of the bolt [length] */
 static PetscErrorCode BoltsMeasureLength(const Bodies *bodies, const SceneBolt *bolt, PetscReal *length)
 {
   const PetscScalar *x;
-  PetscReal          ends[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* largest place along the axis, and against it */
+  PetscReal          ends[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* largest coordinate along the axis, and against
+                                                                      it [length] */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -62,8 +64,8 @@ static PetscErrorCode BoltsMeasureLength(const Bodies *bodies, const SceneBolt *
   PetscFunctionReturn(0);
 }
 
-/* The compliance that is tried first: that of a bar with length and volume of the body, or of the cut cells if that is
-   larger. u: any displacement */
+/* Computes the compliance for the first solve: that of a bar with the length and volume of the body, or that of the cut
+   cells if it is larger. u: any displacement */
 static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
 {
   const PetscReal part = 1e-6;
@@ -90,7 +92,7 @@ static PetscErrorCode BoltsGuess(const Bodies *bodies, Bolts *bolts, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* now += compliance times (target - force), in driven bolts */
+/* Updates the shortenings of driven bolts: now += compliance (target - force) */
 static void BoltsFollow(Bolts *bolts, const PetscReal force[])
 {
   for (PetscInt b = 0; b < bolts->n; ++b) {
@@ -100,6 +102,7 @@ static void BoltsFollow(Bolts *bolts, const PetscReal force[])
   }
 }
 
+/* Sets the shortenings of the sections for the next solve */
 static PetscErrorCode BoltsApply(const Bodies *bodies, const Bolts *bolts)
 {
   PetscFunctionBegin;
@@ -107,7 +110,7 @@ static PetscErrorCode BoltsApply(const Bodies *bodies, const Bolts *bolts)
   PetscFunctionReturn(0);
 }
 
-/* Sets forces and shortenings for a load step that ends at `time`, from those of the last state u */
+/* Sets forces and shortenings for a load step that ends at `time`. u: displacement at the last state */
 PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Vec u)
 {
   const PetscReal rounding = 1e-9;
@@ -130,12 +133,12 @@ PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Ve
   PetscFunctionReturn(0);
 }
 
-/* Updates the compliance with the changes of force and shortening between the last two solves of this problem */
+/* Updates the compliance with the changes of force and shortening between the last two solves of this load step */
 static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
 {
   const PetscInt  n    = bolts->n;
-  const PetscReal most = 30.0; /* largest factor by which the compliance grows in one update: the bolts do not clamp
-                                  yet */
+  const PetscReal most = 30.0; /* largest factor by which the compliance grows in one update. Before the bolts clamp
+                                  their parts, the measured compliance may be much too large. */
   PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, scale;
 
   PetscFunctionBegin;
@@ -166,9 +169,9 @@ static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
 }
 
 /*
-   After a solve with solution u: whether another one must follow with other shortenings, because a force differs from
-   the given one by more than the relative tolerance. failed: name of a bolt whose force is not reached in max_solves,
-   or only with a shortening longer than the bolt; NULL: none
+   Updates the shortenings after a solve with the solution u. *again becomes true if another solve must follow, because
+   a force differs from the given force by more than the relative tolerance. *failed: name of a bolt whose force is not
+   reached in max_solves solves, or only with a shortening longer than the bolt; NULL if there is none
 */
 PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolerance, Vec u, PetscBool *again,
   const char **failed)
@@ -203,8 +206,8 @@ PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolera
   PetscFunctionReturn(0);
 }
 
-/* Makes the forces and shortenings at u those of the last state. work: done by the pretension since the state before
-   [force length] */
+/* Makes the forces and shortenings at u those of the last state. *work: work that the pretension has done since the
+   previous state [force length] */
 PetscErrorCode BoltsSettle(const Bodies *bodies, Bolts *bolts, Vec u, PetscReal *work)
 {
   PetscReal *force;
@@ -223,7 +226,7 @@ PetscErrorCode BoltsSettle(const Bodies *bodies, Bolts *bolts, Vec u, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* At a state u of an earlier run, whose shortenings are set */
+/* Sets the shortenings and forces of the last state at u, which was read from a checkpoint with its shortenings */
 PetscErrorCode BoltsRestore(const Bodies *bodies, Bolts *bolts, Vec u)
 {
   PetscFunctionBegin;

@@ -1,8 +1,8 @@
 /* Quadratic terms of the energy about a centre */
 #include "loadsimpl.h"
 
-/* Adds sign x 1/2 (x - centre)^T A (x - centre) to the energy and its derivative to force (may be NULL); A: a matrix
-   or, if NULL, this diagonal */
+/* Adds sign/2 (x - centre)^T A (x - centre) to the energy, and its derivative to `force`, which may be NULL. If A is
+   NULL, the matrix is diagonal with the entries `diagonal`. */
 PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy, Vec force)
 {
   Vec         way, product;

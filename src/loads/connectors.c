@@ -1,13 +1,14 @@
 /*
    Connectors: springs between a point of a body and the ground, or a point of another body. The displacement of a point
-   is interpolated in the cell that contains it. The energy is quadratic in the offset, the displacement of the second
-   point relative to the first, and a part of the matrix of springs between unknowns.
+   is interpolated in the cell that contains it. The energy is quadratic in the offset, which is the displacement of the
+   second point relative to the first. The stiffness is added to the matrix of springs between unknowns.
 */
 #include "loadsimpl.h"
 #include <mesh.h>
 #include <vector3.h>
 
-/* Sets the nodes of one point on all ranks */
+/* Collective. Locates one end of a connector, and stores the nodes of its cell and their shape functions on all
+   ranks */
 static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector *here, PetscInt end, Connector *c)
 {
   const PetscReal tolerance = 0.1;
@@ -42,6 +43,7 @@ static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector
   PetscFunctionReturn(0);
 }
 
+/* Computes the 3 x 3 stiffness of a connector [force/length] */
 static void ConnectorSetStiffness(const SceneConnector *here, Connector *c)
 {
   PetscReal line[3];
@@ -54,7 +56,8 @@ static void ConnectorSetStiffness(const SceneConnector *here, Connector *c)
   }
 }
 
-/* Entries of the stiffness, on the first rank; entries: 9 for each two nodes. Returns their number */
+/* Computes the entries of the stiffness matrix of a connector, 9 for each pair of nodes, and returns their number. If
+   row is NULL, only counts them. */
 static PetscInt ConnectorFill(const Connector *c, PetscInt row[], PetscInt column[], PetscScalar value[])
 {
   PetscInt n = 0;
@@ -74,7 +77,7 @@ static PetscInt ConnectorFill(const Connector *c, PetscInt row[], PetscInt colum
   return n;
 }
 
-/* Adds the connectors to the springs between unknowns */
+/* Collective. Adds the stiffness of all connectors to the matrix of springs between unknowns */
 PetscErrorCode ConnectorsCreate(const Bodies *bodies, Springs *springs)
 {
   const PetscInt m = bodies->scene->nconnectors;
@@ -112,7 +115,8 @@ PetscErrorCode ConnectorsCreate(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Of a connector at u: the displacement of its second point relative to the first, and the force on the first */
+/* Collective. Computes for connector c at the displacement u: the displacement of its second point relative to the
+   first [length], and the force on the first point [force] */
 PetscErrorCode ConnectorMeasure(const Bodies *bodies, const Springs *springs, PetscInt c, Vec u, PetscReal offset[3],
   PetscReal force[3])
 {

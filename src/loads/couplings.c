@@ -1,11 +1,15 @@
 /*
-   Springs between two faces: energy 1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2 over the nodes A of one face. The means M
-   u of the other face are those of a tie; a_A is the integral of A's shape function. The springs couple nodes without a
-   common cell, so their stiffness is a separate matrix.
+   Springs between two faces. Their energy is
+
+     1/2 sum_A k a_A |u_A - sum_B M_AB u_B|^2
+
+   over the nodes A of one face. The weights M_AB of the other face are those of a tie, and a_A is the integral of the
+   shape function of A. The springs couple nodes that have no common cell, so that their stiffness is a separate matrix.
 */
 #include "loadsimpl.h"
 
-/* Creates a matrix with three rows per node, preallocated for the node's entries in `nodes` and the diagonal */
+/* Creates a matrix with three rows per node. It is preallocated for the node's entries in `nodes`, which has one row
+   per node, and for the diagonal. */
 PetscErrorCode CouplingsReserve(const Bodies *bodies, Mat nodes, Mat *A)
 {
   PetscInt nlocal, start, end, *here, *elsewhere;
@@ -31,7 +35,7 @@ PetscErrorCode CouplingsReserve(const Bodies *bodies, Mat nodes, Mat *A)
   PetscFunctionReturn(0);
 }
 
-/* stretch = 1 - M for the three components, in the rows of one face; other rows are empty */
+/* Creates stretch = 1 - M for the three components, in the rows of the nodes of one face. Other rows are empty. */
 static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *stretch)
 {
   PetscInt start, end;
@@ -57,7 +61,7 @@ static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *s
   PetscFunctionReturn(0);
 }
 
-/* stiffness = stretch^T (k a) stretch for one entry of the scene */
+/* Creates stiffness = stretch^T diag(k a) stretch for the springs of one entry of the scene */
 static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *spring, Mat *stiffness)
 {
   const SceneTie tie = {.name = spring->name,
@@ -83,7 +87,7 @@ static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *
   PetscFunctionReturn(0);
 }
 
-/* Creates the stiffness of springs between faces; NULL: none */
+/* Collective. Creates the stiffness of all springs between faces; NULL if there are none */
 PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
 {
   PetscFunctionBegin;
@@ -101,7 +105,7 @@ PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
   PetscFunctionReturn(0);
 }
 
-/* Adds C^T S C to the stiffness, for displacements C x */
+/* Adds C^T S C to the stiffness, where S is the matrix of springs between unknowns and u = C x */
 PetscErrorCode CouplingsAddStiffness(const Springs *springs, Mat C, Mat stiffness)
 {
   Mat product;

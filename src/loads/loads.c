@@ -1,6 +1,7 @@
-/* Dead loads: pressures and body forces of the scene, summed by ramp. */
+/* Dead loads: pressures, tractions, forces and body forces of the scene, summed by ramp */
 #include "loadsimpl.h"
 
+/* Gets the load vector of a ramp, and creates it if it does not exist */
 static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, Vec *force)
 {
   PetscFunctionBegin;
@@ -48,7 +49,7 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   PetscFunctionReturn(0);
 }
 
-/* The dead load at a time, a new vector; NULL: none */
+/* Computes the dead load at a time, as a new vector; NULL if there is none */
 PetscErrorCode DeadLoadsGet(const DeadLoads *loads, PetscReal time, Vec *force)
 {
   PetscFunctionBegin;

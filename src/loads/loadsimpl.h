@@ -1,6 +1,5 @@
-/*
-   Loads on the bodies: dead loads, temperatures, springs. Files are in the order in which they depend on each other.
-*/
+/* Loads on the bodies: dead loads, temperatures, springs, pretension. The files are in the order in which they depend
+   on each other. */
 #ifndef LOADSIMPL_H
 #define LOADSIMPL_H
 
@@ -17,28 +16,28 @@ typedef struct {
   DM           dm;
   Elasticity   elasticity;
   VertexPlaces places;
-  Vec          mass; /* lumped mass for unit density; also gives the layout of the unknowns [length^3] */
+  Vec          mass; /* lumped mass for unit density [length^3]; it also gives the layout of the unknowns */
 } Bodies;
 
-/* loads.c: dead loads by ramp, at factor 1; NULL for ramps without load, and if there is no load at all */
+/* loads.c: dead loads at factor 1 of each ramp. A ramp without loads has NULL; force itself is NULL if there are no
+   loads. */
 typedef struct {
   Scene scene;
-  Vec  *force; /* nramps [force] */
+  Vec  *force; /* [nramps] load of each ramp [force] */
 } DeadLoads;
 
 PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);
 
-/* temperatures.c: temperatures by ramp at factor 1, as linear functions in the cells; now: at the present time,
-   NULL: none */
+/* temperatures.c: temperatures at factor 1 of each ramp, as linear functions in the cells */
 typedef struct {
   MPI_Comm    comm;
   Scene       scene;
-  Elasticity  elasticity; /* borrowed */
-  PetscInt    n;
-  PetscReal **fits; /* nramps; NULL for ramps without temperature */
-  PetscReal  *now;
+  Elasticity  elasticity; /* owned by the caller */
+  PetscInt    n;          /* number of coefficients: 4 per cell of this rank */
+  PetscReal **fits;       /* [nramps] coefficients of each ramp; NULL for a ramp without temperature */
+  PetscReal  *now;        /* coefficients at the time that was applied last; NULL if there are no temperatures */
 } Temperatures;
 
 PETSC_INTERN PetscErrorCode TemperaturesCreate(Scene, Elasticity, MPI_Comm, Temperatures *);
@@ -46,23 +45,25 @@ PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
 PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
 PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
 
-/* connectors.c: springs between points. Nodes of the cells of both points, known on all ranks, with the values of their
-   shape functions */
+/* connectors.c: a spring between points. The nodes of the cells of both points, and the values of their shape
+   functions, are known on all ranks. */
 typedef struct {
-  PetscInt  n[2], node[2][MESH_MAX_NODES]; /* global */
+  PetscInt  n[2], node[2][MESH_MAX_NODES]; /* numbers of nodes, and global numbers of the nodes, at both ends */
   PetscReal N[2][MESH_MAX_NODES];
-  PetscReal k[3][3]; /* force by offset [force/length] */
+  PetscReal k[3][3]; /* stiffness: derivative of the force with respect to the offset [force/length] */
 } Connector;
 
-/* springs.c: stiffness per row; NULL: none */
+/* springs.c: springs of the scene, and weak springs */
 typedef struct {
-  Vec        stiffness, weak; /* of all springs to the ground; of the weak springs alone [force/length] */
-  Mat        between;         /* of springs between faces; NULL: none */
-  Connector *connectors;      /* one for each of the scene */
-  PetscInt   nweak;           /* number of bodies with weak springs */
+  Vec        stiffness, weak; /* stiffness per row of all springs to the ground, and of the weak springs alone
+                                 [force/length]; NULL if there are none */
+  Mat        between; /* stiffness of springs between faces and of connectors [force/length]; NULL if there are none */
+  Connector *connectors; /* [connectors of the scene] */
+  PetscInt   nweak;      /* number of bodies with weak springs */
 } Springs;
 
-/* springs.c */
+/* springs.c: SpringsMeasureStiffness() computes the largest product of Young's modulus and size of a body
+   [force/length]. */
 PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(const Bodies *, PetscReal volume[]);
 PETSC_INTERN PetscErrorCode SpringsMeasureStiffness(const Bodies *, PetscReal *largest);
 PETSC_INTERN PetscErrorCode SpringsOfSize(const Bodies *, PetscReal share, Vec stiffness);
@@ -70,17 +71,18 @@ PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec u, PetscReal force[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
-/* bolts.c: pretension of bolts. Forces and shortenings at the last state of equilibrium, and now */
+/* bolts.c: pretension of bolts: forces and shortenings of the sections */
 typedef struct {
-  PetscInt   n;
-  PetscReal *force, *shortening; /* at the last state [force], [length] */
-  PetscReal *target, *now;       /* of the present load step: force that is given [force]; shortening [length] */
-  PetscBool *driven;             /* the force is given, and the shortening follows from it */
-  PetscReal *compliance;         /* n x n: derivative of the shortenings by the forces [length/force] */
-  PetscReal *most;               /* limit of the shortenings [length] */
-  PetscReal *tried[2];           /* shortenings and forces of the solve before in this problem */
-  PetscInt   nsolves;            /* in the present problem, so far */
-  PetscInt   nslopes;            /* compliances that were measured so far */
+  PetscInt   n;                  /* number of bolts */
+  PetscReal *force, *shortening; /* values at the last state [force], [length] */
+  PetscReal *target, *now; /* values of the current load step: force that the scene gives [force], and shortening in
+                              the current solve [length] */
+  PetscBool *driven;       /* whether the scene gives the force, so that the shortening follows from it */
+  PetscReal *compliance;   /* [n x n] derivative of the shortenings with respect to the forces [length/force] */
+  PetscReal *most;         /* largest permitted shortenings [length] */
+  PetscReal *tried[2];     /* shortenings and forces of the previous solve in this load step */
+  PetscInt   nsolves;      /* number of solves in this load step so far */
+  PetscInt   nslopes;      /* number of updates of the compliance so far */
 } Bolts;
 
 PETSC_INTERN PetscErrorCode BoltsCreate(const Bodies *, Bolts *);
@@ -91,17 +93,17 @@ PETSC_INTERN PetscErrorCode BoltsSettle(const Bodies *, Bolts *, Vec u, PetscRea
 PETSC_INTERN PetscErrorCode BoltsRestore(const Bodies *, Bolts *, Vec u);
 PETSC_INTERN PetscErrorCode BoltsDestroy(Bolts *);
 
-/* couplings.c */
+/* couplings.c: springs between faces */
 PETSC_INTERN PetscErrorCode CouplingsReserve(const Bodies *, Mat nodes, Mat *);
 PETSC_INTERN PetscErrorCode CouplingsCreate(const Bodies *, Mat *stiffness);
 PETSC_INTERN PetscErrorCode CouplingsAddStiffness(const Springs *, Mat C, Mat stiffness);
 
-/* connectors.c */
+/* connectors.c: springs between points */
 PETSC_INTERN PetscErrorCode ConnectorsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode ConnectorMeasure(const Bodies *, const Springs *, PetscInt c, Vec u, PetscReal offset[3],
   PetscReal force[3]);
 
-/* centred.c */
+/* centred.c: quadratic terms of the energy */
 PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy,
   Vec force);
 

@@ -1,7 +1,7 @@
-/* Springs: those of the scene to the ground or between faces, and weak springs on bodies that move freely. */
+/* Springs: those of the scene to the ground or between faces, and weak springs on bodies that are not held */
 #include "loadsimpl.h"
 
-/* volume of every body, on all ranks */
+/* Collective. Computes the volume of every body [length^3] */
 PetscErrorCode SpringsMeasureVolumes(const Bodies *bodies, PetscReal volume[])
 {
   const PetscScalar *m;
@@ -18,6 +18,8 @@ PetscErrorCode SpringsMeasureVolumes(const Bodies *bodies, PetscReal volume[])
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes the largest product of Young's modulus and size (cube root of the volume) of a body
+   [force/length] */
 PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
 {
   PetscReal *volume;
@@ -32,7 +34,8 @@ PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* stiffness: share x Young's modulus x length of each body, distributed to its vertices by volume */
+/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body, distributed to its vertices by
+   volume [force/length] */
 PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
 {
   Scene              scene = bodies->scene;
@@ -58,7 +61,8 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
   PetscFunctionReturn(0);
 }
 
-/* Creates weak springs on bodies that are not held. They hardly affect the deformation, and carry unbalanced forces */
+/* Collective. Creates weak springs on bodies that are not held. They carry unbalanced forces, and hardly affect the
+   deformation. */
 static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 {
   PetscBool   *unheld;
@@ -81,7 +85,7 @@ static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Call before the first tangent is created */
+/* Collective. Creates all springs. Must be called before the first tangent is created. */
 PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 {
   PetscFunctionBegin;
@@ -103,7 +107,8 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Adds the springs' forces on the bodies, 3 per body, and the sum of the magnitudes of the weak springs' forces */
+/* Collective. Adds the springs' forces on the bodies to `force`, 3 numbers per body, and computes *weak, the sum of the
+   magnitudes of the weak springs' forces [force] */
 PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, PetscReal force[], PetscReal *weak)
 {
   const PetscScalar *k, *w = NULL, *v, *f;

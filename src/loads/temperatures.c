@@ -2,6 +2,7 @@
 #include "loadsimpl.h"
 #include <rankerror.h>
 
+/* Evaluates the formula of a temperature at the position x */
 static PetscErrorCode TemperatureAt(void *ctx, const PetscReal x[3], PetscReal *value)
 {
   const SceneTemperature *here = (const SceneTemperature *)ctx;
@@ -14,6 +15,7 @@ static PetscErrorCode TemperatureAt(void *ctx, const PetscReal x[3], PetscReal *
   PetscFunctionReturn(0);
 }
 
+/* Fits linear functions in the cells to the formulas of all temperatures */
 static PetscErrorCode TemperaturesFit(Scene scene, Elasticity elasticity, Temperatures *temperatures)
 {
   PetscFunctionBegin;
@@ -45,7 +47,7 @@ PetscErrorCode TemperaturesCreate(Scene scene, Elasticity elasticity, MPI_Comm c
   PetscFunctionReturn(0);
 }
 
-/* Sets the temperature of this time for energies, forces and stresses */
+/* Sets the temperature at a time, which then applies to energies, forces and stresses */
 PetscErrorCode TemperaturesApply(Temperatures *temperatures, PetscReal time)
 {
   Scene scene = temperatures->scene;
@@ -64,7 +66,7 @@ PetscErrorCode TemperaturesApply(Temperatures *temperatures, PetscReal time)
   PetscFunctionReturn(0);
 }
 
-/* size: largest magnitude over all cells, at the time that was applied last */
+/* Collective. Computes the largest magnitude of a coefficient over all cells, at the time that was applied last */
 PetscErrorCode TemperaturesGetLargest(const Temperatures *temperatures, PetscReal *size)
 {
   PetscFunctionBegin;

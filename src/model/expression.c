@@ -1,22 +1,24 @@
 /*
-   Expressions of time or position: + - * / ^, brackets, functions, pi, and variables: t (time in load steps) and s
-   (time from 0 to 1 over the whole program), or x, y, z. Precedence as usual: -a^2 is -(a^2), a^b^c is a^(b^c).
+   Expressions of time or position. They consist of + - * / ^, brackets, functions, pi, and variables: t (time in load
+   steps) and s (time from 0 to 1 over the whole load program), or x, y, z. The precedence is the usual one: -a^2 is
+   -(a^2), and a^b^c is a^(b^c).
 */
 #include "modelimpl.h"
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#define EXPRESSION_DEPTH 100 /* limit of nested brackets and signs */
+#define EXPRESSION_DEPTH 100 /* largest depth of nested brackets and signs */
 
 static PetscReal ExpressionSum(Expression *);
 
+/* Stores the position of the first error */
 static void ExpressionFail(Expression *e)
 {
   if (!e->wrong) e->wrong = e->at;
 }
 
-/* Consumes this character if it is next */
+/* Reads the character c if it is the next one */
 static PetscBool ExpressionTake(Expression *e, char c)
 {
   while (isspace((unsigned char)*e->at)) ++e->at;
@@ -25,6 +27,7 @@ static PetscBool ExpressionTake(Expression *e, char c)
   return PETSC_TRUE;
 }
 
+/* Applies a function to its arguments */
 static PetscReal ExpressionApply(const char name[], PetscReal x, PetscReal y)
 {
   if (!strcmp(name, "sin")) return PetscSinReal(x);
@@ -127,7 +130,7 @@ static PetscReal ExpressionSum(Expression *e)
   return value;
 }
 
-/* Evaluates the whole text; e->wrong points to the first error */
+/* Evaluates the whole text. e->wrong points to the first error, or is NULL. */
 PetscReal ExpressionEvaluate(Expression *e)
 {
   const PetscReal value = ExpressionSum(e);
@@ -137,8 +140,7 @@ PetscReal ExpressionEvaluate(Expression *e)
   return value;
 }
 
-/* Evaluates an expression of the position. expression: in x, y, z, as in a loaded scene; x: the position [length];
-   value: may be not finite. */
+/* Evaluates an expression in x, y and z at the position x [length]. *value may be infinite or not a number. */
 PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
 {
   Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};

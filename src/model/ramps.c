@@ -1,4 +1,4 @@
-/* The load program: factors of ramps at a given time. */
+/* The load program: factors of ramps at a given time */
 #include <model.h>
 
 /*@C

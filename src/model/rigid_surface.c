@@ -1,10 +1,11 @@
-/* Rigid surfaces given by a formula: distance of a point, and the cube whose corners carry the rigid motion */
+/* Rigid surfaces that are given by a formula: the distance of a point, and the cube that represents the surface in the
+   mesh */
 #include "modelimpl.h"
 #include <vector3.h>
 
 /*
-   Distance from a profile: a line through points, in a plane, with the solid on its left. The first and the last
-   segment go on without end. slope: its gradient
+   Returns the distance of the point x from a profile [length], and computes its gradient `slope`. A profile is a line
+   through points in a plane, with the solid on its left. The first and the last segment extend to infinity.
 */
 static PetscReal ProfileDistance(const SceneBody *body, const PetscReal x[2], PetscReal slope[2])
 {
@@ -42,7 +43,7 @@ static PetscReal ProfileDistance(const SceneBody *body, const PetscReal x[2], Pe
   return distance - body->own[SURFACE_OUTSIDE];
 }
 
-/* Unit vectors, the last one along the axis of the surface */
+/* Computes three unit vectors perpendicular to each other, the last one along the axis of the surface */
 static void SurfaceFrame(const SceneBody *body, PetscReal frame[3][3])
 {
   PetscInt  least = 0;
@@ -60,10 +61,11 @@ static void SurfaceFrame(const SceneBody *body, PetscReal frame[3][3])
   VectorCross(frame[2], frame[0], frame[1]);
 }
 
+/* Computes the cube that represents the surface in the mesh */
 void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
 {
   const PetscReal radius = body->own[SURFACE_RADIUS], given = body->own[SURFACE_SIZE];
-  PetscReal       middle = 0.0; /* of the cube, along the axis */
+  PetscReal       middle = 0.0; /* position of the cube's centre along the axis [length] */
 
   SurfaceFrame(body, cube->edge);
   cube->size = given > 0.0 ? given : 1.0;
@@ -78,11 +80,12 @@ void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
   }
 }
 
-/* Distance and gradient in the half plane through the axis and a point: coordinates across and along the axis */
+/* Returns the distance of a point from the surface in the half plane through the axis and the point [length]. across,
+   along: coordinates of the point [length]; slope: derivatives with respect to them */
 static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscReal along, PetscReal slope[2])
 {
   const PetscReal radius = body->own[SURFACE_RADIUS], angle = body->own[SURFACE_ANGLE] * PETSC_PI / 180.0;
-  PetscReal       from = 0.0, length, less = 0.0; /* distance from a point across the axis, and what is taken off */
+  PetscReal       from = 0.0, length, less = 0.0; /* The distance is that from the point (from, 0), minus `less`. */
 
   slope[0] = slope[1] = 0.0;
   switch (body->shape) {
@@ -98,7 +101,7 @@ static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscRe
     from = radius;
     less = body->own[SURFACE_SECTION];
     break;
-  default: /* a cone, unless its tip is the nearest point */
+  default: /* a cone; if its tip is the nearest point, the distance is that from the tip */
     if (along * PetscCosReal(angle) + across * PetscSinReal(angle) < 0.0) break;
     slope[0] = PetscCosReal(angle);
     slope[1] = -PetscSinReal(angle);
@@ -112,6 +115,7 @@ static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscRe
   return length - less;
 }
 
+/* Returns the distance of the point x from the surface, positive outside [length], and computes its gradient */
 PetscReal SceneSurfaceDistance(const SceneBody *body, const PetscReal x[3], PetscReal gradient[3])
 {
   PetscReal frame[3][3], r[3], slope[2], distance, across, along;

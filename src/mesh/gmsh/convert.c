@@ -1,4 +1,5 @@
-/* Mesh files of other formats, and those with a scale, become temporary Gmsh files by share/python/contact_mesh.py */
+/* Converts mesh files of other formats, and mesh files with a scale, into temporary Gmsh files by
+   share/python/contact_mesh.py */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp() */
 #include "gmshimpl.h"
 #include "src/files/filesimpl.h"
@@ -8,7 +9,8 @@
 #include <strings.h>
 #include <unistd.h>
 
-/* Whether a file needs conversion, by the ending of its name. A file with an unknown ending must be a Gmsh file. */
+/* Returns whether the mesh file of a body must be converted, by the ending of its name or because it has a scale. A
+   file with an unknown ending must be a Gmsh file. */
 static PetscBool GmshMustConvert(const SceneBody *body)
 {
   static const char *const endings[] = {".inp", ".med", ".e", ".exo", ".ex2", ".vtu", ".vtk"};
@@ -22,7 +24,7 @@ static PetscBool GmshMustConvert(const SceneBody *body)
   return PETSC_FALSE;
 }
 
-/* Runs the converter, whose file is path */
+/* Runs the converter, which writes the Gmsh file `path` */
 static PetscErrorCode GmshRunConverter(const SceneBody *body, const char path[])
 {
   char        script[PETSC_MAX_PATH_LEN], sentence[512], scale[32];
@@ -38,7 +40,8 @@ static PetscErrorCode GmshRunConverter(const SceneBody *body, const char path[])
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s", text ? text + strlen("error: ") : sentence);
 }
 
-/* On rank 0. The file is removed as soon as it is open, so that no run leaves it behind. path: of its descriptor */
+/* Converts the mesh file of a body, on rank 0. path: name of the file by its open descriptor. The file itself is
+   removed as soon as it is open, so that no run leaves it behind. */
 static PetscErrorCode GmshConvertFile(SceneBody *body, size_t length, char path[])
 {
   const char    *tmp = getenv("TMPDIR");
@@ -47,21 +50,21 @@ static PetscErrorCode GmshConvertFile(SceneBody *body, size_t length, char path[
 
   PetscFunctionBegin;
   PetscCheck(body->gmsh.scale >= 0 && !PetscIsInfOrNanReal(body->gmsh.scale), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "scale must be above 0, not %g", (double)body->gmsh.scale);
+    "the key scale must be positive, but is %g", (double)body->gmsh.scale);
   PetscCall(PetscSNPrintf(folder, sizeof(folder), "%s/contact-XXXXXX", tmp && tmp[0] ? tmp : "/tmp"));
-  PetscCheck(mkdtemp(folder), PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot make the folder %s", folder);
+  PetscCheck(mkdtemp(folder), PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot create the folder %s", folder);
   PetscCall(PetscSNPrintf(file, sizeof(file), "%.1000s/mesh.msh", folder));
   ierr                  = GmshRunConverter(body, file);
   body->gmsh.descriptor = ierr ? 0 : PetscMax(0, open(file, O_RDONLY | O_CLOEXEC));
   (void)unlink(file);
   (void)rmdir(folder);
   PetscCall(ierr);
-  PetscCheck(body->gmsh.descriptor, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot read %s", file);
+  PetscCheck(body->gmsh.descriptor, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot read the converted file %s", file);
   PetscCall(PetscSNPrintf(path, length, "/proc/self/fd/%d", body->gmsh.descriptor));
   PetscFunctionReturn(0);
 }
 
-/* An earlier body with the same file and scale; this body itself if there is none */
+/* Returns the number of an earlier body with the same file and scale, or b if there is none */
 static PetscInt GmshFindSame(const SceneBody bodies[], PetscInt b)
 {
   for (PetscInt a = 0; a < b; ++a) {

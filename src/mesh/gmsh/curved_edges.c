@@ -1,24 +1,26 @@
 /*
-   Quadratic cells for a grid of straight ones. Edges on its surface become arcs that fit the normals at their ends, as
-   between contact facets; edges inside stay straight. Edges where facets make an angle larger than ARC_FEATURE stay
-   sharp; they are bent by the surfaces on both sides.
+   Computes quadratic cells for a grid of straight hexahedra. Edges on the surface of the grid become arcs that are
+   perpendicular to the mean normals at their ends, as in src/contact/smooth. Edges inside stay straight. Edges at which
+   the normals of the facets make an angle larger than ARC_FEATURE stay sharp; their curve is determined by the surfaces
+   on both sides.
 */
 #include "gmshimpl.h"
 #include <vector3.h>
 #include <stdlib.h>
 
 #define ARC_FEATURE SHAPE_SHARP
-#define ARC_FLAT    1e-6 /* relative to an edge: smaller heights are rounding of the file */
+#define ARC_FLAT    1e-6 /* heights of arcs that are smaller, relative to the edge, are rounding errors of the file */
 
-/* The boundary facets of a grid, vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet f;
-   it also stands for the edge from there to the next vertex */
+/* The boundary facets of a grid, with vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet
+   f. It also represents the edge from that vertex to the next. */
 typedef struct {
   PetscInt         ncorners, *vertex;
-  PetscInt        *twin; /* the same edge in the neighbouring facet; negative: sharp, or not exactly one neighbour */
-  const PetscReal *x;    /* 3 coordinates per vertex */
+  PetscInt        *twin; /* for each corner, the corner that represents the same edge in the neighbouring facet; -1
+                            if the edge is sharp or does not have exactly one neighbour */
+  const PetscReal *x;    /* 3 coordinates per vertex [length] */
 } ArcSurface;
 
-/* An object that is found by up to four vertices, ascending */
+/* An item, with the number `at`, that is identified by up to four vertices in ascending order */
 typedef struct {
   PetscInt key[4], at;
 } ArcKey;
@@ -43,12 +45,13 @@ static PetscInt ArcBefore(PetscInt corner)
   return corner % 4 ? corner - 1 : corner + 3;
 }
 
+/* Computes the edge vector e between the vertices of two corners [length] */
 static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e[3])
 {
   for (PetscInt d = 0; d < 3; ++d) e[d] = s->x[3 * s->vertex[to] + d] - s->x[3 * s->vertex[from] + d];
 }
 
-/* Finds the sides of cells that belong to one cell only */
+/* Finds the sides of cells that belong to only one cell */
 static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
 {
   static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
@@ -77,7 +80,7 @@ static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
   PetscFunctionReturn(0);
 }
 
-/* Normal from the diagonals, since a facet need not be plane */
+/* Computes the unit normal of a corner's facet from its diagonals, because a facet need not be plane */
 static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
   const PetscInt first = corner - corner % 4;
@@ -89,7 +92,7 @@ static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
   (void)VectorScaleToUnit(n);
 }
 
-/* Finds the neighbour of each edge. edges: all corners by the ends of their edges, sorted */
+/* Finds the neighbour of each edge. edges: all corners, sorted by the ends of their edges */
 static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
 {
   const PetscReal cosine = PetscCosReal(ARC_FEATURE * PETSC_PI / 180);
@@ -108,7 +111,8 @@ static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
   }
 }
 
-/* First (clockwise) and last corner around a corner's vertex before a sharp edge; returns true if there is none */
+/* Finds the first (clockwise) and the last corner around a corner's vertex before a sharp edge or a border. Returns
+   true if there is neither. */
 static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last)
 {
   *first = *last = corner;
@@ -123,8 +127,11 @@ static PetscBool ArcFan(const ArcSurface *s, PetscInt corner, PetscInt *first, P
   return PETSC_FALSE;
 }
 
-/* n: sum of (e x f) / (e.e f.f) over the corners of a fan, with e and f the edges that meet there; exact on spheres
-   and cylinders (N. Max, J. Graphics Tools 4 (1999)) */
+/*
+   Computes n, the sum of (e x f) / (e.e f.f) over the corners of the fan around a corner's vertex, scaled to length 1.
+   The edges e and f meet at each corner. The normal is exact on spheres and cylinders (N. Max, J. Graphics Tools 4
+   (1999)). Returns whether the fan is closed.
+*/
 static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *first, PetscInt *last, PetscReal n[3])
 {
   const PetscBool closed = ArcFan(s, corner, first, last);
@@ -144,9 +151,9 @@ static PetscBool ArcFanNormal(const ArcSurface *s, PetscInt corner, PetscInt *fi
   return closed;
 }
 
-/* Difference between the component of n along an edge and that of the mirror image of the normal at the other end;
-   it is zero at the ends of an arc */
-static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
+/* Returns the component along the edge e that n lacks to be the mirror image of the normal at the edge's other end,
+   multiplied by the length of e. It is zero for an arc. */
+static PetscReal ArcMissing(const ArcSurface *s, PetscInt other, const PetscReal n[3], const PetscReal e[3])
 {
   PetscReal m[3];
   PetscInt  first, last;
@@ -155,27 +162,30 @@ static PetscReal ArcLack(const ArcSurface *s, PetscInt other, const PetscReal n[
   return -VectorDot(n, e) - VectorDot(m, e);
 }
 
-/* Corrects the normal at a corner with a single facet: along both edges the surface is an arc */
-static void ArcMendCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
+/* Corrects the normal n at a corner whose vertex has a single facet, so that the surface is an arc along both edges */
+static void ArcCorrectCorner(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
-  PetscReal e[2][3], lack[2], a, b, c, det;
+  PetscReal e[2][3], missing[2], a, b, c, det;
 
   ArcEdge(s, corner, ArcAfter(corner), e[0]);
   ArcEdge(s, corner, ArcBefore(corner), e[1]);
-  lack[0] = ArcLack(s, ArcAfter(corner), n, e[0]);
-  lack[1] = ArcLack(s, ArcBefore(corner), n, e[1]);
-  a       = VectorDot(e[0], e[0]);
-  b       = VectorDot(e[1], e[1]);
-  c       = VectorDot(e[0], e[1]);
-  det     = a * b - c * c;
+  missing[0] = ArcMissing(s, ArcAfter(corner), n, e[0]);
+  missing[1] = ArcMissing(s, ArcBefore(corner), n, e[1]);
+  a          = VectorDot(e[0], e[0]);
+  b          = VectorDot(e[1], e[1]);
+  c          = VectorDot(e[0], e[1]);
+  det        = a * b - c * c;
   if (!(det > 1e-4 * a * b)) return;
   for (PetscInt d = 0; d < 3; ++d)
-    n[d] += ((b * lack[0] - c * lack[1]) * e[0][d] + (a * lack[1] - c * lack[0]) * e[1][d]) / det;
+    n[d] += ((b * missing[0] - c * missing[1]) * e[0][d] + (a * missing[1] - c * missing[0]) * e[1][d]) / det;
 }
 
-/* Corrects the normal where the surface ends: along the border the mean is right; across it the surface is an arc
-   along the edges that lead inward, by least squares */
-static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, PetscReal n[3])
+/*
+   Corrects the normal n where the surface ends. The component along the border is that of the mean normal. The
+   component across the border is determined by least squares, so that the surface is an arc along the edges that lead
+   away from the border.
+*/
+static void ArcCorrectBorder(const ArcSurface *s, PetscInt first, PetscInt last, PetscReal n[3])
 {
   PetscReal e[3], f[3], along[3], across[3], sum = 0, squares = 0;
 
@@ -186,24 +196,26 @@ static void ArcMendBorder(const ArcSurface *s, PetscInt first, PetscInt last, Pe
   (void)VectorScaleToUnit(across);
   for (PetscInt c = first; c != last; c = s->twin[ArcBefore(c)]) {
     ArcEdge(s, c, ArcBefore(c), f);
-    sum += ArcLack(s, ArcBefore(c), n, f) * VectorDot(across, f);
+    sum += ArcMissing(s, ArcBefore(c), n, f) * VectorDot(across, f);
     squares += PetscSqr(VectorDot(across, f));
   }
   for (PetscInt d = 0; squares > 0 && d < 3; ++d) n[d] += sum / squares * across[d];
 }
 
+/* Computes the unit normal at a corner, corrected where the surface ends */
 static void ArcNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
   PetscInt        first, last;
   const PetscBool closed = ArcFanNormal(s, corner, &first, &last, n);
 
   if (closed) return;
-  if (first == last) ArcMendCorner(s, corner, n);
-  else ArcMendBorder(s, first, last, n);
+  if (first == last) ArcCorrectCorner(s, corner, n);
+  else ArcCorrectBorder(s, first, last, n);
   (void)VectorScaleToUnit(n);
 }
 
-/* Height of an arc in the middle of an edge, along the mean N of the normals at its ends; 0 within rounding */
+/* Returns the height of an arc in the middle of a corner's edge [length], along the mean N of the normals at the edge's
+   ends. It is 0 if it is smaller than rounding. */
 static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
 {
   PetscReal n[2][3], e[3], slope[2], height;
@@ -219,7 +231,8 @@ static PetscReal ArcHeight(const ArcSurface *s, PetscInt corner, PetscReal N[3])
   return PetscAbsReal(height) > ARC_FLAT * VectorNorm(e) ? height : 0;
 }
 
-/* off: the shortest vector from the middle of an edge that has both heights */
+/* Computes off, the shortest vector [length] whose components along n1 and n2 are the heights h1 and h2. For almost
+   equal normals it is the mean of both heights. */
 static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const PetscReal n2[3], PetscReal off[3])
 {
   const PetscReal c = VectorDot(n1, n2), det = 1 - c * c;
@@ -228,8 +241,8 @@ static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const Pet
     off[d] = det > 0.03 ? ((h1 - c * h2) * n1[d] + (h2 - c * h1) * n2[d]) / det : (h1 * n1[d] + h2 * n2[d]) / 2;
 }
 
-/* off: for each edge of the surface, in the order of `edges`, the offset of its middle; equal edges store it at the
-   first. Returns whether any edge is bent */
+/* Computes for each edge of the surface, in the order of `edges`, the vector `off` by which its middle is moved
+   [length]. Equal edges store it at the first of them. Returns whether any edge is curved. */
 static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscReal off[])
 {
   PetscBool bent = PETSC_FALSE;
@@ -254,7 +267,7 @@ static ArcKey ArcEdgeKey(PetscInt a, PetscInt b, PetscInt at)
   return key;
 }
 
-/* Fills the quadratic cells, with the edges on the surface bent */
+/* Computes the quadratic cells: middles of edges on the surface are moved by `off` */
 static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[],
   PetscReal curve[])
 {
@@ -276,7 +289,7 @@ static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey ed
   }
 }
 
-/* Sets the grid's curve unless all its edges are straight */
+/* Sets the grid's curve, unless all its edges are straight */
 PetscErrorCode ShapeGridProject(ShapeGrid *grid)
 {
   ArcSurface s;

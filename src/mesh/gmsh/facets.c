@@ -2,11 +2,12 @@
 #include "gmshimpl.h"
 #include <stdlib.h>
 
-/* elements per slice; the number of slices is limited, since each slice passes over all elements */
+/* number of elements per slice. The number of slices is limited, because each slice needs a pass over all elements. */
 #define GMSH_SLICE      64
 #define GMSH_MAX_SLICES 16
 
-/* The sides of hexahedra, prisms, pyramids and tetrahedra in Gmsh's order of the corners, by the number of corners */
+/* The sides of hexahedra, prisms, pyramids and tetrahedra in Gmsh's order of the corners. The table `sides` is indexed
+   by the number of corners. */
 static const int hexahedron[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
   {3, 0, 4, 7}};
 static const int prism[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}, pyramid[1][4] = {{0, 1, 2, 3}},
@@ -17,6 +18,7 @@ static const struct {
   const int (*corners)[4];
 } sides[9] = {[4] = {4, 3, tetrahedron}, [5] = {1, 4, pyramid}, [6] = {3, 4, prism}, [8] = {6, 4, hexahedron}};
 
+/* Returns the facet with these corners */
 static GmshFacet GmshFacetOf(int n, const PetscInt64 corners[], PetscInt64 element)
 {
   GmshFacet facet = {.nodes = {-1}, .element = element, .across = -1};
@@ -45,6 +47,7 @@ PetscBool GmshFacetsNext(GmshFacets *facets)
   return ++facets->slice < facets->nslices ? PETSC_TRUE : PETSC_FALSE;
 }
 
+/* Returns whether a facet with these corners belongs to the present slice */
 static PetscBool GmshFacetsHave(const GmshFacets *facets, int n, const PetscInt64 corners[])
 {
   PetscInt64 least = corners[0];
@@ -53,7 +56,7 @@ static PetscBool GmshFacetsHave(const GmshFacets *facets, int n, const PetscInt6
   return ((least < 0 ? -least : least) % facets->nslices) == facets->slice ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Adds the sides of a cell that belong to the slice; other elements have none */
+/* Adds those sides of a cell that belong to the present slice. Elements that are not cells have no sides. */
 PetscErrorCode GmshFacetsAdd(const GmshType *type, PetscInt64 element, const PetscInt64 nodes[], GmshFacets *facets)
 {
   const int n = type->dim == 3 ? sides[type->ncorners].n : 0;
@@ -88,8 +91,8 @@ void GmshFacetsSort(GmshFacets *facets)
   if (facets->n) qsort(facets->list, (size_t)facets->n, sizeof(*facets->list), GmshCompareFacets);
 }
 
-/* Checks that cells that share the nodes of a side have the same facet there, and that at most two cells share it. The
-   facets must be sorted. */
+/* Checks that two cells that share the nodes of a side have the same facet there, and that at most two cells share it.
+   The facets must be sorted. */
 PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 {
   for (PetscInt64 i = 1; i < facets->n; ++i) {
@@ -97,17 +100,17 @@ PetscBool GmshFacetsAgree(const GmshFacets *facets, GmshStream *in)
 
     if (GmshCompareFacets(here, before)) continue;
     if (here->across != before->across)
-      return GmshWrong(in, "the elements %lld and %lld have the corners of a facet in orders that do not agree",
+      return GmshWrong(in, "the elements %lld and %lld list the corners of their common facet in different orders",
         (long long)before->element, (long long)here->element);
     if (i > 1 && !GmshCompareFacets(here, here - 2))
-      return GmshWrong(in, "the elements %lld, %lld and %lld have one facet in common", (long long)before[-1].element,
-        (long long)before->element, (long long)here->element);
+      return GmshWrong(in, "the elements %lld, %lld and %lld share one facet, which only two may do",
+        (long long)before[-1].element, (long long)before->element, (long long)here->element);
   }
   return PETSC_TRUE;
 }
 
-/* Whether exactly one facet of this slice has these corners; a facet between two cells is inside the body. The facets
-   must be sorted. */
+/* Returns whether exactly one facet of the present slice has these corners. A facet that two cells have is inside the
+   body. The facets must be sorted. */
 PetscBool GmshFacetsBound(const GmshFacets *facets, PetscInt ncorners, const PetscInt64 corners[])
 {
   const GmshFacet  wanted = GmshFacetOf((int)ncorners, corners, 0);

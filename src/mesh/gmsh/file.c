@@ -1,11 +1,12 @@
-/* Bodies from Gmsh files: the file is read on rank 0, and each body's volume is extracted */
+/* Bodies from Gmsh files: the file is read on rank 0, and the volume of each body is extracted there */
 #include "gmshimpl.h"
 #include <petscbt.h>
 
-/* Gmsh's corner number of each corner i + 2 j + 4 k of a hexahedron; tetrahedra have the same order */
+/* Gmsh's number of each corner i + 2 j + 4 k of a hexahedron, indexed by the number of corners. Tetrahedra have the
+   same order in Gmsh. */
 static const PetscInt corner_at[9][8] = {[4] = {0, 1, 2, 3}, [8] = {0, 1, 3, 2, 4, 5, 7, 6}};
 
-/* Reads the file, on rank 0 */
+/* Reads the file, on rank 0 only */
 static PetscErrorCode GmshReadFile(const char file[], GmshMesh *mesh)
 {
   char message[256];
@@ -50,13 +51,14 @@ PetscErrorCode GmshFileClose(GmshFile *file)
   PetscFunctionReturn(0);
 }
 
-/* Whether the element is a cell of the volume */
+/* Returns whether the element is a cell of the volume with this tag */
 static PetscBool GmshIsWithin(const GmshMesh *mesh, const GmshElement *element, PetscInt volume)
 {
   return element->type->dim == 3 && GmshMeshHasTag(mesh, element, volume) ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Checks that all cells are of one kind, which can be read; before: type of the cells before */
+/* Checks that the cells of a volume are hexahedra or tetrahedra, and that all are of one kind. before: type of the
+   cells before, or NULL */
 static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type, const GmshType *before)
 {
   PetscFunctionBegin;
@@ -65,14 +67,14 @@ static PetscErrorCode GmshCheckType(const SceneBody *body, const GmshType *type,
     "are read",
     body->gmsh.volume, body->gmsh.file, type->name);
   PetscCheck(!before || type->ncorners == before->ncorners, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "the volume \"%s\" of %s has cells of the types %s and %s; all cells of a volume must have one type: make two "
-    "physical volumes, and tie them",
+    "the volume \"%s\" of %s has cells of the types %s and %s, but all cells of a volume must have one type: define "
+    "two physical volumes, and tie them",
     body->gmsh.volume, body->gmsh.file, before->name, type->name);
   PetscFunctionReturn(0);
 }
 
-/* Extracts the cells of the body's volume with new vertex numbers; number: new number by position of each node,
-   PETSC_DECIDE: none */
+/* Extracts the cells of the body's volume and numbers their vertices. number[i]: new number of the node with position
+   i; PETSC_DECIDE if it is no vertex of the volume */
 static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt number[],
   ShapeGrid *grid)
 {
@@ -100,6 +102,7 @@ static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body,
   PetscFunctionReturn(0);
 }
 
+/* Extracts the coordinates of the vertices */
 static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt number[], ShapeGrid *grid)
 {
   PetscFunctionBegin;
@@ -110,7 +113,8 @@ static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt nu
   PetscFunctionReturn(0);
 }
 
-/* Extracts second-order cells, unless their edges are straight */
+/* Extracts the curves of second-order cells, unless all edges are straight. *quadratic: whether the cells are of second
+   order */
 static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
 {
   const PetscInt ncoordinates = grid->ncorners == 4 ? 30 : 81;
@@ -147,7 +151,7 @@ static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscB
   PetscFunctionReturn(0);
 }
 
-/* Corners of an element of a surface; a triangle repeats the last one */
+/* Gets the corners of an element of a surface. A triangle repeats its last corner. */
 static void GmshGetCorners(const GmshMesh *mesh, const GmshElement *element, PetscInt64 corners[4])
 {
   for (PetscInt a = 0; a < 4; ++a) corners[a] = mesh->nodes[element->first + PetscMin(a, element->type->ncorners - 1)];
@@ -183,7 +187,7 @@ static PetscErrorCode GmshFindBoundary(const GmshMesh *mesh, PetscInt volume, Pe
   PetscFunctionReturn(0);
 }
 
-/* Extracts the facets of the surfaces; a facet on several surfaces is listed for each */
+/* Extracts the facets of the surfaces with these tags. A facet that belongs to several surfaces is listed for each. */
 static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, PetscInt nsurfaces,
   const PetscInt surfaces[], const PetscInt number[], ShapeGrid *grid)
 {
@@ -224,8 +228,8 @@ static PetscErrorCode GmshCutSurfaces(const GmshMesh *mesh, PetscInt volume, Pet
   PetscFunctionReturn(0);
 }
 
-/* Checks that no two vertices coincide: sorts them along a direction in which hardly any vertices of a regular mesh
-   have equal coordinates */
+/* Checks that no two vertices have the same position. Sorts the vertices along a direction in which hardly any vertices
+   of a regular mesh have equal coordinates. */
 static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *grid)
 {
   static const PetscReal direction[3] = {0.5773, 0.6180, 0.5342};
@@ -254,7 +258,9 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
       PetscCheck(PetscAbsReal(a[0] - b[0]) > near || PetscAbsReal(a[1] - b[1]) > near ||
                    PetscAbsReal(a[2] - b[2]) > near,
         PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-        "the volume \"%s\" of %s has two nodes at one place, (%g, %g, %g), so its cells are not connected there",
+        "the volume \"%s\" of %s has two nodes with the position (%g, %g, %g), so that its cells are not connected "
+        "there: "
+        "merge the nodes in the mesh file",
         body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
     }
   }
@@ -262,7 +268,7 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
   PetscFunctionReturn(0);
 }
 
-/* Extracts a body, on rank 0; volume: its tag */
+/* Extracts the grid of a body, on rank 0. volume: tag of its volume */
 static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, PetscInt volume, PetscInt nsurfaces,
   const PetscInt surfaces[], ShapeGrid *grid)
 {

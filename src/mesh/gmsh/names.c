@@ -1,9 +1,9 @@
-/* Physical names of a Gmsh file, read on rank 0 */
+/* Physical names of a Gmsh file, which are read on rank 0 */
 #include "gmshimpl.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the first section, after comments, is that of a Gmsh file */
+/* Returns whether the first section after comments is $MeshFormat, as in every Gmsh file */
 static PetscBool GmshIsGmsh(FILE *stream)
 {
   char      line[PETSC_MAX_PATH_LEN];
@@ -20,7 +20,7 @@ static PetscBool GmshIsGmsh(FILE *stream)
   return PETSC_FALSE;
 }
 
-/* Collects the entries of one dimension in the section $PhysicalNames as: tag, blank, name, new line */
+/* Collects the entries of one dimension in the section $PhysicalNames as lines that consist of tag, blank and name */
 static PetscErrorCode GmshScanPhysicalNames(FILE *stream, PetscInt dim, size_t *length, char **entries)
 {
   char      line[PETSC_MAX_PATH_LEN], entry[PETSC_MAX_PATH_LEN];
@@ -63,7 +63,7 @@ static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim,
   PetscFunctionReturn(0);
 }
 
-/* Gets the entries of one dimension on all ranks */
+/* Collective. Gets the entries of one dimension on all ranks */
 static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
 {
   RankError      error;
@@ -111,7 +111,7 @@ PetscErrorCode GmshGetPhysicalNames(MPI_Comm comm, const SceneBody *body, PetscI
   PetscFunctionReturn(0);
 }
 
-/* Gets the tag of the body's volume */
+/* Collective. Gets the tag of the body's volume */
 PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *tag)
 {
   char      choices[512], **volumes;

@@ -1,16 +1,16 @@
-/* Turns Gmsh's hexahedra with 8, 20 or 27 nodes into quadratic cells with 27 nodes, and tetrahedra with 4 or 10 into
-   ones with 10 */
+/* Converts Gmsh's hexahedra with 8, 20 or 27 nodes into quadratic cells with 27 nodes, and tetrahedra with 4 or 10
+   nodes into quadratic cells with 10 nodes */
 #include "gmshimpl.h"
 
-/* Position i + 3 j + 9 k of each of Gmsh's nodes: corners, edge middles, facet middles, centre */
+/* The position i + 3 j + 9 k of each of Gmsh's nodes: corners, edge middles, facet middles, centre */
 static const PetscInt place_of[GMSH_MAX_NODES] = {0, 2, 8, 6, 18, 20, 26, 24, 1, 3, 9, 5, 11, 7, 17, 15, 19, 21, 23, 25,
   4, 10, 12, 14, 16, 22, 13};
 
-/* For each of the first 20 nodes the corners, i + 2 j + 4 k, at the ends of its edge */
+/* For each of the first 20 nodes, the corners i + 2 j + 4 k at the ends of its edge. A corner is listed twice. */
 const PetscInt GmshHexahedronEnds[20][2] = {{0, 0}, {1, 1}, {3, 3}, {2, 2}, {4, 4}, {5, 5}, {7, 7}, {6, 6}, {0, 1},
   {0, 2}, {0, 4}, {1, 3}, {1, 5}, {3, 2}, {3, 7}, {2, 6}, {4, 5}, {4, 6}, {5, 7}, {7, 6}};
 
-/* Whether coordinate d of a node's position is in the middle of the cell */
+/* Returns whether a node is in the middle of the cell in direction d */
 static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
 {
   static const PetscInt step[3] = {1, 3, 9};
@@ -18,8 +18,11 @@ static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
   return place / step[d] % 3 == 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
-/* Sum over certain nodes: in the directions `ends`, in which this node is in the middle, they are at an end; in the
-   other directions they agree with it */
+/*
+   Sums the coordinates of certain other nodes. In `ends` of the directions in which the node is in the middle, the
+   other nodes are at an end. In the remaining directions in which the node is in the middle, they are in the middle
+   too. In all other directions they agree with the node.
+*/
 static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
 {
   sum[0] = sum[1] = sum[2] = 0;
@@ -36,7 +39,7 @@ static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, P
   }
 }
 
-/* Position in a straight cell: mean of the corners around the node */
+/* Computes the position of a node in a straight cell: the mean of the corners around it */
 static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal straight[3])
 {
   PetscInt n = 0;
@@ -46,8 +49,8 @@ static void OrderSetStraight(PetscReal curve[81], PetscInt place, PetscReal stra
   for (PetscInt d = 0; d < 3; ++d) straight[d] /= (PetscReal)(1 << n);
 }
 
-/* Sets the nodes that 20-node cells lack, in the middle of facets and of the cell, from their shape functions there:
-   -1/4 at the corners, 1/2 or 1/4 at the edge middles */
+/* Computes a node in the middle of a facet or of the cell, which cells with 20 nodes do not have. The shape functions
+   there are -1/4 at the corners, and 1/2 (facet) or 1/4 (cell) at the edge middles. */
 static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
 {
   const PetscBool cell = (PetscBool)(place == 13);
@@ -58,7 +61,8 @@ static void OrderSetMiddle(PetscReal curve[81], PetscInt place)
   for (PetscInt d = 0; d < 3; ++d) curve[3 * place + d] = (cell ? 0.25 : 0.5) * edges[d] - 0.25 * corners[d];
 }
 
-/* Corners, then edge middles; Gmsh has the last two in the opposite order */
+/* Computes the nodes of a tetrahedron: the corners, then the edge middles. Gmsh lists the last two edge middles in the
+   opposite order. */
 static PetscReal OrderGetTetrahedron(PetscInt nnodes, const PetscReal x[][3], PetscReal curve[])
 {
   static const PetscInt of_gmsh[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};

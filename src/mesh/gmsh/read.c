@@ -1,5 +1,5 @@
-/* Reads a Gmsh file, formats 2.2, 4.0 and 4.1, and checks every number in it. It reads words, numbers and blanks in
-   the same order as PETSc's reader */
+/* Reads a Gmsh file of format 2.2, 4.0 or 4.1, and checks every number in it. Words, numbers and blanks are read in the
+   same order as by PETSc's reader. */
 #include "gmshimpl.h"
 #include <petscbt.h>
 #include <string.h>
@@ -7,15 +7,17 @@
 #define GMSH_MAX_TAGS 100
 
 typedef struct {
-  GmshStream in;
-  PetscInt   nentities[4], *entities[4],
-    *labels[4];                 /* sorted numbers of the entities of each dimension, and positions of their tags */
-  PetscInt64     first, nnodes; /* node numbers are in [first, first + nnodes) */
-  PetscBT        nodes;         /* which of these exist */
-  PetscSegBuffer tags, elements, corners; /* data of the mesh being read */
+  GmshStream     in;
+  PetscInt       nentities[4];            /* number of entities of each dimension */
+  PetscInt      *entities[4];             /* their numbers, sorted */
+  PetscInt      *labels[4];               /* positions of their tags */
+  PetscInt64     first, nnodes;           /* Node numbers are in [first, first + nnodes). */
+  PetscBT        nodes;                   /* which of these numbers exist */
+  PetscSegBuffer tags, elements, corners; /* tags, elements and nodes of the mesh that is being read */
   GmshMesh      *mesh;
 } GmshReader;
 
+/* Reads and checks the section $MeshFormat */
 static PetscBool GmshCheckFormat(GmshReader *reader)
 {
   char   words[3][GMSH_WORD], rest;
@@ -38,12 +40,12 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
   if (reader->in.binary) {
     if (!GmshGetBytes(&reader->in, 4, &one)) return PETSC_FALSE;
     reader->in.swapped = one == 1 ? PETSC_FALSE : PETSC_TRUE;
-    if (one != 1 && one != 1 << 24) return GmshWrong(&reader->in, "the order of its bytes cannot be told");
+    if (one != 1 && one != 1 << 24) return GmshWrong(&reader->in, "its byte order cannot be determined");
   }
   return GmshExpectNext(&reader->in, "$EndMeshFormat");
 }
 
-/* Checks the physical names: a count, then a dimension, a tag and a quoted name for each */
+/* Reads and checks the section $PhysicalNames: a count, then a dimension, a tag and a quoted name for each */
 static PetscBool GmshCheckNames(GmshReader *reader)
 {
   PetscInt64 count = 0;
@@ -57,7 +59,7 @@ static PetscBool GmshCheckNames(GmshReader *reader)
     for (int j = 0; j < 2; ++j) {
       if (!GmshGetWord(&reader->in, words[j])) return PETSC_FALSE;
       if (sscanf(words[j], "%d%c", &number, &rest) != 1)
-        return GmshWrong(&reader->in, "a dimension and a tag are expected in $PhysicalNames where \"%s\" stands",
+        return GmshWrong(&reader->in, "a dimension and a tag are expected in $PhysicalNames instead of \"%s\"",
           words[j]);
     }
     if (!fgets(name, sizeof(name), reader->in.file)) return GmshWrong(&reader->in, "it ends too early");
@@ -71,8 +73,8 @@ static PetscBool GmshCheckNames(GmshReader *reader)
   return GmshExpectNext(&reader->in, "$EndPhysicalNames");
 }
 
-/* Stores tags; label: their position among the mesh's tags */
-static PetscErrorCode GmshKeepTags(GmshReader *reader, PetscInt64 n, const PetscInt64 tags[], PetscInt *label)
+/* Stores tags. *label: their position among the mesh's tags */
+static PetscErrorCode GmshStoreTags(GmshReader *reader, PetscInt64 n, const PetscInt64 tags[], PetscInt *label)
 {
   PetscSegBufferCount at;
   PetscInt           *slot;
@@ -86,7 +88,7 @@ static PetscErrorCode GmshKeepTags(GmshReader *reader, PetscInt64 n, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* Reads an entity; label: position of its physical tags */
+/* Reads an entity. *entity: its number; *label: position of its physical tags */
 static PetscErrorCode GmshReadEntity(GmshReader *reader, int dim, PetscInt *entity, PetscInt *label, PetscBool *sound)
 {
   PetscInt64 number = 0, ntags = 0, tags[16], bound;
@@ -103,12 +105,13 @@ static PetscErrorCode GmshReadEntity(GmshReader *reader, int dim, PetscInt *enti
   if (*sound) *sound = GmshGetNumbers(&reader->in, 4, ntags, tags);
   if (!*sound) PetscFunctionReturn(0);
   *entity = (PetscInt)number;
-  PetscCall(GmshKeepTags(reader, ntags, tags, label));
+  PetscCall(GmshStoreTags(reader, ntags, tags, label));
   if (dim) *sound = GmshGetCounts(&reader->in, "tags", 1, &ntags);
   for (PetscInt64 i = 0; dim && *sound && i < ntags; ++i) *sound = GmshGetNumbers(&reader->in, 4, 1, &bound);
   PetscFunctionReturn(0);
 }
 
+/* Reads the section $Entities */
 static PetscErrorCode GmshReadEntities(GmshReader *reader, PetscBool *sound)
 {
   PetscInt64 counts[4];
@@ -126,8 +129,8 @@ static PetscErrorCode GmshReadEntities(GmshReader *reader, PetscBool *sound)
   PetscFunctionReturn(0);
 }
 
-/* Reads the header of a block of nodes or elements in formats 4; its entity must exist. label: of the entity's tags;
-   last: its third number */
+/* Reads the header of a block of nodes or elements in formats 4. The entity of the block must exist. *label: position
+   of the entity's tags; *last: the third number of the header */
 static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscInt *label, PetscInt64 *last,
   PetscInt64 *count, PetscBool *sound)
 {
@@ -146,13 +149,13 @@ static PetscErrorCode GmshReadBlock(GmshReader *reader, PetscInt64 *dim, PetscIn
   if (*dim >= 0 && *dim <= 3)
     PetscCall(PetscFindInt((PetscInt)entity, reader->nentities[*dim], reader->entities[*dim], &at));
   if (at < 0)
-    *sound = GmshWrong(&reader->in, "a block is of the entity %lld of dimension %lld, which does not exist",
+    *sound = GmshWrong(&reader->in, "a block belongs to the entity %lld of dimension %lld, which does not exist",
       (long long)entity, (long long)*dim);
   else *label = reader->labels[*dim][at];
   PetscFunctionReturn(0);
 }
 
-/* Marks node numbers as existing; all numbers have been checked to be in range */
+/* Marks the numbers of nodes as existing. Checks that they are in range, and that no number is repeated. */
 static PetscErrorCode GmshMarkNodes(GmshReader *reader, PetscInt64 n, const PetscInt64 numbers[], PetscBool *sound)
 {
   PetscInt64 first = PETSC_MAX_INT, last = 0;
@@ -168,17 +171,18 @@ static PetscErrorCode GmshMarkNodes(GmshReader *reader, PetscInt64 n, const Pets
   reader->first  = first;
   reader->nnodes = last - first + 1;
   if (reader->nnodes > 1000000 + 100 * n)
-    *sound = GmshWrong(&reader->in, "its %lld nodes have numbers from %lld to %lld; number them anew", (long long)n,
+    *sound = GmshWrong(&reader->in, "its %lld nodes have numbers from %lld to %lld: renumber them", (long long)n,
       (long long)first, (long long)last);
   if (!*sound) PetscFunctionReturn(0);
   PetscCall(PetscBTCreate((PetscInt)reader->nnodes, &reader->nodes));
   for (PetscInt64 i = 0; i < n && *sound; ++i) {
     if (PetscBTLookupSet(reader->nodes, (PetscInt)(numbers[i] - first)))
-      *sound = GmshWrong(&reader->in, "the node %lld is given twice", (long long)numbers[i]);
+      *sound = GmshWrong(&reader->in, "the node %lld is defined twice", (long long)numbers[i]);
   }
   PetscFunctionReturn(0);
 }
 
+/* Reads the nodes of a block: their numbers and coordinates */
 static PetscBool GmshGetNodesOfBlock(GmshReader *reader, PetscInt64 n, PetscInt64 numbers[], PetscReal x[])
 {
   if (reader->in.version > 40)
@@ -191,8 +195,8 @@ static PetscBool GmshGetNodesOfBlock(GmshReader *reader, PetscInt64 n, PetscInt6
   return PETSC_TRUE;
 }
 
-/* Stores node numbers that have been checked */
-static PetscErrorCode GmshKeepNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt64 numbers[])
+/* Stores the numbers of nodes, which have been checked */
+static PetscErrorCode GmshStoreNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt64 numbers[])
 {
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(n, &mesh->number, n, &mesh->place));
@@ -205,8 +209,8 @@ static PetscErrorCode GmshKeepNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Reads the counts of blocks and of their contents in formats 4; format 4.1 also gives the smallest and largest
-   number, on which PETSc relies */
+/* Reads the number of blocks, and the number of nodes or elements in them. Format 2 has one block. Format 4.1 also
+   gives the range of the numbers, on which PETSc relies. */
 static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], PetscInt64 *nblocks, PetscInt64 *count,
   PetscInt64 range[2], PetscBool *sound)
 {
@@ -228,6 +232,7 @@ static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], Petsc
   PetscFunctionReturn(0);
 }
 
+/* Reads and checks the section $Nodes */
 static PetscErrorCode GmshCheckNodes(GmshReader *reader, PetscBool *sound)
 {
   PetscInt64 nblocks, total, n = 0, *numbers, range[2] = {0, PETSC_MAX_INT};
@@ -257,7 +262,7 @@ static PetscErrorCode GmshCheckNodes(GmshReader *reader, PetscBool *sound)
     *sound = GmshWrong(&reader->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld",
       (long long)reader->first, (long long)(reader->first + reader->nnodes - 1), (long long)range[0],
       (long long)range[1]);
-  if (*sound) PetscCall(GmshKeepNodes(reader->mesh, total, numbers));
+  if (*sound) PetscCall(GmshStoreNodes(reader->mesh, total, numbers));
   PetscCall(PetscFree(numbers));
   if (*sound) *sound = GmshExpectNext(&reader->in, "$EndNodes");
   PetscFunctionReturn(0);
@@ -272,6 +277,7 @@ static PetscBool GmshReadType(GmshReader *reader, PetscInt64 number, const GmshT
                    (long long)number);
 }
 
+/* Checks that the nodes of an element exist, and that none is repeated */
 static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscInt64 n, const PetscInt64 nodes[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
@@ -289,8 +295,8 @@ static PetscBool GmshCheckElement(GmshReader *reader, PetscInt64 element, PetscI
   return PETSC_TRUE;
 }
 
-/* Stores an element; label: position of its tags */
-static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number,
+/* Stores an element. label: position of its tags */
+static PetscErrorCode GmshStoreElement(GmshReader *reader, const GmshType *type, PetscInt label, PetscInt64 number,
   const PetscInt64 nodes[])
 {
   GmshElement        *element;
@@ -308,8 +314,8 @@ static PetscErrorCode GmshKeepElement(GmshReader *reader, const GmshType *type, 
   PetscFunctionReturn(0);
 }
 
-/* Reads elements of format 2. Text files give type and number of tags for each element; binary files give them for a
-   run of elements. The first tag is the physical one */
+/* Reads the elements of format 2. Text files give the type and the number of tags for each element; binary files give
+   them for several successive elements. The first tag is the physical one. */
 static PetscErrorCode GmshReadElements2(GmshReader *reader, PetscInt64 total, PetscBool *sound)
 {
   PetscFunctionBegin;
@@ -335,13 +341,14 @@ static PetscErrorCode GmshReadElements2(GmshReader *reader, PetscInt64 total, Pe
                      ? PETSC_TRUE
                      : PETSC_FALSE;
       if (!*sound) break;
-      PetscCall(GmshKeepTags(reader, PetscMin(1, head[2]), numbers + 1, &label));
-      PetscCall(GmshKeepElement(reader, type, label, numbers[0], nodes));
+      PetscCall(GmshStoreTags(reader, PetscMin(1, head[2]), numbers + 1, &label));
+      PetscCall(GmshStoreElement(reader, type, label, numbers[0], nodes));
     }
   }
   PetscFunctionReturn(0);
 }
 
+/* Reads the elements of formats 4 */
 static PetscErrorCode GmshReadElements4(GmshReader *reader, PetscInt64 nblocks, PetscInt64 total, PetscBool *sound)
 {
   PetscInt64 c = 0;
@@ -367,7 +374,7 @@ static PetscErrorCode GmshReadElements4(GmshReader *reader, PetscInt64 nblocks, 
             GmshCheckElement(reader, numbers[0], type->nnodes, numbers + 1)
           ? PETSC_TRUE
           : PETSC_FALSE;
-      if (*sound) PetscCall(GmshKeepElement(reader, type, label, numbers[0], numbers + 1));
+      if (*sound) PetscCall(GmshStoreElement(reader, type, label, numbers[0], numbers + 1));
     }
   }
   if (*sound && c != total)
@@ -387,6 +394,7 @@ static PetscErrorCode GmshReadElements(GmshReader *reader, PetscBool *sound)
   PetscFunctionReturn(0);
 }
 
+/* Reads all sections of the file */
 static PetscErrorCode GmshReadSections(GmshReader *reader)
 {
   char      word[GMSH_WORD];
@@ -473,7 +481,7 @@ PetscErrorCode GmshMeshDestroy(GmshMesh *mesh)
   PetscFunctionReturn(0);
 }
 
-/* Whether `tag` is one of the element's physical tags */
+/* Returns whether `tag` is one of the element's physical tags */
 PetscBool GmshMeshHasTag(const GmshMesh *mesh, const GmshElement *element, PetscInt tag)
 {
   const PetscInt *tags = mesh->tags + element->label;
@@ -484,7 +492,7 @@ PetscBool GmshMeshHasTag(const GmshMesh *mesh, const GmshElement *element, Petsc
   return PETSC_FALSE;
 }
 
-/* Position among the coordinates of the node with this number, which exists */
+/* Gets the position among the coordinates of the node with this number, which must exist */
 PetscErrorCode GmshMeshFindNode(const GmshMesh *mesh, PetscInt number, PetscInt *place)
 {
   PetscInt at;

@@ -1,11 +1,11 @@
-/* Reads words and numbers of a Gmsh file, text or binary, skipping the same blanks as PETSc's reader */
+/* Reads words and numbers of a Gmsh file, text or binary. Skips the same blanks as PETSc's reader. */
 #include "gmshimpl.h"
 #include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <string.h>
 
-/* Stores the first error message */
+/* Stores an error message, unless there is one already */
 void GmshError(GmshStream *in, const char format[], ...)
 {
   va_list args;
@@ -30,7 +30,7 @@ PetscBool GmshGetWord(GmshStream *in, char word[GMSH_WORD])
   return PETSC_TRUE;
 }
 
-/* Reads the name of the next section, skipping comments */
+/* Reads the name of the next section and skips comments */
 PetscBool GmshGetSection(GmshStream *in, char word[GMSH_WORD])
 {
   PetscBool comments = PETSC_FALSE;
@@ -45,7 +45,7 @@ PetscBool GmshGetSection(GmshStream *in, char word[GMSH_WORD])
 
 PetscBool GmshExpect(GmshStream *in, const char section[], const char word[])
 {
-  return strcmp(word, section) ? GmshWrong(in, "%s is expected where \"%s\" stands", section, word) : PETSC_TRUE;
+  return strcmp(word, section) ? GmshWrong(in, "%s is expected instead of \"%s\"", section, word) : PETSC_TRUE;
 }
 
 PetscBool GmshExpectNext(GmshStream *in, const char section[])
@@ -64,7 +64,7 @@ PetscBool GmshGetBytes(GmshStream *in, size_t n, void *value)
   return PETSC_TRUE;
 }
 
-/* Reads integers of this many bytes */
+/* Reads n integers of `width` bytes */
 PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 values[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
@@ -73,8 +73,7 @@ PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 val
 
     if (!in->binary) {
       if (fscanf(in->file, "%lld", &value) != 1)
-        return GmshWrong(in,
-          feof(in->file) ? "it ends too early" : "a whole number is expected where other text stands");
+        return GmshWrong(in, feof(in->file) ? "it ends too early" : "an integer is expected instead of other text");
       if (width == 4 && (value > INT_MAX || value < INT_MIN))
         return GmshWrong(in, "the number %lld is too large", value);
       values[i] = (PetscInt64)value;
@@ -86,7 +85,7 @@ PetscBool GmshGetNumbers(GmshStream *in, int width, PetscInt64 n, PetscInt64 val
   return PETSC_TRUE;
 }
 
-/* values may be NULL */
+/* Reads n real numbers, which must be finite. values may be NULL. */
 PetscBool GmshGetReals(GmshStream *in, PetscInt64 n, PetscReal values[])
 {
   for (PetscInt64 i = 0; i < n; ++i) {
@@ -95,17 +94,18 @@ PetscBool GmshGetReals(GmshStream *in, PetscInt64 n, PetscReal values[])
     if (in->binary) {
       if (!GmshGetBytes(in, 8, &value)) return PETSC_FALSE;
     } else if (fscanf(in->file, "%le", &value) != 1)
-      return GmshWrong(in, feof(in->file) ? "it ends too early" : "a coordinate is expected where other text stands");
+      return GmshWrong(in, feof(in->file) ? "it ends too early" : "a coordinate is expected instead of other text");
     if (PetscIsInfOrNanReal(value)) return GmshWrong(in, "a coordinate is not a finite number");
     if (values) values[i] = (PetscReal)value;
   }
   return PETSC_TRUE;
 }
 
+/* Checks that a count is not larger than the file permits */
 static PetscBool GmshIsCount(GmshStream *in, const char what[], PetscInt64 count)
 {
   if (count >= 0 && count <= in->size && count < PETSC_MAX_INT / 16) return PETSC_TRUE;
-  return GmshWrong(in, "it announces %lld %s, more than it can hold", (long long)count, what);
+  return GmshWrong(in, "its number of %s, %lld, is larger than its size permits", what, (long long)count);
 }
 
 PetscBool GmshGetCounts(GmshStream *in, const char what[], PetscInt64 n, PetscInt64 counts[])
@@ -125,7 +125,7 @@ PetscBool GmshGetCountWord(GmshStream *in, const char what[], PetscInt64 *count)
 
   if (!GmshGetWord(in, word)) return PETSC_FALSE;
   if (sscanf(word, "%lld%c", &value, &rest) != 1)
-    return GmshWrong(in, "the number of %s is expected where \"%s\" stands", what, word);
+    return GmshWrong(in, "the number of %s is expected instead of \"%s\"", what, word);
   *count = (PetscInt64)value;
   return GmshIsCount(in, what, *count);
 }

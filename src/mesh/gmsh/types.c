@@ -21,7 +21,7 @@ static const GmshType types[20] = {[1] = {"segment", 1, 2, 2},
   [18]                                 = {"triangular_prism", 3, 15, 6},
   [19]                                 = {"pyramid", 3, 13, 5}};
 
-/* NULL: the type is neither of first nor of second order */
+/* Returns the type, or NULL if it is neither of first nor of second order */
 const GmshType *GmshGetType(PetscInt64 type)
 {
   return type >= 1 && type < 20 ? &types[type] : NULL;
