@@ -59,10 +59,10 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 }
 
 /*
-   Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging vertices and on nodes of the second face of a
-   cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie between nodes on planes. Therefore x is
-   first multiplied by the matrix of the planes, then by that of hanging vertices, then by that of cyclic symmetries. All
-   three follow once more after the ties.
+   Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging vertices and on nodes of the second face of
+   a cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie between nodes on planes. Therefore x is
+   first multiplied by the matrix of the planes, then by that of hanging vertices, then by that of cyclic symmetries.
+   All three follow once more after the ties.
 */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
 {

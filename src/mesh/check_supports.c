@@ -280,8 +280,8 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints of a cyclic symmetry, on the first rank: the only free motions of the body are the translation along
-   the axis and the rotation about it */
+/* Adds the restraints of a cyclic symmetry, on the first rank: the only free motions of the body are the translation
+   along the axis and the rotation about it */
 static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
 {
   IS          facets;
