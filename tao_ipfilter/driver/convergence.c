@@ -1,12 +1,16 @@
 /* Convergence test: decides when the iteration ends, and with which reason */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
 /*
@@ -70,19 +74,23 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 }
 
 /*
-   Counts consecutive steps that are as small as rounding errors of x. If x tends to zero, a small fraction of the first
-   x takes its place.
+   Counts consecutive steps that are as small as rounding errors of x and do not reduce the KKT error by half. A step
+   that does may change small unknowns and slacks beside a large unknown. If x tends to zero, a small fraction of the
+   first x takes its place.
 */
 static PetscErrorCode CountTinySteps(Tao tao)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal vanishing = 1e-3;
+  const PetscReal vanishing = 1e-3, useful = 0.5, error = IPBothErrors(ip);
   PetscReal       size;
+  PetscBool       tiny;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size           = PetscMax(size, vanishing * ip->first->x);
-  ip->rec->ntiny = tao->niter && ip->search->tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size ? ip->rec->ntiny + 1 : 0;
+  size                = PetscMax(size, vanishing * ip->first->x);
+  tiny                = (PetscBool)(tao->niter && ip->search->tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size);
+  ip->rec->ntiny      = tiny && error > useful * ip->rec->last_error ? ip->rec->ntiny + 1 : 0;
+  ip->rec->last_error = error;
   PetscFunctionReturn(0);
 }
 
@@ -117,6 +125,55 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   } else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt->error,
       (double)ip->tol, relaxed));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Returns whether another iteration is to refine an iterate that has converged. Where the objective has fallen to a
+   small fraction of its first value, an error that is negligible relative to the first value may exceed the objective.
+   Refinement ends when an iteration does not halve the error bound.
+*/
+PetscBool IPRefines(TAO_IPFILTER *ip)
+{
+  const PetscInt  most  = 16;
+  const PetscReal halve = 0.5, before = ip->rec->last_bound;
+
+  if (ip->method->on || IPErrorBoundRefined(ip)) return PETSC_FALSE;
+  ip->rec->last_bound = ip->kkt->bound;
+  if (ip->rec->nrefined && ip->kkt->bound > halve * before) return PETSC_FALSE;
+  return (PetscBool)(ip->rec->nrefined++ < most);
+}
+
+/*
+   Finds whether the unknowns have grown far beyond their first size, and the Hessian of a nonconvex problem is still
+   shifted there: forces and curvatures that vanish at infinity look like those of a minimum
+*/
+static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal large = 100.0;
+  PetscReal       size, stiffness;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  PetscCall(VecNorm(ip->stiff->hdiag, NORM_INFINITY, &stiffness));
+  *away = (PetscBool)(tao->niter && stiffness > 0.0 && ip->bar->curved && !ip->qn->B && ip->first->x > 0.0 &&
+                      size > large * ip->first->x && ip->shift->delta > 0.0);
+  if (*away)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+      "no solution: the unknowns grow without limit, from %g to %g, where the objective is nearly flat",
+      (double)ip->first->x, (double)size));
+  PetscFunctionReturn(0);
+}
+
+/* If refinement failed after an iterate had converged, gives that iterate, to which the solve has returned, its reason */
+PetscErrorCode IPConvergeRefined(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->rec->nrefined && tao->reason != TAO_CONVERGED_GATOL && Converged(ip) && IPConstraintsMet(tao))
+    PetscCall(ConvergeUnlessDegenerate(tao));
   PetscFunctionReturn(0);
 }
 
@@ -195,7 +252,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = ip->kkt;
-  PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
+  PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded, away = PETSC_FALSE;
   PetscReal     lowest;
 
   PetscFunctionBegin;
@@ -212,7 +269,8 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
-    PetscCall(ConvergeUnlessDegenerate(tao));
+    PetscCall(RunsAway(tao, &away));
+    if (!away) PetscCall(ConvergeUnlessDegenerate(tao));
   } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g, but gradients of the constraints vanish where the constraints are met, and the "

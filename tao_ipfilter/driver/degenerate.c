@@ -6,22 +6,22 @@
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 
 /*
-   Computes the largest force of the present multipliers of equality constraints if the constraint gradients were as
+   Computes the largest force of the present multipliers of equality constraints if each constraint's gradient were as
    large as at the start
 */
 static PetscErrorCode DegenerateForceAtStart(Tao tao, PetscReal *force)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     size;
+  Vec           v;
 
   PetscFunctionBegin;
-  *force = 0.0;
-  if (ip->me) {
-    PetscCall(VecNorm(ip->at.y, NORM_INFINITY, &size));
-    *force = size * ip->first->equality_jacobian;
-  }
+  PetscCall(IPGetWork(tao, IP_EQUALITIES, &v));
+  PetscCall(VecPointwiseMult(v, ip->at.y, ip->stiff->equality_rows));
+  PetscCall(VecNorm(v, NORM_INFINITY, force));
+  PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &v));
   PetscFunctionReturn(0);
 }
 

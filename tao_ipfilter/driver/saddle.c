@@ -3,6 +3,8 @@
    itself.
 */
 #include "driverimpl.h"
+#include "tao_ipfilter/solver/barrier.h"
+#include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/record.h"
@@ -11,7 +13,8 @@
 
 /*
    Finds whether the matrix might be indefinite without anyone having noticed. A factorization that the user has chosen
-   solves with any matrix. After a relaxation of constraints the inertia of factors is not tested.
+   solves with any matrix. After a relaxation of constraints the inertia of factors is not tested. Before negative
+   curvature has been noticed, the inertia of the filter's factors is not tested either, until the solve is about to end.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
@@ -22,6 +25,7 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
   if (ip->me || ip->hess->products) PetscFunctionReturn(0);
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
   *unknown = (PetscBool)(*unknown || ip->relax->times);
+  if (!*unknown && ip->lin->filtered && !ip->bar->curved) PetscCall(IPKrylovIndefinite(tao, unknown));
   PetscFunctionReturn(0);
 }
 

@@ -90,6 +90,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->rc));
   PetscCall(VecDestroy(&ip->stiff->rho));
   PetscCall(VecDestroy(&ip->stiff->reach));
+  PetscCall(VecDestroy(&ip->stiff->equality_rows));
   PetscCall(VecDestroy(&ip->stiff->hdiag));
   PetscCall(VecDestroy(&ip->lin->residual));
   PetscCall(VecDestroy(&ip->rows->inequality));

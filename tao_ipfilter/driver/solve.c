@@ -12,6 +12,7 @@
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
 /*
@@ -68,6 +69,7 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPFirst      *first = ip->first;
   PetscReal     largest;
+  Vec           sums;
 
   PetscFunctionBegin;
   first->f = ip->at.f;
@@ -81,6 +83,10 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
   if (ip->me) {
     PetscCall(VecNorm(ip->at.ce, NORM_INFINITY, &first->equality));
     PetscCall(MatNorm(ip->jac->equality, NORM_INFINITY, &first->equality_jacobian));
+    if (!ip->stiff->equality_rows) PetscCall(VecDuplicate(ip->at.ce, &ip->stiff->equality_rows));
+    PetscCall(IPGetWork(tao, IP_EQUALITIES, &sums));
+    PetscCall(IPOwnTerms(ip->jac->equality, tao->solution, sums, ip->stiff->equality_rows));
+    PetscCall(IPRestoreWork(tao, IP_EQUALITIES, &sums));
   }
   *finite = (PetscBool)(!IPUndefined(first->f) && !IPUndefined(first->gradient) && !IPUndefined(first->length) &&
                         !IPUndefined(first->equality));
@@ -208,11 +214,12 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscCall(IPMonitor(tao));
   PetscCall(TaoMonitor(tao, tao->niter, ip->at.f, ip->kkt->error, ip->kkt->inf_pr, ip->search->alpha));
   PetscCall(IPTestConvergence(tao));
-  if (tao->reason == TAO_CONVERGED_GATOL || tao->reason == TAO_CONVERGED_STEPTOL) PetscCall(IPLeaveSaddle(tao, &left));
-  if (left) {
+  if (!ip->rec->nrefined && (tao->reason == TAO_CONVERGED_GATOL || tao->reason == TAO_CONVERGED_STEPTOL))
+    PetscCall(IPLeaveSaddle(tao, &left));
+  if (left) ip->search->tag = 'R';
+  if (left || (tao->reason == TAO_CONVERGED_GATOL && IPRefines(ip))) {
     tao->reason        = TAO_CONTINUE_ITERATING;
     ip->rec->reason[0] = '\0';
-    ip->search->tag    = 'R';
   }
   PetscFunctionReturn(0);
 }
@@ -542,6 +549,7 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
+  PetscCall(IPConvergeRefined(tao));
   if (ip->relax->unknowns > 0.0) {
     PetscCall(IPBoundsReturn(tao));
     PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));

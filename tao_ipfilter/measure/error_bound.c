@@ -22,6 +22,9 @@
   1e-6                      /* if the terms of the objective cancel, this fraction of their magnitude replaces the
                                   objective */
 #define IP_BOUND_FIRST 1e-8 /* if the terms vanish, this fraction of their first magnitude replaces them */
+#define IP_BOUND_PRESENT \
+  1e-24 /* the larger one of both magnitudes times this fraction replaces a smaller objective where the iterate is
+           refined */
 #define IP_BOUND_ROUNDING \
   (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding errors */
 
@@ -172,8 +175,11 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscFunctionReturn(0);
 }
 
-/* Computes the magnitude of the objective with which residuals are compared; PETSC_INFINITY for a constant objective */
-PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
+/*
+   Computes the magnitudes of the objective with which residuals are compared, the second one where the iterate is
+   refined (convergence.c); PETSC_INFINITY for a constant objective
+*/
+PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy, PetscReal *present)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     terms, gradient;
@@ -182,10 +188,11 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy)
   PetscCall(IPErrorBoundTerms(tao, &terms));
   if (ip->first->energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *energy = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
-    IP_BOUND_FIRST * ip->first->energy);
-  *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
-  if (ip->first->gradient == 0.0 && gradient == 0.0) *energy = PETSC_INFINITY;
+  *energy  = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
+     IP_BOUND_FIRST * ip->first->energy);
+  *energy  = PetscMax(*energy, PetscAbsReal(ip->at.f));
+  *present = PetscMax(IP_BOUND_PRESENT * PetscMax(terms, ip->first->energy), PetscAbsReal(ip->at.f));
+  if (ip->first->gradient == 0.0 && gradient == 0.0) *energy = *present = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -197,13 +204,14 @@ PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
   PetscReal       forces, violation, gap;
 
   PetscFunctionBegin;
-  ip->kkt->work = ip->kkt->work_dual = 0.0;
+  ip->kkt->work = ip->kkt->work_dual = ip->kkt->bound = 0.0;
   if (!(ip->scale->energy < PETSC_INFINITY)) PetscFunctionReturn(0);
   PetscCall(ErrorBoundOfForces(tao, &forces));
   PetscCall(ErrorBoundOfViolation(tao, &violation));
   PetscCall(ErrorBoundOfGap(tao, &gap));
   if (forces > 0.0) ip->kkt->work_dual = forces / unit;
-  gap = PetscMax(PetscMax(forces, violation), gap);
+  gap            = PetscMax(PetscMax(forces, violation), gap);
+  ip->kkt->bound = gap;
   if (gap > 0.0) ip->kkt->work = gap / unit;
   PetscFunctionReturn(0);
 }
@@ -252,6 +260,15 @@ PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 }
 
 /*
+   Returns whether the error bound is within the tolerance relative to the present objective, however large the objective
+   was at the start
+*/
+PetscBool IPErrorBoundRefined(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->kkt->bound <= IP_BOUND_MULTIPLE * ip->tol * ip->scale->present);
+}
+
+/*
    Returns the norm of the stationarity residual for which the larger one of the two measures kkt->dual and
    kkt->work_dual is 1
 */
@@ -287,11 +304,11 @@ PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 */
 PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
 {
-  PetscReal weight = 0.0, mu = ip->tol / 10.0 * ip->scale->product;
+  const PetscReal energy = ip->rec->nrefined ? ip->scale->present : ip->scale->energy;
+  PetscReal       weight = 0.0, mu = ip->tol / 10.0 * ip->scale->product;
 
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
-  if (weight > 0.0 && ip->scale->energy < PETSC_INFINITY)
-    mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * ip->scale->energy / weight);
+  if (weight > 0.0 && energy < PETSC_INFINITY) mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * energy / weight);
   return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
 }

@@ -50,11 +50,12 @@ PETSC_INTERN PetscErrorCode IPTermsResistance(Tao);
 
 /* error_bound.c */
 PETSC_INTERN PetscErrorCode IPErrorBoundTerms(Tao, PetscReal *);
-PETSC_INTERN PetscErrorCode IPErrorBoundEnergy(Tao, PetscReal *);
+PETSC_INTERN PetscErrorCode IPErrorBoundEnergy(Tao, PetscReal *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPErrorBoundOfResiduals(Tao);
 PETSC_INTERN PetscErrorCode IPErrorBoundOfRelaxation(Tao, PetscReal *);
 PETSC_INTERN PetscReal      IPErrorBoundOfWork(const TAO_IPFILTER *, PetscReal work);
 PETSC_INTERN PetscBool      IPErrorBoundWithin(const TAO_IPFILTER *, PetscReal gap);
+PETSC_INTERN PetscBool      IPErrorBoundRefined(const TAO_IPFILTER *);
 PETSC_INTERN PetscReal      IPErrorBoundForceUnit(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPErrorBoundForceUnitAfter(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscReal      IPErrorBoundLeastMu(const TAO_IPFILTER *);

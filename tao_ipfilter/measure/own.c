@@ -114,16 +114,16 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 
 /*
    Computes the largest term of the active inequality constraints, namely those whose slack is negligible relative to
-   their terms; 0 if none is active
+   their terms. If none is active it is the terms of the smallest row; 0 if these vanish.
 */
 PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    active = 1e-3;
   const PetscScalar *a[4];
-  Vec                v[4]  = {ip->at.c, ip->at.s, NULL, NULL}; /* constraint values, slacks, J x, and the sums of
+  Vec                v[4]     = {ip->at.c, ip->at.s, NULL, NULL}; /* constraint values, slacks, J x, and the sums of
                                                                   IPOwnTerms() */
-  PetscReal          local = 0.0;
+  PetscReal          local[2] = {0.0, PETSC_NINFINITY}; /* the largest term of active rows; minus the smallest row */
   PetscInt           n;
 
   PetscFunctionBegin;
@@ -135,10 +135,12 @@ PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal terms = PetscMax(PetscRealPart(a[3][i]), PetscAbsScalar(a[0][i] - a[2][i]));
 
-    if (PetscRealPart(a[1][i]) <= active * terms) local = PetscMax(local, terms);
+    if (PetscRealPart(a[1][i]) <= active * terms) local[0] = PetscMax(local[0], terms);
+    local[1] = PetscMax(local[1], -terms);
   }
   for (PetscInt k = 0; k < 4; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
   for (PetscInt k = 3; k >= 2; k--) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v[k]));
-  PetscCallMPI(MPI_Allreduce(&local, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, local, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  *size = local[0] > 0.0 ? local[0] : (local[1] > PETSC_NINFINITY ? -local[1] : 0.0);
   PetscFunctionReturn(0);
 }

@@ -128,7 +128,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   PetscFunctionBegin;
   *s         = (IPScale){.dual = ip->first->unit, .length = 1.0, .equality = 1.0, .pressure = ip->first->unit};
   s->product = ip->first->unit;
-  s->energy  = PETSC_INFINITY;
+  s->energy = s->present = PETSC_INFINITY;
   if (ip->opt->scaling != IP_SCALING_PROBLEM || ip->opt->measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){.dual = 0.0};
   PetscCall(DualScale(tao));

@@ -16,6 +16,9 @@ struct _n_IPRecord {
   PetscInt             nrestored;              /* number of restorations */
   PetscInt             nsaddles;               /* number of stationary points that were not minima */
   PetscInt             ntiny;                  /* number of consecutive steps as small as rounding errors */
+  PetscReal            last_error;             /* KKT error at the last convergence test */
+  PetscInt             nrefined;               /* number of iterations that refined an iterate that had converged */
+  PetscReal            last_bound;             /* error bound before the next of these iterations */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
   PetscInt             nstraight;     /* number of consecutive full steps with a shift along which the objective fell
                                          linearly */

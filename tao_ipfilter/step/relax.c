@@ -99,8 +99,7 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   PetscFunctionBegin;
   if (ip->mi && !ip->relax->times) {
     PetscCall(IPOwnActiveSize(tao, &ip->relax->size));
-    ip->relax->size = PetscMax(ip->relax->size, ip->first->length);
-    if (!(ip->relax->size > 0.0)) ip->relax->size = ip->scale->length;
+    if (!(ip->relax->size > 0.0)) ip->relax->size = PetscMax(ip->first->length, ip->scale->length);
   }
   ip->relax->by = ip->relax->told = fraction * ip->tol * ip->relax->size;
   if (ip->mi) {

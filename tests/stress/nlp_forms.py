@@ -7,7 +7,11 @@ import math
 import os
 
 from nlp import HERE, KINDS, PROBLEMS, counts, differences, judge, parse, run, shipped, solvers
-from nlp_problems import Problem
+from nlp_problems import UNBOUNDED, Problem
+
+# Minima of these problems beside the known ones, to which other forms lead: the gradient of the Lagrangian vanishes there to 1e-5, and its Hessian is positive
+# definite on the tangent space (HS23: two rows active, both multipliers positive)
+MINIMA = {"HS23": 9.472135955, "HS46": 0.0210889286, "S261": 1.6295575861, "S282": 3.9843950179, "bard": 1.0038205868, "BT5": 952.1424944555}
 
 FUNCTIONS = {name: getattr(math, name) for name in ("exp", "sin", "cos", "cosh", "atan", "sqrt", "log", "tanh", "erf")}
 MOST_UNKNOWNS, MOST_ROWS = 50, 100  # tests/stress/nlp_read.h
@@ -30,7 +34,8 @@ def rewritten(p, start=(), bounds=(), **parts):
     n = len(p.start.split())
     old = (p.bounds.split() + [":"] * n)[:n]
     parts = {"objective": p.objective, "ge": rows(p.inequalities), "eq": rows(p.equalities), **parts}
-    return Problem(p.name, parts.pop("objective"), p.optimum, " ".join([*p.start.split(), *map(repr, start)]), bounds=" ".join([*old, *bounds]), others=p.others, end=p.end, **parts)
+    return Problem(p.name, parts.pop("objective"), p.optimum, " ".join([*p.start.split(), *map(repr, start)]), bounds=" ".join([*old, *bounds]),
+                   others=[*p.others, *([MINIMA[p.name]] if p.name in MINIMA else [])], end=p.end, **parts)
 
 
 def slacks(p, zero=False):
@@ -52,6 +57,8 @@ def twice(p):
 
 
 def far(p):
+    if p.end == UNBOUNDED:
+        return None  # the rows would bound it
     return rewritten(p, ge=[*rows(p.inequalities), "1e8+x1", f"1e10-x{len(p.start.split())}"])
 
 
