@@ -6,6 +6,18 @@
 */
 #include "frictionimpl.h"
 
+/* Copies forces, motions and y to `begin`, or from there if `back` */
+static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscBool back)
+{
+  PetscReal *const a[3] = {s->lambda, s->gap, s->y}, *const b[3] = {begin, begin + s->m, begin + 2 * s->m};
+  const PetscInt n[3] = {s->m, s->m, s->k};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 3; i++) PetscCall(PetscArraycpy(back ? a[i] : b[i], back ? b[i] : a[i], n[i]));
+  if (back) PetscCall(IPTermLawsMove(set, s));
+  PetscFunctionReturn(0);
+}
+
 static void ContinuationLimit(IPTermSet *set, const PetscReal given[], PetscReal most)
 {
   for (PetscInt i = 0; i < set->n; i++) set->coefficient[i] = PetscMin(given[i], most);
@@ -39,10 +51,9 @@ static PetscErrorCode ContinuationRaise(IPTermSet *set, const IPReducedSystem *s
   PetscReal       factor = 2.0, *before;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->m + s->k, &before));
+  PetscCall(PetscMalloc1(2 * s->m + s->k, &before));
   while (most < largest && factor >= least) {
-    PetscCall(PetscArraycpy(before, s->lambda, s->m));
-    PetscCall(PetscArraycpy(before + s->m, s->y, s->k));
+    PetscCall(ContinuationCopy(set, s, before, PETSC_FALSE));
     ContinuationLimit(set, given, PetscMin(factor * most, largest));
     PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
     if (*solved) {
@@ -50,8 +61,7 @@ static PetscErrorCode ContinuationRaise(IPTermSet *set, const IPReducedSystem *s
       factor = PetscMin(1.5 * factor, fastest);
     } else {
       factor = PetscSqrtReal(factor);
-      PetscCall(PetscArraycpy(s->lambda, before, s->m));
-      PetscCall(PetscArraycpy(s->y, before + s->m, s->k));
+      PetscCall(ContinuationCopy(set, s, before, PETSC_TRUE));
       for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(s->lambda[i] > 0.0);
       PetscCall(IPTermLawsRenew(set, s));
     }
@@ -100,23 +110,14 @@ static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s
   for (PetscInt r = 0; r < s->m; r++) largest = PetscMax(largest, PetscAbsReal(s->gap[r]));
   if (largest <= much * set->length) PetscFunctionReturn(0);
   PetscCall(PetscArrayzero(s->lambda, s->m));
+  if (s->spring) PetscCall(PetscArraycpy(s->gap, s->start, s->m));
   PetscCall(IPTermLawsMove(set, s));
-  PetscFunctionReturn(0);
-}
-
-/* Copies forces and y to `begin`; if `back`, copies them from there and computes the motions */
-static PetscErrorCode ContinuationCopy(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscBool back)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscArraycpy(back ? s->lambda : begin, back ? begin : s->lambda, s->m));
-  PetscCall(PetscArraycpy(back ? s->y : begin + s->m, back ? begin + s->m : s->y, s->k));
-  if (back) PetscCall(IPTermLawsMove(set, s));
   PetscFunctionReturn(0);
 }
 
 /*
    Solves by Newton's method from the start, with compliances that are computed from C instead of estimated. held: each
-   row's compliance is that with all other rows held, which suits rows that stick. begin: forces and y at the start.
+   row's compliance is that with all other rows held, which suits rows that stick. begin: forces, motions and y at the start.
 */
 static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem *s, PetscBool held, PetscReal begin[],
   PetscReal *first, PetscInt *steps, PetscBool *solved)
@@ -136,7 +137,7 @@ static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem
 
 /*
    Solves after Newton's method has failed: by Newton's method with computed compliances, by continuation, or by the
-   convex problem. begin: forces and y at the start.
+   convex problem. begin: forces, motions and y at the start.
 */
 static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
   PetscInt *steps, PetscBool *solved)
@@ -166,10 +167,11 @@ PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   PetscReal      first, *begin;
 
   PetscFunctionBegin;
-  *steps = 0;
+  *steps             = 0;
+  set->system.spring = s->spring;
   PetscCall(ContinuationStart(set, s));
   PetscCall(IPTermSetOff(set, s, &first));
-  PetscCall(PetscMalloc1(s->m + s->k, &begin));
+  PetscCall(PetscMalloc1(2 * s->m + s->k, &begin));
   PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
   PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
   if (!*solved && simply && set->system.m <= few)
@@ -177,5 +179,6 @@ PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   set->met = *solved;
   if (!*solved && !simply) PetscCall(ContinuationFallBack(set, s, begin, first, steps, solved));
   PetscCall(PetscFree(begin));
+  for (PetscInt r = 0; r < s->m && s->spring; r++) s->lambda[r] = set->active[r] ? s->lambda[r] : 0.0;
   PetscFunctionReturn(0);
 }

@@ -14,22 +14,66 @@ PetscBool IPTermDenseFits(const IPTermSystem *t)
   return (PetscBool)(t->m <= limit);
 }
 
+/* Computes the columns C of n rows: R K_WW^-1 R^T e, by one solve for all of them. X, Y: work matrices of n columns */
+static PetscErrorCode TermDenseMakeBlock(IPTermSystem *t, PetscInt n, const PetscInt rows[], Mat X, Mat Y)
+{
+  PetscScalar *x, *y;
+  PetscInt     nw;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(X, &nw, NULL));
+  PetscCall(MatZeroEntries(X));
+  PetscCall(MatDenseGetArray(X, &x));
+  for (PetscInt j = 0; j < n; j++) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           nc;
+
+    PetscCall(MatGetRow(t->R, rows[j], &nc, &columns, &values));
+    for (PetscInt c = 0; c < nc; c++) x[columns[c] + (size_t)j * (size_t)nw] = values[c];
+    PetscCall(MatRestoreRow(t->R, rows[j], &nc, &columns, &values));
+  }
+  PetscCall(MatDenseRestoreArray(X, &x));
+  PetscCall(MatMatSolve(t->FK, X, Y));
+  PetscCall(MatDenseGetArray(Y, &y));
+  for (PetscInt j = 0; j < n; j++) {
+    PetscCall(VecPlaceArray(t->w, y + (size_t)j * (size_t)nw));
+    PetscCall(VecPlaceArray(t->z, t->C + (size_t)rows[j] * (size_t)t->m));
+    PetscCall(MatMult(t->R, t->w, t->z));
+    PetscCall(VecResetArray(t->z));
+    PetscCall(VecResetArray(t->w));
+    t->computed[rows[j]] = PETSC_TRUE;
+  }
+  PetscCall(MatDenseRestoreArray(Y, &y));
+  PetscFunctionReturn(0);
+}
+
 /* Computes those columns of C that are missing for the given rows */
 static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const PetscInt rows[])
 {
+  const PetscInt most = 128; /* columns at a time */
+  PetscInt       nw, missing = 0, *list;
+
   PetscFunctionBegin;
   if (!t->C) {
     PetscCall(PetscMalloc1((size_t)t->m * (size_t)t->m, &t->C));
     PetscCall(PetscCalloc1(t->m, &t->computed));
   }
-  PetscCall(PetscArrayzero(t->f, t->m));
-  for (PetscInt j = 0; j < n; j++) {
-    if (t->computed[rows[j]]) continue;
-    t->f[rows[j]] = 1.0;
-    PetscCall(IPTermSystemApplyCompliance(t, t->f, t->C + (size_t)rows[j] * (size_t)t->m));
-    t->f[rows[j]]        = 0.0;
-    t->computed[rows[j]] = PETSC_TRUE;
+  PetscCall(PetscMalloc1(n, &list));
+  for (PetscInt j = 0; j < n; j++)
+    if (!t->computed[rows[j]]) list[missing++] = rows[j];
+  PetscCall(MatGetSize(t->K, &nw, NULL));
+  for (PetscInt done = 0; done < missing; done += most) {
+    const PetscInt k = PetscMin(most, missing - done);
+    Mat            X, Y;
+
+    PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, nw, k, NULL, &X));
+    PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, nw, k, NULL, &Y));
+    PetscCall(TermDenseMakeBlock(t, k, list + done, X, Y));
+    PetscCall(MatDestroy(&X));
+    PetscCall(MatDestroy(&Y));
   }
+  PetscCall(PetscFree(list));
   PetscFunctionReturn(0);
 }
 

@@ -13,11 +13,12 @@ static PetscErrorCode LawsDestroy(IPLaws *laws)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode LawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *laws, PetscBool *definite)
+static PetscErrorCode LawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R, IPLaws *laws,
+  PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(PetscNew(laws));
-  PetscCall(IPTermLawsCreate(m, n, kmax, K, R, &(*laws)->set, definite));
+  PetscCall(IPTermLawsCreate(m, n, kmax, K, factors, R, &(*laws)->set, definite));
   PetscFunctionReturn(0);
 }
 

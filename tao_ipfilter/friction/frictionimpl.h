@@ -12,25 +12,26 @@
    constraints, followed by two rows per term.
 */
 typedef struct {
-  PetscInt      m, k;        /* number of rows; number of directions in V */
-  Mat           K, FK;       /* K_WW; its factors */
-  Mat           R, RD, G;    /* R; R D and R D R^T with D = diag(K_WW)^-1 */
-  Mat           Bv, Bf;      /* coefficients of the motions v and of the forces f in the rows' equations */
-  Mat           A, F;        /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
-  Mat           Pv, Pf;      /* values of B_v and B_f for which A was factored */
-  PetscReal    *compliance;  /* estimated compliance of each row, diag(R D R^T) [length/force] */
-  PetscReal    *scale;       /* scale of each row: force divided by square root of energy */
-  PetscReal    *V, *ZV, *H;  /* V, with columns of length m; ZV, with columns of length kmax; factors of H, with
+  PetscInt         m, k;        /* number of rows; number of directions in V */
+  Mat              K, FK;       /* K_WW; its factors */
+  Mat              R, RD, G;    /* R; R D and R D R^T with D = diag(K_WW)^-1 */
+  Mat              Bv, Bf;      /* coefficients of the motions v and of the forces f in the rows' equations */
+  Mat              A, F;        /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
+  Mat              Pv, Pf;      /* values of B_v and B_f for which A was factored */
+  const PetscReal *spring;      /* per row: stiffness of the spring that K_WW contains for it; NULL: no springs */
+  PetscReal       *compliance;  /* estimated compliance of each row, diag(R D R^T) [length/force] */
+  PetscReal       *scale;       /* scale of each row: force divided by square root of energy */
+  PetscReal       *V, *ZV, *H;  /* V, with columns of length m; ZV, with columns of length kmax; factors of H, with
                                 columns of length k */
-  PetscBLASInt *pivots;      /* pivots of the factors of H */
-  Vec           S;           /* scale of each row of A */
-  PetscReal    *f, *v;       /* work arrays with an entry per row */
-  Vec           r, z, w, Kw; /* work vectors: r, z with an entry per row; w, Kw with an entry per unknown of W */
-  PetscInt      fresh;       /* number of GMRES iterations when the factors were new */
-  PetscBool     stale;       /* the factors must be computed again */
-  PetscBool     dense;       /* GMRES has failed, so that dense.c solves systems of all sizes */
-  PetscReal    *C;           /* columns of C, of length m; NULL: none is computed */
-  PetscBool    *computed;    /* which columns of C are computed */
+  PetscBLASInt    *pivots;      /* pivots of the factors of H */
+  Vec              S;           /* scale of each row of A */
+  PetscReal       *f, *v;       /* work arrays with an entry per row */
+  Vec              r, z, w, Kw; /* work vectors: r, z with an entry per row; w, Kw with an entry per unknown of W */
+  PetscInt         fresh;       /* number of GMRES iterations when the factors were new */
+  PetscBool        stale;       /* the factors must be computed again */
+  PetscBool        dense;       /* GMRES has failed, so that dense.c solves systems of all sizes */
+  PetscReal       *C;           /* columns of C, of length m; NULL: none is computed */
+  PetscBool       *computed;    /* which columns of C are computed */
 } IPTermSystem;
 
 /* State of constraints and norm terms, see laws.c: constraints are open or closed, terms stick or slip */
@@ -53,8 +54,8 @@ typedef struct {
 } IPTermSet;
 
 /* system.c */
-PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
-  PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors,
+  Mat R, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
@@ -76,8 +77,8 @@ PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *,
   PetscReal ry[], PetscBool *solved);
 
 /* laws.c */
-PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *,
-  PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R,
+  IPTermSet *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPTermLawsDestroy(IPTermSet *);
 PETSC_INTERN PetscInt       IPTermLawsRow(const IPTermSet *, PetscInt term);
 PETSC_INTERN PetscReal      IPTermLawsBound(const IPTermSet *, const IPReducedSystem *, PetscInt term);

@@ -21,10 +21,10 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
 }
 
 /*
-   Creates the state of m constraints, all open, and n terms, all sticking. R has the rows of both; K is K_WW.
-   *definite: false if K_WW is not positive definite.
+   Creates the state of m constraints, all open, and n terms, all sticking. R has the rows of both; K is K_WW, with
+   its factors. *definite: false if K_WW is not positive definite.
 */
-PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPTermSet *set,
+PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R, IPTermSet *set,
   PetscBool *definite)
 {
   const PetscInt all = m + 2 * n;
@@ -36,7 +36,7 @@ PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Ma
   PetscCall(PetscCalloc4(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope));
   PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->active));
   PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->direction, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
-  PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, R, definite));
+  PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, factors, R, definite));
   PetscFunctionReturn(0);
 }
 
@@ -65,7 +65,10 @@ static PetscReal TermLawsLargest(PetscInt n, const PetscReal a[])
   return largest;
 }
 
-/* Computes s->gap = v = C (f - base) - RZ y - h, and set->length, the size of its terms */
+/*
+   Computes s->gap = v = C (f - base) - RZ y - h, and set->length, the size of its terms. With springs D in K_WW the sum
+   e = f - base + D (v - start) of the present f and v is kept, and v = C e - RZ y - h, from which f follows.
+*/
 PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
@@ -74,13 +77,15 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(s->m, &m));
   PetscCall(PetscBLASIntCast(s->k, &k));
-  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = s->lambda[i] - s->base[i];
+  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = IPReducedForce(s, i);
+  for (PetscInt i = 0; i < s->m && s->spring; i++) s->lambda[i] += s->spring[i] * s->gap[i];
   PetscCall(IPTermSystemApplyCompliance(&set->system, set->system.f, s->gap));
   for (PetscInt i = 0; i < s->m; i++) set->system.v[i] = -s->h[i];
   if (k && m)
     PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, set->system.v, &inc));
   set->length = PetscMax(s->length, TermLawsLargest(s->m, set->system.v));
   for (PetscInt i = 0; i < s->m; i++) s->gap[i] += set->system.v[i];
+  for (PetscInt i = 0; i < s->m && s->spring; i++) s->lambda[i] -= s->spring[i] * s->gap[i];
   PetscFunctionReturn(0);
 }
 
@@ -167,7 +172,7 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
   PetscCall(PetscBLASIntCast(s->kmax, &kmax));
   PetscCall(PetscArraycpy(set->Fy, s->t, s->k));
   PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, s->T, &kmax, s->y, &inc, &minus, set->Fy, &inc));
-  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = s->lambda[i] - s->base[i];
+  for (PetscInt i = 0; i < s->m; i++) set->system.f[i] = IPReducedForce(s, i);
   PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &one, s->JZ, &m, set->system.f, &inc, &one, set->Fy, &inc));
   PetscFunctionReturn(0);
 }

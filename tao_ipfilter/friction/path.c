@@ -191,7 +191,7 @@ PetscErrorCode IPTermPathFollow(IPTermSet *set, const IPReducedSystem *s, PetscI
   PetscCall(PetscCalloc1(set->m, &path.w));
   PetscCall(TermPathBegin(set, s, &path));
   first     = path.product;
-  *followed = (PetscBool)(path.n > 0);
+  *followed = (PetscBool)(path.n > 0 && !s->spring); /* springs: K_WW alone may be indefinite */
   for (PetscInt k = 0; *followed && k < limit && path.product > end * first; k++) {
     TermPathAdvance(set, s, &path, alpha);
     PetscCall(TermPathStep(set, s, &path, &alpha, followed));

@@ -40,9 +40,11 @@ static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool
 */
 static PetscReal TermSetPredictBound(const IPTermSet *set, const IPReducedSystem *s, PetscInt i)
 {
+  const PetscReal nothing    = s->spring ? 1e-3 : 0.0; /* with springs, forces of open rows are zero to a tolerance */
   const PetscReal compliance = i < set->m ? set->system.compliance[i] : 0.0;
 
-  if (set->coefficient[i] < 0.0 || s->lambda[i] != 0.0 || compliance <= 0.0) return IPTermLawsBound(set, s, i);
+  if (set->coefficient[i] < 0.0 || compliance <= 0.0) return IPTermLawsBound(set, s, i);
+  if (PetscAbsReal(s->lambda[i]) > nothing * PetscMax(0.0, -s->gap[i]) / compliance) return IPTermLawsBound(set, s, i);
   return IPTermBound(set->limit[i], set->coefficient[i], PetscMax(0.0, -s->gap[i]) / compliance);
 }
 
@@ -104,6 +106,7 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 
     if (!set->active[r]) {
       set->F[r] = s->lambda[r] * TermSetUnit(set, r);
+      if (s->spring) largest = PetscMax(largest, PetscAbsReal(set->F[r]));
       continue;
     }
     if (i >= 0 && set->slips[i]) {
@@ -187,7 +190,7 @@ static PetscErrorCode TermSetStep(IPTermSet *set, const IPReducedSystem *s, Pets
   PetscCall(IPTermSystemAssemble(&set->system));
   PetscCall(IPTermSolve(&set->system, s, rtol, set->F, set->Fy, solved));
   if (!*solved) PetscFunctionReturn(0);
-  for (PetscInt r = 0; r < s->m; r++) s->lambda[r] = set->active[r] ? s->lambda[r] - set->F[r] : 0.0;
+  for (PetscInt r = 0; r < s->m; r++) s->lambda[r] = set->active[r] || s->spring ? s->lambda[r] - set->F[r] : 0.0;
   for (PetscInt j = 0; j < s->k; j++) s->y[j] -= set->Fy[j];
   IPTermLawsRelieve(set, s);
   PetscCall(IPTermLawsMove(set, s));

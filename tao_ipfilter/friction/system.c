@@ -79,15 +79,27 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscFunctionReturn(0);
 }
 
-/* Computes L U = K_WW by PETSc's LU, whose solves have little overhead. *definite: whether all pivots are positive. */
-static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *definite)
+/*
+   Computes L U = K_WW by PETSc's LU, whose solves have little overhead. Large K_WW use the factors that exist already.
+   *definite: whether all pivots are positive.
+*/
+static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, Mat factors, PetscBool *definite)
 {
+  const PetscInt large = 1000;
   MatFactorInfo  info;
   MatFactorError error;
   IS             rows, columns;
   PetscReal      least = 0.0;
+  PetscInt       n;
 
   PetscFunctionBegin;
+  PetscCall(MatGetSize(t->K, &n, NULL));
+  if (n >= large) {
+    PetscCall(PetscObjectReference((PetscObject)factors));
+    t->FK     = factors;
+    *definite = PETSC_TRUE;
+    PetscFunctionReturn(0);
+  }
   PetscCall(MatFactorInfoInitialize(&info));
   info.fill = 5.0;
   PetscCall(MatGetFactor(t->K, MATSOLVERPETSC, MAT_FACTOR_LU, &t->FK));
@@ -107,9 +119,10 @@ static PetscErrorCode TermSystemFactorStiffness(IPTermSystem *t, PetscBool *defi
 
 /*
    Sets up the system for the sequential matrices K = K_WW and R. R has m rows of constraints, followed by two rows for
-   each of n terms. kmax: largest number of directions. *definite: false if K_WW is not positive definite.
+   each of n terms. kmax: largest number of directions. factors: of K_WW, which are positive definite. *definite: false
+   if K_WW is not positive definite after all.
 */
-PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R,
+PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R,
   PetscBool *definite)
 {
   PetscFunctionBegin;
@@ -129,19 +142,22 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bf));
   PetscCall(TermSystemMakeRows(t));
-  PetscCall(TermSystemFactorStiffness(t, definite));
+  PetscCall(TermSystemFactorStiffness(t, factors, definite));
   PetscFunctionReturn(0);
 }
 
 /*
    Sets the coefficients by_v and by_f of one row, in the n <= 3 columns of its constraint and its term, and the row's
-   scale
+   scale. With springs D in K_WW the unknowns of the system are changes of f + D v, of which f is f + D v - D v.
 */
 PetscErrorCode IPTermSystemSetRow(IPTermSystem *t, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale)
 {
+  PetscReal v[3];
+
   PetscFunctionBegin;
-  PetscCall(MatSetValues(t->Bv, 1, &row, n, columns, by_v, INSERT_VALUES));
+  for (PetscInt c = 0; c < n; c++) v[c] = by_v[c] - (t->spring ? by_f[c] * t->spring[columns[c]] : 0.0);
+  PetscCall(MatSetValues(t->Bv, 1, &row, n, columns, v, INSERT_VALUES));
   PetscCall(MatSetValues(t->Bf, 1, &row, n, columns, by_f, INSERT_VALUES));
   t->scale[row] = scale;
   PetscFunctionReturn(0);

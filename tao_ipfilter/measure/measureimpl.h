@@ -35,7 +35,6 @@ PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
 PETSC_INTERN void           IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2]);
 PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);
-PETSC_INTERN PetscErrorCode IPTermsStiffness(Tao, Vec force, Vec stiffness);
 PETSC_INTERN PetscErrorCode IPTermsSubtractForces(Tao, Vec);
 PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force);
 PETSC_INTERN PetscReal      IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho,

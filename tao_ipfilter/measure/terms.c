@@ -252,41 +252,6 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
 }
 
 /*
-   Computes the stiffness of the terms' rows: rho for terms that stick, 0 for the others. force: forces M lambda of the
-   constraints.
-*/
-PetscErrorCode IPTermsStiffness(Tao tao, Vec force, Vec stiffness)
-{
-  IPTerms           *terms  = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    inside = 0.99;
-  const PetscScalar *b, *tau, *rho;
-  PetscScalar       *d;
-  PetscInt           n;
-  Vec                bounds;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(terms->rho, &bounds));
-  PetscCall(TermsGetBounds(tao, force, bounds));
-  PetscCall(VecGetLocalSize(bounds, &n));
-  PetscCall(VecGetArrayRead(bounds, &b));
-  PetscCall(VecGetArrayRead(terms->force, &tau));
-  PetscCall(VecGetArrayRead(terms->rho, &rho));
-  PetscCall(VecGetArrayWrite(stiffness, &d));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal size =
-      PetscSqrtReal(PetscSqr(PetscAbsScalar(tau[2 * i])) + PetscSqr(PetscAbsScalar(tau[2 * i + 1])));
-
-    d[2 * i] = d[2 * i + 1] = size < inside * PetscRealPart(b[i]) ? rho[i] : 0.0;
-  }
-  PetscCall(VecRestoreArrayWrite(stiffness, &d));
-  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
-  PetscCall(VecRestoreArrayRead(terms->force, &tau));
-  PetscCall(VecRestoreArrayRead(bounds, &b));
-  PetscCall(VecDestroy(&bounds));
-  PetscFunctionReturn(0);
-}
-
-/*
    Computes the largest violation of a term's law, as a length: slip that the term's force does not oppose, or the
    excess of the force over its bound divided by rho
 */

@@ -13,6 +13,7 @@ struct _n_IPRows {
   IPStamp stamp;
   IPStamp source[2];         /* stamps of the two matrices from which J was assembled */
   Vec     inequality, below; /* weights of the rows of c_I; weights of the rows that follow */
+  Vec     given;             /* weights of the rows that follow, where they are not to be chosen here; NULL: none */
 };
 
 /* condense.c: the condensed matrix A = H + Sigma + J^T D J + delta M_u, and what is needed to reuse its assembly */

@@ -109,6 +109,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *f
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
   PetscInt        n, touched;
+  PetscBool       small;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -117,6 +118,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *f
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
+  PetscCall(IPFilteredIsSmall(tao, &small));
+  if (small && ip->terms->n && IPFilteredOf(tao)->newton) kept->whole = PETSC_TRUE;
   if (*few && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
   else if (*few) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);

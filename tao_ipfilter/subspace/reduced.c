@@ -198,6 +198,7 @@ PetscErrorCode IPReducedRelease(IPReduced *r)
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(PetscFree5(s->JZ, s->h, s->lambda, s->gap, s->y));
   PetscCall(PetscFree(s->base));
+  PetscCall(PetscFree2(s->spring, s->start));
   PetscFunctionReturn(0);
 }
 
@@ -410,7 +411,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   PetscCall(IPComplianceSetRows(&r->compliance, JW, r->nterms ? 0 : s->kmax));
   if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
   if (!s->k) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, JW, &r->laws, definite);
+  if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, r->compliance.F, JW, &r->laws, definite);
   PetscCall(ReducedBroadcast(r, error, definite));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -487,6 +488,21 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
 }
 
 /*
+   Sets the stiffness of the springs that K_WW contains: D of the constraints, D_t of the norm terms' rows. The laws
+   subtract the springs' forces again, so that the solution does not depend on them.
+*/
+PetscErrorCode IPReducedSetSprings(IPReduced *r, Vec D, Vec Dt)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(s->m, &s->spring, s->m, &s->start));
+  PetscCall(ReducedFetch(r->to_rows, D, r->on_rows, r->m, s->spring));
+  PetscCall(ReducedFetch(r->to_terms, Dt, r->on_terms, 2 * r->nterms, s->spring + r->m));
+  PetscFunctionReturn(0);
+}
+
+/*
    Sets the initial active set to the rows whose `guess` is positive, and the initial forces of constraints and norm
    terms
 */
@@ -531,6 +547,7 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
   if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
   if (!r->first) PetscFunctionReturn(0);
+  if (s->spring) PetscCall(PetscArraycpy(s->start, s->gap, s->m));
   if (r->laws) {
     PetscCall(PetscArraycpy(s->base, s->lambda, s->m));
     PetscCall(IPComplianceSpread(&r->compliance, s->base, r->z));
@@ -618,7 +635,7 @@ static PetscErrorCode ReducedRecoverBySolve(IPReduced *r, PetscReal w[])
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(s->m, &change));
-  for (PetscInt i = 0; i < s->m; i++) change[i] = s->lambda[i] - s->base[i];
+  for (PetscInt i = 0; i < s->m; i++) change[i] = IPReducedForce(s, i);
   PetscCall(IPComplianceSpread(&r->compliance, change, r->z));
   PetscCall(PetscFree(change));
   for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];

@@ -194,7 +194,7 @@ PetscErrorCode IPSubspaceStateReconsider(Tao tao, IPSubspaceState *kept, PetscRe
    Computes the weights D_t of the norm terms' rows: rho, the stiffness that resists the term, if the term can carry a
    force; otherwise 0
 */
-static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
+PetscErrorCode IPSubspaceStateStiffnessOfTerms(Tao tao, Vec D)
 {
   IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   const Vec          most[2] = {terms->limit, terms->coefficient};
@@ -221,26 +221,23 @@ static PetscErrorCode KeptStiffnessOfTerms(Tao tao, Vec D)
   PetscFunctionReturn(0);
 }
 
-/* Computes A = K + J^T D J + T^T D_t T. Dt: D_t; NULL without norm terms. */
+/* Computes A = K + J^T D J + T^T D_t T. K contains a shift already. Dt: D_t; NULL without norm terms. */
 PetscErrorCode IPSubspaceStateCondense(Tao tao, Vec D, Vec Dt, Mat *A)
 {
-  TAO_IPFILTER  *ip      = (TAO_IPFILTER *)tao->data;
-  const PetscInt systems = ip->rec->nsystems, filtered = ip->rec->nfiltered;
-  Mat            DT, TtDT;
+  TAO_IPFILTER   *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscInt  systems = ip->rec->nsystems, filtered = ip->rec->nfiltered;
+  const PetscReal delta = ip->shift->delta;
 
   PetscFunctionBegin;
+  ip->cond->rows.given = Dt;
+  ip->shift->delta     = 0.0;
   PetscCall(IPCondenseMatrix(tao, D));
-  ip->rec->nsystems  = systems; /* restores the counts, since this is not a Newton system */
-  ip->rec->nfiltered = filtered;
-  *A                 = ip->cond->A;
-  ip->cond->A        = NULL;
-  if (!Dt) PetscFunctionReturn(0);
-  PetscCall(MatDuplicate(ip->terms->T, MAT_COPY_VALUES, &DT));
-  PetscCall(MatDiagonalScale(DT, Dt, NULL));
-  PetscCall(MatTransposeMatMult(ip->terms->T, DT, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &TtDT));
-  PetscCall(MatAXPY(*A, 1.0, TtDT, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatDestroy(&TtDT));
-  PetscCall(MatDestroy(&DT));
+  ip->shift->delta     = delta;
+  ip->cond->rows.given = NULL;
+  ip->rec->nsystems    = systems; /* restores the counts, since this is not a Newton system */
+  ip->rec->nfiltered   = filtered;
+  *A                   = ip->cond->A;
+  ip->cond->A          = NULL;
   PetscFunctionReturn(0);
 }
 
@@ -260,7 +257,7 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff->rho, ip->pair[IP_SLACK].w));
   if (ip->terms->n) PetscCall(VecDuplicate(ip->terms->t, &Dt));
-  if (ip->terms->n) PetscCall(KeptStiffnessOfTerms(tao, Dt));
+  if (ip->terms->n) PetscCall(IPSubspaceStateStiffnessOfTerms(tao, Dt));
   PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
   PetscCall(VecDestroy(&Dt));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
@@ -317,7 +314,9 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
     kept->pc = pc;
     PetscCall(IPBasisCreate(max, tao->solution, &kept->basis));
   }
-  if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
+  if (kept->whole && ip->terms->n && IPFilteredOf(tao)->newton) {
+    kept->changing = PETSC_TRUE; /* no directions, so that no preconditioner is needed */
+  } else if (kept->K_id != ((PetscObject)K)->id || kept->K_state != state) {
     kept->changing = (PetscBool)(kept->K_id == ((PetscObject)K)->id);
     if (!kept->held || kept->negative) PetscCall(KeptSetUpFree(tao, kept, K, possible));
     if (kept->held || !*possible) PetscCall(IPSubspaceStateHold(tao, kept, possible));

@@ -89,20 +89,27 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
-/*
-   Finds whether W may be extended to all unknowns, so that no directions are needed. A factorization of the whole K
-   must be cheap.
-*/
+/* Finds whether there are so few unknowns that a factorization of the whole K is cheap */
+PetscErrorCode IPFilteredIsSmall(Tao tao, PetscBool *small)
+{
+  const PetscInt most = 10000;
+  PetscInt       n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(tao->solution, &n));
+  *small = (PetscBool)(n <= most);
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether W may be extended to all unknowns, so that no directions are needed */
 static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
 {
-  const PetscInt   most = 10000;
   IPSubspaceState *kept;
-  PetscInt         n;
 
   PetscFunctionBegin;
   PetscCall(IPSubspaceStateGet(tao, &kept));
-  PetscCall(VecGetSize(tao->solution, &n));
-  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms->n && !IPFilteredOf(tao)->newton && !kept->whole && n <= most);
+  PetscCall(IPFilteredIsSmall(tao, can));
+  *can = (PetscBool)(*can && ((TAO_IPFILTER *)tao->data)->terms->n && !IPFilteredOf(tao)->newton && !kept->whole);
   PetscFunctionReturn(0);
 }
 
@@ -313,44 +320,45 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 }
 
 /*
-   Sets up the reduced problem for K + J^T D J + T^T D_t T. D is not zero in closed rows, and D_t not in terms that
-   stick; there they are stiffer than the bodies. This is needed because a tangent K_WW may be indefinite although
-   contact holds its unknowns. These springs act relative to the present point, and do not change a solution in which
-   the same rows are closed and stick. They act on W only, so that the directions and their products with K remain
-   valid.
+   Sets up the reduced problem for K + J^T D J + T^T D_t T. D and D_t are not zero in closed rows, where they are as
+   stiff as the bodies. This is needed because a tangent K_WW may be singular or indefinite although contact holds its
+   unknowns. The laws subtract the forces of these springs again, so that the solution does not depend on them. They act
+   on W only, so that the directions and their products with K remain valid.
 */
 static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool *possible)
 {
-  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
-  const IPPair      *slack   = &ip->pair[IP_SLACK];
-  const PetscReal    stiffer = 10.0;
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
+  const IPPair      *slack = &ip->pair[IP_SLACK];
   const PetscScalar *z, *c;
-  PetscScalar       *d;
+  PetscScalar       *d, *dt;
   PetscInt           n;
-  Vec                D, Dt, force;
+  Vec                D, Dt;
   Mat                A;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(VecPointwiseMult(force, slack->z, slack->w));
   PetscCall(VecDuplicate(ip->terms->t, &Dt));
-  PetscCall(IPTermsStiffness(tao, force, Dt));
-  PetscCall(VecScale(Dt, stiffer));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPSubspaceStateStiffnessOfTerms(tao, Dt));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff->rho, slack->w));
   PetscCall(VecGetLocalSize(D, &n));
   PetscCall(VecGetArray(D, &d));
+  PetscCall(VecGetArray(Dt, &dt));
   PetscCall(VecGetArrayRead(slack->z, &z));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
-  for (PetscInt i = 0; i < n; i++) d[i] = PetscRealPart(z[i]) > 0.0 || PetscRealPart(c[i]) < 0.0 ? stiffer * d[i] : 0.0;
+  for (PetscInt i = 0; i < n; i++) {
+    if (PetscRealPart(z[i]) > 0.0 || PetscRealPart(c[i]) < 0.0) continue;
+    d[i] = 0.0;
+    if (ip->terms->coefficient) dt[2 * i] = dt[2 * i + 1] = 0.0;
+  }
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscCall(VecRestoreArrayRead(slack->z, &z));
+  PetscCall(VecRestoreArray(Dt, &dt));
   PetscCall(VecRestoreArray(D, &d));
   PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
+  PetscCall(FilteredSetUpReduced(tao, basis, A, possible));
+  if (*possible) PetscCall(IPReducedSetSprings(IPFilteredOf(tao)->reduced, D, Dt));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecDestroy(&Dt));
-  PetscCall(FilteredSetUpReduced(tao, basis, A, possible));
   PetscCall(MatDestroy(&A));
   PetscFunctionReturn(0);
 }
@@ -363,12 +371,15 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
+  PetscBool     held;
 
   PetscFunctionBegin;
+  held = (PetscBool)(f->newton && ip->terms->n);
   if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
   f->reduced = &kept->reduced;
-  PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess->H, possible));
-  if (!*possible && f->newton && ip->terms->n) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
+  *possible  = PETSC_FALSE;
+  if (!held || !kept->whole) PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess->H, possible));
+  if (!*possible && held) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);
 }

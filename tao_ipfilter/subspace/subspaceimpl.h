@@ -60,7 +60,17 @@ typedef struct {
   PetscReal *base;             /* forces that h and t already contain, since without them bodies held by constraints
                                   only would move far; zero without norm terms */
   PetscReal  length;           /* size of the terms of a gap, for tolerances */
+  PetscReal *spring, *start;   /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the
+                                  spring is relaxed. NULL: no springs */
 } IPReducedSystem;
+
+/* Returns the force of a row on K_WW and its springs, less those that h and t contain: f - base + D (v - start) */
+static inline PetscReal IPReducedForce(const IPReducedSystem *s, PetscInt row)
+{
+  const PetscReal spring = s->spring ? s->spring[row] * (s->gap[row] - s->start[row]) : 0.0;
+
+  return s->lambda[row] - s->base[row] + spring;
+}
 
 /* The active constraints, and the factors for them */
 typedef struct {
@@ -86,7 +96,8 @@ typedef struct {
 */
 typedef struct _p_IPLaws *IPLaws;
 typedef struct _n_IPLawsOps {
-  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat R, IPLaws *, PetscBool *definite);
+  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R, IPLaws *,
+    PetscBool *definite); /* K: K_WW, with its factors */
   PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
   PetscErrorCode (*restart)(IPLaws); /* called after the initially closed rows were changed */
   PetscErrorCode (*forget)(IPLaws);  /* called after the directions were replaced */
@@ -203,6 +214,7 @@ PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
+PETSC_INTERN PetscErrorCode IPReducedSetSprings(IPReduced *, Vec D, Vec Dt);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
 PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
@@ -216,12 +228,14 @@ PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, V
 PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
 PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
+PETSC_INTERN PetscErrorCode IPSubspaceStateStiffnessOfTerms(Tao, Vec Dt);
 PETSC_INTERN PetscErrorCode IPSubspaceStateCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
 
 /* subspace.c */
+PETSC_INTERN PetscErrorCode IPFilteredIsSmall(Tao, PetscBool *small);
 PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);
 PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPSubspaceState *, PetscBool *possible);

@@ -139,7 +139,7 @@ static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 }
 
 /*
-   Computes the weights D of the rows that follow those of c_I. The weight of a row with very small entries is limited
+   Computes the weights D of the rows that follow those of c_I, if they are not given. The weight of a row with very small entries is limited
    to 100 times the mean weight.
 */
 static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
@@ -151,10 +151,9 @@ static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
   PetscInt        n;
 
   PetscFunctionBegin;
-  if (ip->aug->delta > 0.0) {
-    PetscCall(VecSet(weights, 1.0 / ip->aug->delta));
-    PetscFunctionReturn(0);
-  }
+  if (ip->cond->rows.given) PetscCall(VecCopy(ip->cond->rows.given, weights));
+  else if (ip->aug->delta > 0.0) PetscCall(VecSet(weights, 1.0 / ip->aug->delta));
+  if (ip->cond->rows.given || ip->aug->delta > 0.0) PetscFunctionReturn(0);
   PetscCall(IPCompliances(tao, J, weights));
   PetscCall(VecSum(weights, &sum));
   PetscCall(VecGetSize(weights, &n));

@@ -89,6 +89,7 @@ SCENES = {
     "finite_quarter": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean", QUARTER),
     "leaves": leaves(5, 0.1),
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
+    "finite_sticks_6": pad(", stick: true", "6, 6, 6", ", material: neohookean"),
 } | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true"), "tower": tower(", friction: 0.6"), "tower_sticks": tower(", stick: true"), "tower_tied": tower("")}
 
 
@@ -117,6 +118,9 @@ else:
     step = load("grips")
     say("grips: no more energy than what is tied", step["energy"] <= (1 + 1e-12) * load("tied")["energy"], step["energy"])
     say("grips: work is stored or taken up by the contacts", abs(step["work"] - step["energy"] - step["contact_work"]) < 1e-6 * step["work"], step["work"])
+    step = load("finite_sticks_6")
+    forces = [pair["force"][2] for pair in step["pairs"]]
+    say("finite_sticks_6: both faces carry the same and stick", abs(sum(forces)) < 1e-8 * abs(forces[0]) and all(pair["slip_area"] == 0 and pair["dissipated"] < 1e-12 for pair in step["pairs"]), step["pairs"])
     step = load("leaves")
     say("leaves: work is stored or taken up by the contacts to 1 %", abs(step["work"] - step["energy"] - step["contact_work"]) < 0.01 * step["work"], step["work"])
     for name, coefficient in (("grips", 1), ("finite", 0.3), ("finite_quarter", 0.3), ("leaves", 0.1)):
