@@ -117,7 +117,8 @@ static PetscErrorCode ContinuationStart(IPTermSet *set, const IPReducedSystem *s
 
 /*
    Solves by Newton's method from the start, with compliances that are computed from C instead of estimated. held: each
-   row's compliance is that with all other rows held, which suits rows that stick. begin: forces, motions and y at the start.
+   row's compliance is that with all other rows held, which suits rows that stick. begin: forces, motions and y at the
+   start.
 */
 static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem *s, PetscBool held, PetscReal begin[],
   PetscReal *first, PetscInt *steps, PetscBool *solved)

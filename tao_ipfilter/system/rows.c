@@ -139,8 +139,8 @@ static Mat RowsBelow(TAO_IPFILTER *ip, const IPStamp **stamp)
 }
 
 /*
-   Computes the weights D of the rows that follow those of c_I, if they are not given. The weight of a row with very small entries is limited
-   to 100 times the mean weight.
+   Computes the weights D of the rows that follow those of c_I, if they are not given. The weight of a row with very
+   small entries is limited to 100 times the mean weight.
 */
 static PetscErrorCode RowsWeigh(Tao tao, Mat J, Vec weights)
 {
