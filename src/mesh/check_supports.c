@@ -1,8 +1,8 @@
 /*
    Checks that every body is held. Each body has six rigid body modes. A prescribed displacement restrains its component
-   at the vertices of its face. A contact pair is assumed closed: it restrains the relative motion along the normals of
-   its nonmortar facets, and with friction all relative motion. A mode outside the span of these restraints is free, and
-   the stiffness matrix is singular for it.
+   at the vertices of its face. A contact pair, assumed closed, restrains the relative motion along the normals of its
+   nonmortar facets, or along that of a plane mortar face; with friction all relative motion. A mode outside the span of these restraints is free, and the
+   stiffness is singular for it.
 */
 #include "meshimpl.h"
 #include <vector3.h>
@@ -206,16 +206,61 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar
-   facets */
-static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *pair)
+/* Normal of a facet, as long as twice its area, from its vertices */
+static void SupportFacetNormal(PetscReal x[4][3], PetscReal normal[3])
+{
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
+
+    normal[d] = (x[2][s] - x[0][s]) * (x[3][t] - x[1][t]) - (x[2][t] - x[0][t]) * (x[3][s] - x[1][s]);
+  }
+}
+
+/* Whether a face is a plane, and its unit normal */
+static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, IS facets, PetscReal normal[3],
+  PetscBool *plane)
+{
+  const PetscReal rounding = 1e-10;
+  const PetscInt *f;
+  PetscInt        n;
+  PetscReal       sums[4] = {0.0}; /* vectors of the facets' areas; their areas */
+
+  PetscFunctionBegin;
+  *plane = PETSC_FALSE;
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n && !SceneBodyIsSurface(body); ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], area[3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    SupportFacetNormal(x, area);
+    for (PetscInt d = 0; d < 3; ++d) sums[d] += area[d];
+    sums[3] += VectorNorm(area);
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
+  if (!SceneBodyIsSurface(body)) *plane = (PetscBool)(VectorNorm(sums) > (1.0 - rounding) * sums[3]);
+  else *plane = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
+  for (PetscInt d = 0; d < 3; ++d) normal[d] = SceneBodyIsSurface(body) ? body->own[SURFACE_AXIS + d] : sums[d];
+  VectorScaleToUnit(normal);
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
+   or along that of a plane mortar face */
+static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
 {
   IS              facets;
   const PetscInt *f;
   PetscInt        n, mortar, nonmortar, total;
+  PetscReal       flat[3];
+  PetscBool       plane;
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
+  PetscCall(SupportFindPlane(support, SceneFaceBody(scene, pair->mortar), facets, flat, &plane));
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
   SupportBeginLink(support, nonmortar, mortar);
@@ -223,20 +268,15 @@ static PetscErrorCode SupportAddPair(Support *support, const SceneContactPair *p
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
     PetscInt  vertices[4];
-    PetscReal x[4][3], normal[3], length = 0;
+    PetscReal x[4][3], normal[3];
 
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
     PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    for (PetscInt d = 0; d < 3; ++d) {
-      const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
-
-      normal[d] = (x[2][s] - x[0][s]) * (x[3][t] - x[1][t]) - (x[2][t] - x[0][t]) * (x[3][s] - x[1][s]);
-      length += PetscSqr(normal[d]);
-    }
-    for (PetscInt d = 0; d < 3; ++d) normal[d] /= PetscSqrtReal(length);
+    SupportFacetNormal(x, normal);
+    VectorScaleToUnit(normal);
     for (PetscInt a = 0; a < 4; ++a) {
-      SupportAddMotion(support, nonmortar, normal, x[a], 1);
-      SupportAddMotion(support, mortar, normal, x[a], -1);
+      SupportAddMotion(support, nonmortar, plane ? flat : normal, x[a], 1);
+      SupportAddMotion(support, mortar, plane ? flat : normal, x[a], -1);
       PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
     }
   }
@@ -606,7 +646,7 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 
     if (pair->self) continue;
     if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(&support, pair->mortar, pair->nonmortar, all));
-    else PetscCall(SupportAddPair(&support, pair));
+    else PetscCall(SupportAddPair(&support, scene, pair));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));

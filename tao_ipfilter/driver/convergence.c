@@ -131,14 +131,17 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 /*
    Returns whether another iteration is to refine an iterate that has converged. Where the objective has fallen to a
    small fraction of its first value, an error that is negligible relative to the first value may exceed the objective.
-   Refinement ends when an iteration does not halve the error bound.
+   Refinement ends when an iteration does not halve the error bound. Without a complementarity gap, Newton's method
+   leaves residuals of the size of rounding errors, which no iteration reduces.
 */
 PetscBool IPRefines(TAO_IPFILTER *ip)
 {
-  const PetscInt  most  = 16;
-  const PetscReal halve = 0.5, before = ip->rec->last_bound;
+  const PetscInt  most  = 4;
+  const PetscReal halve = 0.5, before = ip->rec->last_bound, rounding = 1e-13;
+  PetscBool       gap = PETSC_FALSE;
 
-  if (ip->method->on || IPErrorBoundRefined(ip)) return PETSC_FALSE;
+  for (PetscInt b = 0; b < IP_NPAIRS; b++) gap = (PetscBool)(gap || ip->pair[b].n);
+  if (ip->method->on || IPErrorBoundRefined(ip) || (!gap && ip->kkt->error <= rounding)) return PETSC_FALSE;
   ip->rec->last_bound = ip->kkt->bound;
   if (ip->rec->nrefined && ip->kkt->bound > halve * before) return PETSC_FALSE;
   return (PetscBool)(ip->rec->nrefined++ < most);

@@ -23,7 +23,7 @@
                                   objective */
 #define IP_BOUND_FIRST 1e-8 /* if the terms vanish, this fraction of their first magnitude replaces them */
 #define IP_BOUND_PRESENT \
-  1e-24 /* the larger one of both magnitudes times this fraction replaces a smaller objective where the iterate is
+  1e-22 /* the larger one of both magnitudes times this fraction replaces a smaller objective where the iterate is
            refined */
 #define IP_BOUND_ROUNDING \
   (100.0 * PETSC_MACHINE_EPSILON) /* residuals below this fraction of the terms count as rounding errors */

@@ -88,17 +88,23 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 
 /*
    Computes the amounts of relaxation: `fraction` of the tolerance times the size of the constraints at the first
-   relaxation, and times the size of the unknowns for bounds
+   relaxation, and times the size of the unknowns for bounds. The size of the constraints is that of the active ones,
+   but their terms may vanish at the solution. It is at least their first size, limited by the terms of the largest
+   unknown, since rows that never act may be huge.
 */
 static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     size;
-  Vec           r;
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal terms = 10.0;
+  PetscReal       size;
+  Vec             r;
 
   PetscFunctionBegin;
   if (ip->mi && !ip->relax->times) {
     PetscCall(IPOwnActiveSize(tao, &ip->relax->size));
+    PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+    size            = terms * ip->first->jacobian * PetscMax(size, ip->first->x);
+    ip->relax->size = PetscMax(ip->relax->size, PetscMin(ip->first->length, size));
     if (!(ip->relax->size > 0.0)) ip->relax->size = PetscMax(ip->first->length, ip->scale->length);
   }
   ip->relax->by = ip->relax->told = fraction * ip->tol * ip->relax->size;

@@ -61,3 +61,19 @@ for i in $(seq 200); do echo "  - more$i: {body: b1, point: [0, 0, 0], value: [0
 sed '/foot:/r more.yaml' pile.yaml > many.yaml
 "$contact" many.yaml -scene_check > said 2>&1
 echo "many: exit code $?, $(grep -o 'more[0-9]*' said | sort -u | wc -l) supports"
+# A half ring on a plane without friction rolls and slides along it, whatever normals the facets of the ring have
+wheel() {
+  cat <<'END'
+bodies:
+  - ring: {shape: tube_arc, axis: z, radii: [8, 10], angles: [-180, 0], extent: [0, 4], cells: [1, 8, 1], young: 2000, poisson: 0.3}
+  - floor: {FLOOR, material: rigid}
+symmetry: [ring.lmin, ring.lmax, ring.amin, ring.amax]
+displacements:
+  - push: {body: floor, value: [0, 0.1, 0]}
+contact:
+  - touch: {mortar: floor.FACE, nonmortar: ring.outer}
+END
+}
+wheel | sed 's/FLOOR/shape: rigid_plane, point: [0, -10, 0], normal: [0, 1, 0]/; s/FACE/surface/' > wheel.yaml
+wheel | sed 's/FLOOR/lower: [-9, -12, -1], upper: [9, -10, 5], cells: [1, 1, 1]/; s/FACE/ymax/' > wheel_box.yaml
+for scene in wheel wheel_box; do "$contact" $scene.yaml -scene_check 2>&1 > /dev/null; done
