@@ -48,6 +48,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     const SceneContactPair *pair  = &sim->scene->pairs[p];
     PetscReal               depth = 0.0;
     PetscInt                step  = 0;
+    PetscBool               open  = PETSC_FALSE;
     const PetscBool         node  = (PetscBool)(pair->gap == GAP_NODE);
 
     for (PetscInt s = 0; s < run->nsteps; ++s) {
@@ -57,6 +58,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
       if (report->pairs[p].penetration <= PetscMax(depth, report->pairs[p].penetration_rounding)) continue;
       depth = report->pairs[p].penetration;
       step  = report->step;
+      open  = (PetscBool)(report->pairs[p].normal_force == 0.0);
     }
     if (depth <= PENETRATION_SHARE * motion) continue;
     if (pair->self)
@@ -67,9 +69,9 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
-        "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is closed %s: %s",
+        "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is %s %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
-        node ? "at the nonmortar vertices" : "in the mean",
+        open ? "open" : "closed", node ? "at the nonmortar vertices" : "in the mean",
         node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));
   }
   PetscFunctionReturn(0);

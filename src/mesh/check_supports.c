@@ -1,8 +1,8 @@
 /*
    Checks that every body is held. Each body has six rigid body modes. A prescribed displacement restrains its component
    at the vertices of its face. A contact pair, assumed closed, restrains the relative motion along the normals of its
-   nonmortar facets, or along that of a plane mortar face; with friction all relative motion. A mode outside the span of these restraints is free, and the
-   stiffness is singular for it.
+   nonmortar facets, or along that of a plane mortar face; with friction all relative motion. A mode outside the span of
+   these restraints is free, and the stiffness is singular for it.
 */
 #include "meshimpl.h"
 #include <vector3.h>
@@ -260,7 +260,7 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
-  PetscCall(SupportFindPlane(support, SceneFaceBody(scene, pair->mortar), facets, flat, &plane));
+  PetscCall(SupportFindPlane(support, &scene->bodies[mortar], facets, flat, &plane));
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
   SupportBeginLink(support, nonmortar, mortar);

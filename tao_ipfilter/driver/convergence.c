@@ -169,7 +169,7 @@ static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
   PetscFunctionReturn(0);
 }
 
-/* If refinement failed after an iterate had converged, gives that iterate, to which the solve has returned, its reason */
+/* If refinement failed after an iterate had converged, gives the best iterate, which is present again, its reason */
 PetscErrorCode IPConvergeRefined(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -14,7 +14,7 @@
 /*
    Finds whether the matrix might be indefinite without anyone having noticed. A factorization that the user has chosen
    solves with any matrix. After a relaxation of constraints the inertia of factors is not tested. Before negative
-   curvature has been noticed, the inertia of the filter's factors is not tested either, until the solve is about to end.
+   curvature has been noticed, that of the filter's factors is tested only here.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {

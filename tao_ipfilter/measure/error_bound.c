@@ -260,8 +260,8 @@ PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 }
 
 /*
-   Returns whether the error bound is within the tolerance relative to the present objective, however large the objective
-   was at the start
+   Returns whether the error bound is within the tolerance relative to the present objective, however large the
+   objective was at the start
 */
 PetscBool IPErrorBoundRefined(const TAO_IPFILTER *ip)
 {
