@@ -1,11 +1,12 @@
-/* The state from which a run is restarted: src/run takes it and puts it back, src/checkpoint writes and reads it. */
+/* The state from which a run is restarted. src/run gets and sets it; src/checkpoint writes and reads it. */
 #ifndef CHECKPOINT_H
 #define CHECKPOINT_H
 
 #include <petscdmplex.h>
 #include "model.h"
 
-/* Values at the vertices that a rank owns, in the order of the global vectors; or n records of another kind */
+/* A field of values at the vertices that a rank owns, in the order of global vectors, or of n records of another
+   kind */
 typedef struct {
   char       name[128];
   PetscInt   n, components;

@@ -11,25 +11,28 @@ typedef struct _n_Contact *Contact;
 
 /* Data of one contact update. Rows are distributed like their nonmortar vertices. */
 typedef struct {
-  Vec       g;          /* gap at u_ref, divided by the lumped mass [length] */
-  Mat       J;          /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
-  Mat       derivative; /* derivative of the gap that includes the rotation of the normals; in J patches of smooth pairs
-                     keep their shape. NULL if no pair is smooth, or if it was not asked for */
-  PetscBool gaps_only;  /* without derivatives of smooth pairs: J is that of their facets */
-  Mat       cover; /* like J, but of the facets; used to share areas among vertices. NULL (use J) if no pair is smooth
-                     or of order 2 */
-  Mat       mortar, mortar_cover, mortar_slip; /* the parts of J, cover (or J) and slip by the mortar side, in rows of
-                     pairs in contact with themselves, whose sides have the same vertices; NULL: there are no such pairs */
-  Vec       mass;                              /* lumped nonmortar mass m_A = int phi_A [length^2] */
-  Mat       slip; /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along the
-               two tangents of a row. Rows without friction are empty; NULL: no pair has friction */
-  PetscReal *tangent;    /* [6 nlocal] the two unit tangents of each row */
-  PetscReal *covered;    /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL: no
-                         pair has friction */
-  PetscReal *mortar_sum; /* [6 nlocal] sums of the vectors of J, and of those of cover, over the nodes of the mortar
-                            face, as at the row's vertex; NULL: those of the matrices, no body is cut to a sector */
+  Vec g; /* gap at u_ref, divided by the lumped mass [length] */
+  Mat J; /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
+  /* derivative of the gap that includes the rotation of the normals; J is the derivative for patches of smooth pairs
+     that keep their shape. NULL if no pair is smooth, or if it was not requested */
+  Mat       derivative;
+  PetscBool gaps_only; /* whether derivatives of smooth pairs are left out, so that J is the derivative for their
+                          facets */
+  Mat       cover;     /* like J, but for the facets instead of smooth surfaces or order 2; used to distribute areas to
+                      vertices. NULL, for J itself, if no pair is smooth or of order 2 */
+  /* the parts of J, cover (or J) and slip that belong to the mortar side, in rows of pairs in contact with themselves,
+     whose sides have the same vertices; NULL if there are no such pairs */
+  Mat        mortar, mortar_cover, mortar_slip;
+  Vec        mass;    /* lumped nonmortar mass m_A = int phi_A [length^2] */
+  Mat        slip;    /* 2m x n AIJ, dimensionless: displacement of the mortar side relative to the nonmortar side along
+                     the two tangents of each row. Rows without friction are empty. NULL if no pair has friction */
+  PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
+  PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL if
+                         no pair has friction */
+  PetscReal *mortar_sum; /* [6 nlocal] sums of the vectors of J, and of cover, over the nodes of the mortar face, in
+                            the directions at the row's vertex; NULL if no body is a sector of cyclic symmetry */
   PetscReal *normal;     /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
-  PetscInt   nlocal;     /* rows of this rank */
+  PetscInt   nlocal;     /* number of rows of this rank */
   PetscInt  *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */
   PetscInt  *pair;       /* contact pair of each local row */
 } * ContactLinearization;
@@ -48,25 +51,25 @@ PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
-/* Whether a face of a pair is curved before it deforms */
+/* Determines whether a face of a pair is curved before it deforms */
 PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);
 /* Collective. Whether a node (its number in global vectors) is on the edge of a pair's nonmortar face */
 PETSC_EXTERN PetscErrorCode ContactIsAtEdge(Contact, PetscInt pair, PetscInt node, PetscBool *);
-/* Number of nodes of a pair's nonmortar face where friction cannot act although the faces slide, after a contact
-   update; and number of all its nodes */
+/* Counts the nodes of a pair's nonmortar face on which no friction acts although the faces slide, after a contact
+   update, and all nodes of that face */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
 /* Collective. Largest penetration of vertices of either face of each pair at a displacement, and its accuracy
    [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
-/* Collective. How deep vertices of a pair are that went through the other face from u0 to u1, and how deep contact is
-   searched for [length]; turned: a facet turned by more than 90 degrees */
+/* Collective. Computes the largest depth of vertices of a pair that passed through the other face between u0 and u1,
+   and the search depth of the pair [length]. turned: whether a facet rotated by more than 90 degrees */
 PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
   PetscReal *reach, PetscBool *turned);
-/* Collective. Contact update at zero displacement. An error if undeformed bodies overlap deeper than the contact
-   search reaches */
+/* Collective. Checks a contact update at zero displacement. It is an error if undeformed bodies overlap by more than
+   the search depth. */
 PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
-/* For each node of a nonmortar face, the weights of the mortar face's nodes that it is tied to */
+/* Computes, for each node of a nonmortar face, the weights of the nodes of the mortar face to which it is tied */
 PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const char what[], const SceneTie *, Mat *rows);
 PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);

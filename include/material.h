@@ -135,8 +135,8 @@ PETSC_EXTERN PetscErrorCode MaterialGetExpansion(const Material *, PetscReal A[9
 /* Moduli for the law, and for its isochoric part */
 PETSC_EXTERN PetscErrorCode MaterialGetModuli(const Material *, MaterialModuli *, MaterialModuli *isochoric);
 PETSC_EXTERN PetscErrorCode MaterialGetLaw(const Material *, const MaterialLaw **);
-/* Whether hardening comes to an end at small strain: loads beyond a limit are then carried by no plastic strain, however
-   large. At finite strain the change of shape may carry them */
+/* Returns whether hardening ends at small strain. Loads beyond a limit cannot then be carried at any plastic strain. At
+   finite strain the change of shape may carry them. */
 PETSC_EXTERN PetscBool MaterialCollapses(const Material *);
 /* Whether a law of plasticity has such a hardening; if not, which constant is wrong and why */
 PETSC_EXTERN PetscBool MaterialCheckHardening(const MaterialHardening *, const char **key, char why[], size_t length);

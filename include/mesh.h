@@ -12,9 +12,10 @@
 #include <petscdmplex.h>
 #include "model.h"
 
-#define MESH_BODY_LABEL      "body"
-#define MESH_SURFACE         "surface_" /* with a number: a part of the boundary of a body from a file */
-#define MESH_MAX_NODES       27         /* of a cell */
+#define MESH_BODY_LABEL "body"
+/* prefix, followed by a number, of the name of a part of the boundary of a body from a file */
+#define MESH_SURFACE         "surface_"
+#define MESH_MAX_NODES       27 /* largest number of nodes of a cell */
 #define MESH_MAX_FACET_NODES 9
 
 /* Tetrahedra have 4 or 10 nodes, hexahedra 8 or 27 */
@@ -33,19 +34,19 @@ static inline PetscInt MeshCorners(PetscInt nnodes)
   return MeshIsTetrahedron(nnodes) ? 4 : 8;
 }
 
-/* The mesh of all bodies, refined uniformly `refine` times */
+/* Creates the mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
-/* Cells marked for refinement on one mesh after another, as cell numbers on the first rank */
+/* Cells that are marked for refinement on a sequence of meshes, by the numbers of the cells on the first rank */
 typedef struct {
-  PetscInt   n, *count; /* number of rounds, and number of cells in each */
+  PetscInt   n, *count; /* number of meshes, and number of marked cells on each */
   PetscInt **cells;
 } MeshMarks;
-/* The mesh of a scene: refined as the scene says, then in the marked cells; marks NULL: none */
+/* Creates the mesh of a scene: refined as the scene requires, then in the marked cells; marks may be NULL */
 PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, const MeshMarks *, DM *);
 PETSC_EXTERN PetscErrorCode MeshMarksAdd(DM, const PetscBool marked[], MeshMarks *);
 PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
-/* means: for each hanging vertex (in the middle of an edge or facet of a coarser cell) the vertices whose mean it
-   is; NULL: no hanging vertices */
+/* means: for each hanging vertex, in the middle of an edge or a facet of a coarser cell, the weights of the vertices of
+   which it is the mean; NULL if there are no hanging vertices */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
 /* Marks the boundary facets of the bodies on this rank */
@@ -56,37 +57,41 @@ PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
    its parts of faces */
 PETSC_EXTERN PetscErrorCode MeshGetFaceNames(MPI_Comm, const SceneBody *, PetscInt *n, char ***names);
 PETSC_EXTERN PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names);
-/* The surfaces of all bodies at refinement level 0, on all ranks: the faces of shapes; of bodies from files the parts of
-   the boundary between sharp edges, for which they get faces surface_1, surface_2, ... */
+/*
+   The surfaces of all bodies at refinement level 0, equal on all ranks. The surfaces of a built-in shape are its faces.
+   The surfaces of a body from a file are the parts of its boundary between sharp edges; the body gets faces surface_1,
+   surface_2, ... for them.
+*/
 typedef struct {
-  PetscInt   n, *surface; /* facets, and the surface of each */
-  PetscReal *x;           /* [12 n] corners, counterclockwise seen from outside; a triangle repeats the last [length] */
-  PetscInt   nsurfaces, *body;
-  char     **name; /* "<body>.<face>" */
+  PetscInt   n, *surface; /* number of facets, and the surface of each */
+  PetscReal *x; /* [12 n] vertices, counterclockwise seen from outside; a triangle repeats its last vertex [length] */
+  PetscInt   nsurfaces, *body; /* number of surfaces, and the body of each */
+  char     **name;             /* [nsurfaces] "<body>.<face>" */
 } MeshSurfaces;
 PETSC_EXTERN PetscErrorCode MeshSurfacesCreate(MPI_Comm, PetscInt nbodies, SceneBody[], MeshSurfaces *);
 PETSC_EXTERN PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *);
-/* Checks that the faces of a scene have facets, and that every body is held by displacements or contact */
+/* Checks that the faces that a scene names have facets, and that every body is held by displacements, springs, ties or
+   contact pairs */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
 /* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
-/* Local vertices (DMPlex points) in the closure of a face, also of facets that other ranks own */
+/* Gets the vertices of a face on this rank (DMPlex points), including those whose facets other ranks own */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 /* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetCyclicImages(DM, const SceneCyclic *, PetscReal turn[3][3], PetscInt *n,
   PetscInt *nodes[], PetscInt *images[]);
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 4 vertices of a facet, counterclockwise seen from outside the body (a triangle repeats the last one). The 8
-   vertices of a hexahedron in tensor order, x fastest */
+/* Get the 4 vertices of a facet, counterclockwise seen from outside the body (a triangle repeats its last vertex), and
+   the 8 vertices of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 PETSC_EXTERN PetscErrorCode MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 /* The nodes of a facet: its 4 vertices, or 9 with edge and facet nodes; of a triangle 3 or 6. The nodes of a
    hexahedron, 8 or 27 in tensor order, or of a tetrahedron, 4 or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
-/* Cuts a facet by its nodes into bilinear facets: 1, or 4 of order 2. Each has 4 nodes, counterclockwise seen from
-   outside; a triangle repeats the last one */
+/* Divides a facet at its nodes into bilinear facets: 1, or 4 if the order is 2. Each has 4 nodes, counterclockwise seen
+   from outside; a triangle repeats its last node. */
 #define MESH_MAX_FACET_PIECES 4
 PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n,
   PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
@@ -109,13 +114,13 @@ PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const Petsc
 typedef struct {
   PetscReal distance; /* distance of the point from the cell [length] */
   PetscReal size;     /* diagonal of the cell's bounding box [length] */
-  PetscInt  cell, n;  /* cell number; number of its nodes */
+  PetscInt  cell, n;  /* number of the cell; number of its nodes */
   PetscInt  body;     /* body of the cell */
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
-/* Evaluates fields (global vectors) at points of this rank: nfields x 3 values per point. missing: number of points
-   on all ranks that are near no cell */
+/* Evaluates fields (global vectors) at points of this rank: [nfields][3] values per point. missing: number of points on
+   all ranks that have no cell near */
 PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints,
   const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
 
@@ -128,7 +133,7 @@ PETSC_EXTERN PetscErrorCode    MeshLocatorCreate(PetscInt n, const PetscReal poi
 PETSC_EXTERN PetscErrorCode MeshLocatorAddCell(MeshLocator, PetscInt cell, PetscInt body, PetscInt n, PetscReal X[][3]);
 PETSC_EXTERN PetscErrorCode MeshLocatorGetPlaces(MeshLocator, const MeshPlace **);
 PETSC_EXTERN PetscErrorCode MeshLocatorDestroy(MeshLocator *);
-/* Locates the points of a scene's probes; error if one is outside all bodies */
+/* Locates the points of a scene's probes. It is an error if a point is outside all bodies. */
 PETSC_EXTERN PetscErrorCode MeshLocateProbes(DM, Scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[]);
 /* Registers the PETSCPARTITIONER type "metis" */
 PETSC_EXTERN PetscErrorCode MeshRegisterPartitioner(void);

@@ -1,7 +1,7 @@
 /*
    Rigid surfaces: plane, sphere, cylinder, cone, torus, and profiles that are extruded or revolved. Contact uses the
-   formula of the surface. The mesh of the body is a cube of one cell, which carries the rigid body motion. The only face
-   of the cube represents the surface.
+   formula of the surface. The mesh of the body is a cube of one cell, which carries the rigid body motion. The only
+   face of the cube represents the surface.
 */
 #include "shapesimpl.h"
 
