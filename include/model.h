@@ -75,7 +75,7 @@ typedef struct {
   PetscReal radius, center[3]; /* [length] */
 } SceneSphere;
 
-#define OCTANT_BOTH 2 /* the body goes on beyond the plane */
+#define OCTANT_BOTH 2 /* the octants on both sides of the plane are modelled */
 
 /* The octants of shells and balls: cut out by the three coordinate planes through a corner */
 typedef struct {
@@ -190,7 +190,8 @@ typedef struct {
   PetscInt  ramp;
 } ScenePressure;
 
-/* Dead load on a face or a rigid body: a uniform traction, or a resultant; with a moment the traction is linear */
+/* A dead load on a face or a rigid body: a uniform traction, or a resultant force. With a moment the traction varies
+   linearly over the face. */
 typedef struct {
   char     *name;
   PetscInt  body;      /* rigid body on which the resultant acts; PETSC_DECIDE: it acts on a face */
@@ -364,13 +365,13 @@ typedef struct _n_Scene {
   SceneOption *options;
 } * Scene;
 
-/* Whether bodies have inertia */
+/* Returns whether the analysis is dynamic, so that bodies have inertia */
 static inline PetscBool SceneIsDynamic(Scene scene)
 {
   return (PetscBool)(scene->dynamics.time_step > 0.0);
 }
 
-/* Load step k ends at k times this */
+/* Returns the time step; load step k ends at k times this value. It is 1 in a static analysis. */
 static inline PetscReal SceneTimeStep(Scene scene)
 {
   return SceneIsDynamic(scene) ? scene->dynamics.time_step : 1.0;
@@ -378,7 +379,7 @@ static inline PetscReal SceneTimeStep(Scene scene)
 
 /* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
-/* Whether a body is a rigid surface: contact is with a formula, not with facets */
+/* Returns whether a body is a rigid surface, whose contact uses a formula instead of facets */
 static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
 {
   return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_REVOLVED);
@@ -389,13 +390,13 @@ typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
 PETSC_EXTERN void SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
-/* Distance of a point from an undeformed rigid surface, negative inside [length], and its gradient */
-/* Sets both sides of a pair whose `self` is set, and marks a body whose whole boundary they are */
+/* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
+PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
+/* Sets both sides of a pair whose `self` is set, and marks the body if they are its whole boundary */
 PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);
-PETSC_EXTERN PetscReal      SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
-/* The body that a face belongs to */
+/* Returns the body that a face belongs to */
 PETSC_EXTERN const SceneBody *SceneFaceBody(Scene, const char face[]);
-/* Evaluates an expression in x, y, z at a point */
+/* Evaluates an expression in x, y and z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 
 #endif

@@ -210,8 +210,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
     degree, &degree, NULL));
   PetscCall(PetscOptionsReal("-contact_search_depth",
-    "Largest penetration of facets that pair (0: from the thickness of the bodies)", "ContactSetFromOptions",
-    contact->depth, &contact->depth, NULL));
+    "Largest penetration at which facets face each other (0: from the thickness of the bodies)",
+    "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
   PetscOptionsEnd();
   PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
