@@ -21,6 +21,7 @@ typedef struct _n_Checkpoint {
   PetscReal        largest_increment; /* of any displacement so far [length] */
   PetscReal        work;              /* work of the external forces [force length] */
   PetscReal        contact_work;      /* work taken up by contact pairs with friction [force length] */
+  PetscReal        largest_speed;     /* in dynamics with controlled time steps, so far: a norm by mass */
   PetscReal        damping_work;      /* in dynamics: work taken up by damping [force length] */
   PetscReal       *shortening;        /* of each bolt [length] */
   PetscInt         nfields;

@@ -146,8 +146,9 @@ typedef struct {
   PetscReal      time_step, end_time; /* [time]; time_step 0: a static analysis */
   DynamicsScheme scheme;
   MassType       mass;
-  PetscReal      spectral_radius;   /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
-  PetscReal      damping_mass;      /* forces by mass times velocity [1/time] */
+  PetscReal      spectral_radius; /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
+  PetscReal      tolerance;       /* of the error of time steps, which are then controlled; 0: all are of one length */
+  PetscReal      damping_mass;    /* forces by mass times velocity [1/time] */
   PetscReal      damping_stiffness; /* forces by stiffness times velocity [time] */
 } SceneDynamics;
 

@@ -92,6 +92,9 @@ typedef struct {
   PetscReal   damping_work;          /* taken up by damping [force length] */
   PetscReal   numerical_dissipation; /* work of the loads and kinetic energy at the start that is neither in the total
                                         energy nor taken up by the contacts or by damping [force length] */
+  PetscInt    rejected_steps;        /* controlled time steps: taken back in this load step because of their error */
+  PetscReal   shortest_step;         /* of this load step; all are of one length unless they are controlled [time] */
+  PetscReal   time_error;            /* controlled time steps: the largest error of this load step; else 0 */
   PetscReal   momentum[3];           /* of all bodies [force time] */
   PetscReal   angular_momentum[3];   /* about the origin, at the deformed places [force length time] */
 } MotionReport;

@@ -86,6 +86,7 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
     {"work", checkpoint->work, PETSC_NINFINITY},
     {"contact_work", checkpoint->contact_work, PETSC_NINFINITY},
     {"damping_work", checkpoint->damping_work, PETSC_NINFINITY},
+    {"largest_speed", checkpoint->largest_speed, 0},
   };
 
   PetscFunctionBegin;

@@ -13,6 +13,7 @@ const CheckpointNumberField CheckpointNumbers[] = {
   {"work", offsetof(struct _n_Checkpoint, work)},
   {"contact_work", offsetof(struct _n_Checkpoint, contact_work)},
   {"damping_work", offsetof(struct _n_Checkpoint, damping_work)},
+  {"largest_speed", offsetof(struct _n_Checkpoint, largest_speed)},
   {NULL, 0},
 };
 

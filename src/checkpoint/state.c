@@ -55,7 +55,8 @@ static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
   Dynamics         *d           = &sim->dynamics;
 
   PetscFunctionBegin;
-  d->damped = checkpoint->damping_work;
+  d->damped  = checkpoint->damping_work;
+  d->fastest = checkpoint->largest_speed;
   PetscCall(CheckpointGetVec(checkpoint, "velocity", d->velocity));
   PetscCall(CheckpointGetVec(checkpoint, "acceleration", d->acceleration));
   PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
@@ -136,7 +137,8 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   if (SimulationIsDynamic(sim)) {
-    (*checkpoint)->damping_work = sim->dynamics.damped;
+    (*checkpoint)->damping_work  = sim->dynamics.damped;
+    (*checkpoint)->largest_speed = sim->dynamics.fastest;
     PetscCall(CheckpointAddVec(*checkpoint, "velocity", n / 3, sim->dynamics.velocity));
     PetscCall(CheckpointAddVec(*checkpoint, "acceleration", n / 3, sim->dynamics.acceleration));
     PetscCall(CheckpointAddVec(*checkpoint, "auxiliary_acceleration", n / 3, sim->dynamics.auxiliary));

@@ -30,6 +30,7 @@ typedef struct {
   Elasticity elasticity; /* owned by the caller */
   PetscReal  kinetic;    /* kinetic energy at time 0 [force length] */
   PetscReal  damped;     /* energy that damping has dissipated [force length] */
+  PetscReal  fastest;    /* controlled time steps: largest norm of the velocity so far, with the mass */
 } Dynamics;
 
 static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
@@ -59,6 +60,8 @@ PETSC_INTERN PetscErrorCode SchemeBegin(const SceneDynamics *, PetscReal dt, Vec
 PETSC_INTERN PetscErrorCode SchemePredict(const Dynamics *, PetscReal dt, Vec u, Vec predicted);
 PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *energy, Vec force);
 PETSC_INTERN PetscErrorCode SchemeGetDamping(const SceneDynamics *, const Dynamics *, Vec velocity, Vec force);
+PETSC_INTERN PetscErrorCode SchemeEstimate(const SceneDynamics *, PetscReal dt, PetscReal before, PetscBool smooth,
+  Vec from, Vec u, Dynamics *, PetscReal *error);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
 
 /* turn.c: forces that conserve the energy of rotating rigid bodies */

@@ -1,5 +1,6 @@
 /* Energies and momentum in dynamics */
 #include "measureimpl.h"
+#include "src/state/control.h"
 
 /*
    Computes energies and momentum. Velocities at u and the work up to u must be known. The numerical dissipation is the
@@ -20,6 +21,9 @@ PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
   PetscCall(MassMeasure(&constraints, d, u, &motion->kinetic_energy, motion->momentum, motion->angular_momentum));
   motion->total_energy          = motion->kinetic_energy + report->energy;
   motion->damping_work          = d->damped;
+  motion->rejected_steps        = sim->control->time_step.rejected;
+  motion->shortest_step         = sim->control->time_step.shortest * SceneTimeStep(sim->scene);
+  motion->time_error            = sim->control->time_step.largest;
   motion->numerical_dissipation = d->kinetic + report->work - motion->total_energy - report->contact_work -
                                   motion->damping_work - report->plastic_work;
   PetscFunctionReturn(0);

@@ -77,6 +77,29 @@ static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer
   PetscFunctionReturn(0);
 }
 
+/* Prints the number of controlled time steps, the shortest one, the largest error, and how many were taken back. */
+static PetscErrorCode ViewTimeSteps(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt  n = 0, rejected = 0;
+  PetscReal shortest = PETSC_INFINITY, error = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const MotionReport *motion = report->steps[s].motions;
+
+    if (!motion) continue;
+    n += report->steps[s].substeps;
+    rejected += motion->rejected_steps;
+    shortest = PetscMin(shortest, motion->shortest_step);
+    error    = PetscMax(error, motion->time_error);
+  }
+  if (error > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "time steps: %" PetscInt_FMT ", the shortest %.4g, the largest error %.3g; %" PetscInt_FMT " were taken back\n\n",
+      n, (double)shortest, (double)error, rejected));
+  PetscFunctionReturn(0);
+}
+
 /* Prints the load steps in which linear systems needed fallbacks after the Krylov method, and these fallbacks. */
 static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 {
@@ -248,6 +271,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewBalance(report, viewer));
   PetscCall(ViewPlasticity(report, viewer));
+  PetscCall(ViewTimeSteps(report, viewer));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));
   PetscCall(ViewErrors(report, viewer));

@@ -104,6 +104,16 @@ static PetscReal ContactHistoryPressure(const ContactHistory *m, PetscInt k)
   return m->open[k] ? 0.0 : m->pressure[k];
 }
 
+/* Collective. Counts vertices under pressure */
+PetscErrorCode ContactHistoryCountClosed(const ContactHistory *m, MPI_Comm comm, PetscInt *n)
+{
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) *n += ContactHistoryPressure(m, k) > 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 1, MPIU_INT, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm comm, PetscReal *largest)
 {
   PetscFunctionBegin;

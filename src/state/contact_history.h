@@ -25,6 +25,7 @@ struct _n_ContactHistory {
                                     NULL without friction */
 };
 
+PETSC_INTERN PetscErrorCode ContactHistoryCountClosed(const ContactHistory *, MPI_Comm, PetscInt *n);
 PETSC_INTERN PetscErrorCode ContactHistoryCreate(DM, Scene, ContactHistory *);
 PETSC_INTERN PetscInt       ContactHistoryIndex(const ContactHistory *, ContactLinearization, PetscInt row);
 PETSC_INTERN PetscErrorCode ContactHistoryStore(ContactHistory *, ContactLinearization, const ContactSolution *,

@@ -20,27 +20,38 @@ typedef struct {
   PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
 } StepObserver;
 
+/* Controlled time steps of a load step. */
+typedef struct {
+  PetscInt  closed;   /* vertices under pressure at the last state */
+  PetscInt  rejected; /* time steps that were taken back because of their error */
+  PetscBool too_long; /* the last attempt was such a one */
+  PetscReal error;    /* of the last attempt */
+  PetscReal largest;  /* of those that were kept */
+  PetscReal shortest; /* length of the shortest, in load steps */
+} TimeStepControl;
+
 /* Settings for the solution of load steps, and the reasons for which load steps have failed. */
 struct _n_StepControl {
-  StepTolerances tolerances; /* updated with the options of the solvers as soon as these have been read */
-  PetscBool      warm;       /* true if load steps start from the extrapolated path and from the pressures of the
+  StepTolerances  tolerances; /* updated with the options of the solvers as soon as these have been read */
+  PetscBool       warm;       /* true if load steps start from the extrapolated path and from the pressures of the
                                 last load step */
-  PetscBool      monitor;    /* true if cuts of load steps and contact updates are printed */
-  PetscInt       maxcuts;    /* largest number of cuts in a load step */
-  PetscInt       first_step; /* first load step of this run, counted from 0; positive after a restart */
-  PetscReal      increment;  /* time increment of the next attempt within the current load step; 0: the rest of the
+  PetscBool       monitor;    /* true if cuts of load steps and contact updates are printed */
+  PetscInt        maxcuts;    /* largest number of cuts in a load step */
+  PetscInt        first_step; /* first load step of this run, counted from 0; positive after a restart */
+  PetscReal       increment;  /* time increment of the next attempt within the current load step; 0: the rest of the
                                 load step */
-  PetscReal      penalty;    /* value of -contact_penalty: contact stiffness divided by the stiffness of the bodies;
+  TimeStepControl time_step;
+  PetscReal       penalty; /* value of -contact_penalty: contact stiffness divided by the stiffness of the bodies;
                                 0: contact is a constraint */
-  KSP            ksp;        /* linear solver for quadratic load steps without contact; NULL until it is needed */
-  Forecast       forecast;
-  StepObserver   observer;
-  PetscInt       unheld;      /* number of consecutive attempts at this load step that failed because contact cannot
+  KSP             ksp;     /* linear solver for quadratic load steps without contact; NULL until it is needed */
+  Forecast        forecast;
+  StepObserver    observer;
+  PetscInt        unheld;      /* number of consecutive attempts at this load step that failed because contact cannot
                                  hold the loads; a proven failure counts 2 */
-  char          *cause;       /* reason of the first of these attempts; NULL if there is none */
-  PetscReal      weak_share;  /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
+  char           *cause;       /* reason of the first of these attempts; NULL if there is none */
+  PetscReal       weak_share;  /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
                                  of the bodies; 0: no such term */
-  int            interrupted; /* signal that was caught; 0: none */
+  int             interrupted; /* signal that was caught; 0: none */
 };
 
 #endif

@@ -119,3 +119,14 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
   PetscCall(DynamicsSetRest(&constraints, &sim->loads, time, u, &sim->dynamics));
   PetscFunctionReturn(0);
 }
+
+/* Estimates the error of a time step to u (SchemeEstimate()). smooth: contact neither closes nor opens */
+PetscErrorCode InertiaEstimate(Simulation sim, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
+{
+  const PetscReal before = (sim->path->time - sim->path->previous_time) * SceneTimeStep(sim->scene);
+
+  PetscFunctionBegin;
+  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim, time), before, smooth, sim->path->u, u,
+    &sim->dynamics, error));
+  PetscFunctionReturn(0);
+}

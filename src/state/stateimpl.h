@@ -70,6 +70,7 @@ PETSC_INTERN PetscErrorCode InertiaIsSmall(Simulation, PetscBool *);
 PETSC_INTERN PetscErrorCode InertiaSetExcess(Simulation, Vec u);
 PETSC_INTERN PetscErrorCode InertiaMeasureExcess(Simulation, Vec u, PetscReal rounding, PetscReal *change);
 PETSC_INTERN PetscErrorCode InertiaGetForce(Simulation, Vec u, Vec *force);
+PETSC_INTERN PetscErrorCode InertiaEstimate(Simulation, PetscReal time, PetscBool smooth, Vec u, PetscReal *error);
 PETSC_INTERN PetscErrorCode InertiaAdvance(Simulation, PetscReal time, Vec u);
 
 #endif

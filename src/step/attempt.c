@@ -695,6 +695,38 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 }
 
 /*
+   Judges a controlled time step: takes it back, so that a shorter one is tried, if its error is above the tolerance.
+   Where contact closes or opens, or half of its vertices change, the error is that of a motion which is not smooth. The
+   shortest time steps are kept in any case.
+*/
+static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u, StepReport *report)
+{
+  TimeStepControl *c      = &sim->control->time_step;
+  const PetscReal  length = time - sim->path->time, tolerance = sim->scene->dynamics.tolerance;
+  PetscInt         closed = 0;
+  PetscBool        smooth;
+  char             reason[96];
+
+  PetscFunctionBegin;
+  c->too_long = PETSC_FALSE;
+  if (!(tolerance > 0.0) || !report->converged) PetscFunctionReturn(0);
+  if (sim->contact) PetscCall(ContactHistoryCountClosed(sim->history, sim->comm, &closed));
+  smooth = (PetscBool)(2 * PetscAbsInt(closed - c->closed) <= PetscMax(closed, c->closed));
+  PetscCall(InertiaEstimate(sim, time, smooth, u, &c->error));
+  c->too_long = (PetscBool)(c->error > tolerance && length > STEP_SHORTEST);
+  if (c->too_long) {
+    PetscCall(PetscSNPrintf(reason, sizeof(reason), "the error %.3g of the time step is above the tolerance %g",
+      (double)c->error, (double)tolerance));
+    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  } else {
+    c->closed   = closed;
+    c->largest  = PetscMax(c->largest, c->error);
+    c->shortest = PetscMin(c->shortest, length);
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
    Attempts to advance the state to `time`. After success sim->path, sim->solved->linearization, pressures and gaps are
    those of the new state. After a failure they are unchanged.
 */
@@ -734,6 +766,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
 
   PetscCall(AttemptCountUnheld(&p, report));
+  PetscCall(AttemptJudgeTimeStep(sim, time, u, report));
   if (report->converged) {
     PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(InertiaGetForce(sim, u, &inertia));

@@ -2,6 +2,7 @@
 #include "stepimpl.h"
 #include <math.h>
 #include <petsctime.h>
+#include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
@@ -26,6 +27,9 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   sim->path->unbalanced = sim->path->turnover = 0.0;
   sim->control->unheld                        = 0;
   PetscCall(PetscFree(sim->control->cause));
+  sim->control->time_step = (TimeStepControl){.shortest = 1.0};
+  if (sim->contact && scene->dynamics.tolerance > 0.0)
+    PetscCall(ContactHistoryCountClosed(sim->history, sim->comm, &sim->control->time_step.closed));
   PetscFunctionReturn(0);
 }
 
@@ -92,6 +96,36 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   PetscFunctionReturn(0);
 }
 
+/* Shortens a controlled time step that was taken back: its error falls by four with a step half as long */
+static PetscErrorCode SimulationShorten(Simulation sim, const StepReport *report, PetscReal *increment)
+{
+  TimeStepControl *c = &sim->control->time_step;
+  PetscReal        left;
+
+  PetscFunctionBegin;
+  ++c->rejected;
+  for (left = c->error; left > sim->scene->dynamics.tolerance && *increment > STEP_SHORTEST; left *= 0.25)
+    *increment *= 0.5;
+  if (sim->control->monitor)
+    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " taken back to time %g, time steps of %g: %s\n",
+      report->step, (double)(sim->path->time * SceneTimeStep(sim->scene)),
+      (double)(*increment * SceneTimeStep(sim->scene)), report->reason));
+  PetscFunctionReturn(0);
+}
+
+/* The increment after a success: doubled, unless this is a controlled time step with too large an error, or the longer
+   ones would not end where load steps do */
+static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
+{
+  const PetscReal tolerance = sim->scene->dynamics.tolerance, safe = 0.125;
+  const PetscReal longer = 2.0 * increment, steps = sim->path->time / longer;
+
+  if (tolerance > 0.0 && (sim->control->time_step.error > safe * tolerance || longer > 1.0 ||
+                           PetscAbsReal(steps - PetscFloorReal(steps + 0.5)) > PETSC_SQRT_MACHINE_EPSILON))
+    return increment;
+  return longer;
+}
+
 /*@C
    SimulationStep - Solves the next load step
 
@@ -117,6 +151,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
    without contact pairs is one PCG solve (options prefix -elasticity_).
 
    A step that fails is halved and repeated from the last converged state. After each success the step size is doubled.
+   With a tolerance in `dynamics` a step is divided into time steps with an error below it.
 
    Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE
    for one that the scene does not have.
@@ -150,14 +185,17 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     if (report->converged) {
       ++report->substeps;
       if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
-      increment *= 2.0;
+      increment = SimulationLengthen(sim, increment);
     }
-    PetscCall(ForecastAssess(sim, report->converged, &anew));
-    if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, &increment, &again));
+    if (sim->control->time_step.too_long) PetscCall(SimulationShorten(sim, report, &increment));
+    else {
+      PetscCall(ForecastAssess(sim, report->converged, &anew));
+      if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, &increment, &again));
+    }
     sim->control->increment = increment;
   }
   if (sim->path->time >= end) {
-    sim->control->increment = 0.0;
+    if (sim->scene->dynamics.tolerance == 0.0) sim->control->increment = 0.0;
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
   }

@@ -199,7 +199,8 @@ PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolu
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
-/* attempt.c: attempts to reach a time */
+/* attempt.c: attempts to reach a time; length of the shortest controlled time steps, in load steps */
+#define STEP_SHORTEST (1.0 / 1024.0)
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
 /* step.c: its functions are declared in step.h */

@@ -17,6 +17,8 @@ static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
   DynamicsRequire(d->end_time <= (PetscReal)SCENE_MAX_STEPS * d->time_step, keys,
     "dynamics_time_step is %g, which makes more than %d steps up to dynamics_end_time, %g", (double)d->time_step,
     SCENE_MAX_STEPS, (double)d->end_time);
+  DynamicsRequire(d->tolerance >= 0.0 && d->tolerance < 1.0, keys,
+    "dynamics_tolerance is %g, which must be above 0 and below 1", (double)d->tolerance);
   DynamicsRequire(d->spectral_radius >= 0.0 && d->spectral_radius <= 1.0, keys,
     "dynamics_spectral_radius is %g, which must lie between 0 and 1", (double)d->spectral_radius);
   DynamicsRequire(d->damping_mass >= 0.0, keys, "dynamics_damping_mass is %g, which must not be negative",

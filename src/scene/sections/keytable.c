@@ -282,6 +282,10 @@ static const SceneKey ramp_rows[] = {
 static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynamics, time_step, REQUIRED, ANY, "T", "",
                                            "above 0; it is made smaller where `end_time` is not a multiple of it"),
   REALS("end_time", NULL, 1, SceneDynamics, end_time, REQUIRED, ANY, "T", "", "at least `time_step`"),
+  REALS("tolerance", NULL, 1, SceneDynamics, tolerance, OPTIONAL, ANY, "", "",
+    "controls time steps: the error of one step over its length and the largest speed so far, e.g. 1e-3. `time_step` "
+    "is "
+    "then the longest one, and results are at its multiples. Without it all have the length `time_step`"),
   NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
     "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
     "high frequencies by choice"),
