@@ -593,7 +593,8 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
    Limits the fragmentation of the heap. Large arrays of the AMG and of matrices are freed and allocated again; in a
    heap they would leave holes. (two_block on mesh 2 would need 4.9 kB per unknown instead of 4.0.) Large arrays are
    therefore mapped, and free memory at the end of the heap is returned to the system. SuperLU_DIST, which PETSc may
-   link, turns both off when it is loaded, by mallopt(M_MMAP_MAX, 0) and mallopt(M_TRIM_THRESHOLD, -1).
+   link, switches mapping and returning off when it is loaded, by mallopt(M_MMAP_MAX, 0) and
+   mallopt(M_TRIM_THRESHOLD, -1).
 */
 static void AppLimitHeap(void)
 {
@@ -641,7 +642,7 @@ static PetscErrorCode AppInitialize(int *argc, char ***argv)
 
 int main(int argc, char **argv)
 {
-  static ReportPage page; /* all members are empty: no page is made */
+  static ReportPage page; /* all members are zero, so that no page is written */
 
   RunEnd   end   = RUN_CONVERGED;
   AppError error = {.traceback = PETSC_FALSE, .end = RUN_BROKEN};

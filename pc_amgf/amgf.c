@@ -1,4 +1,4 @@
-/* The preconditioner type: manual page, creation, destruction */
+/* Creates and destroys the preconditioner PCAMGF, and contains its manual page. */
 #include "amgfimpl.h"
 
 static PetscErrorCode PCReset_AMGF(PC pc)

@@ -68,15 +68,16 @@ typedef struct {
   MPI_Comm    comm;   /* on the solving ranks: the communicator of these ranks; elsewhere: that of the other ranks */
   PC          pc;     /* direct solver for A; NULL on ranks that do not solve */
   Mat         moved, rows, A;
-  Vec         at, b, x; /* at: A_w's vectors distributed to the solving ranks, NULL if all ranks solve A_w itself; b,
-                           x: right-hand side and solution on the solving ranks, NULL elsewhere */
+  Vec         at, b, x; /* at: vector of all ranks with the layout of A, whose entries are on the solving ranks; NULL if
+                           all ranks solve with A_w itself. b, x: right-hand side and solution on the solving ranks,
+                           NULL elsewhere */
   VecScatter  scatter;
 } AMGFFewRanks;
 
-/* Estimated times [s] of the two candidates for B */
+/* Estimated times of the two candidates for B: a factorization, or AMG [s] */
 typedef struct {
-  PetscReal factor, solve; /* one factorization; one solve with its factors */
-  PetscReal setup, apply;  /* one set-up of the AMG; one application */
+  PetscReal factor, solve; /* of one factorization; of one solve with its factors */
+  PetscReal setup, apply;  /* of one set-up of the AMG; of one application */
 } AMGFCosts;
 
 /* The subspace range(P): either selected unknowns (rows), or the range of a general interpolation P */

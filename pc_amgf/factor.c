@@ -97,7 +97,7 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 {
   const PetscBLASInt n   = 192;
   const PetscScalar  one = 1.0, zero = 0.0;
-  /* [operations/s]: threshold between the two kinds of BLAS; rate assumed for each of them */
+  /* rates [operations/s]: threshold between the two kinds of BLAS; rate of an optimized and of the reference BLAS */
   const PetscReal threshold = 4e9, tuned = 2.7e10, reference = 1.2e9;
   PetscScalar    *a, *c;
   PetscReal       best = 0.0;

@@ -46,8 +46,8 @@ PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *amgf)
 }
 
 /*
-   allows a factorization without pivoting; PETSc takes MAT_SPD to imply symmetric, which a complex Hermitian matrix is
-   not
+   Updates R and A_w for the present matrix pc->pmat. same: true if the subspace is unchanged since the last update, so
+   that the nonzero patterns can be reused
 */
 PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
 {
@@ -62,8 +62,8 @@ PetscErrorCode PCAMGFUpdateGalerkin_Private(PC pc, PetscBool same)
   if (!reuse) PetscCall(PCAMGFResetGalerkin_Private(amgf));
   if (amgf->sub.P) PetscCall(GalerkinFromInterpolation(pc, reuse));
   else PetscCall(GalerkinFromRows(pc, reuse));
-  /* the factorization may drop the pivoting; PETSc takes MAT_SPD for symmetric, too, which a complex Hermitian matrix
-     is not */
+  /* With this option the matrix is factored without pivoting. MAT_SPD is not set for complex scalars, because for PETSc
+     it implies symmetry, which a complex Hermitian matrix does not have. */
   PetscCall(MatSetOption(amgf->Aw, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE));
   if (!amgf->rc) {
     PetscCall(MatCreateVecs(amgf->Aw, &amgf->ec, &amgf->rc));

@@ -1,6 +1,5 @@
 /*
-   Registers the filtered subspace method and the friction laws of norm terms. Only this file names their folders, by an
-   include and an assignment each.
+   Registers the filtered subspace method and the friction laws of norm terms. No other file refers to their folders.
 */
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/subspace/subspaceimpl.h"

@@ -60,11 +60,11 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
       ip->rec->fallbacks.subspaces ? ", then interior point" : "", ip->rec->napplications, ip->rec->nreduced,
       ip->rec->npivots));
   PetscCall(
-    PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of which with the filter %" PetscInt_FMT "\n",
+    PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of these with the filter %" PetscInt_FMT "\n",
       ip->rec->nsystems, ip->rec->nfiltered));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT
-    ", filter tightened %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n",
+    ", larger filter %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n",
     (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
   PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec->nrestored));
   PetscCall(PetscViewerASCIIPrintf(viewer,

@@ -67,7 +67,7 @@ typedef struct {
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
-  int                nslots;    /* length of a vector: places and ghosts */
+  int                nslots;    /* number of entries of a vector: those of this rank's places and of its ghosts */
   float             *x, *b, *t; /* iterate; right-hand side; L^T x */
 
   PetscLogDouble unknowns, entries, blocks, bytes; /* sums over all ranks: unknowns, matrix entries, floats of L and

@@ -7,12 +7,13 @@ static PetscErrorCode ViewLevel(const BlockHierarchy *h, int i, PetscViewer view
   const BlockLevel *l     = dense ? &h->bottom : &h->levels[i];
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  level %d: unknowns=%.0f, entries a row=%.1f, ", i, l->unknowns,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  level %d: unknowns=%.0f, entries per row=%.1f, ", i, l->unknowns,
     l->entries / PetscMax(l->unknowns, 1.0)));
   if (dense) PetscCall(PetscViewerASCIIPrintf(viewer, "dense inverse\n"));
   else
-    PetscCall(PetscViewerASCIIPrintf(viewer, "blocks of %d x %d, of which entries fill %.2f\n", l->B, l->B,
-      l->entries / PetscMax(l->blocks, 1.0)));
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, "blocks of %d x %d, fraction of their values that are matrix entries %.2f\n", l->B,
+        l->B, l->entries / PetscMax(l->blocks, 1.0)));
   PetscFunctionReturn(0);
 }
 

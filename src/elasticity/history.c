@@ -66,7 +66,7 @@ PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
   PetscFunctionReturn(0);
 }
 
-/* Gets a cell and the volumes w of its points, and returns true, if its law has a history. Returns false otherwise. */
+/* Returns whether the law of cell c has a history. If so, gets the cell and the volumes w of its points. */
 static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[], CellState *cell, PetscReal w[])
 {
   PetscReal G[3][CELL_MAX_NODES];

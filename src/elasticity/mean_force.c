@@ -11,12 +11,12 @@
 */
 #include "elasticityimpl.h"
 
-/*
-   Data of a quadrature point: volume w, gradients G of the shape functions, F_m; at both ends of the step H = F - I and
-   P; S_m; dE
-*/
+/* Data of a quadrature point for a step; the symbols are explained at the top of this file. */
 typedef struct {
-  PetscReal w, G[3][CELL_MAX_NODES], F[3][3], H[2][9], P[2][9], S[3][3], dE[3][3];
+  PetscReal w, G[3][CELL_MAX_NODES]; /* volume of the point; gradients of the shape functions */
+  PetscReal F[3][3];                 /* mean deformation gradient F_m */
+  PetscReal H[2][9], P[2][9];        /* F - I and stress P at the start and at the end of the step */
+  PetscReal S[3][3], dE[3][3];       /* mean stress S_m; change dE of the strain */
 } MeanPoint;
 
 /*

@@ -28,7 +28,7 @@ MATERIAL_LAWS(MATERIAL_LAW)
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
 
-/* The constants of a MaterialHardening */
+/* Rows for a MaterialHardening in the tables of the constants of laws */
 #define MATERIAL_HARDENING_NUMBER(name, member) \
   { \
     name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, NULL, 0, 0 \

@@ -60,7 +60,7 @@ static PetscErrorCode CoverAddFace(DM dm, const char face[], CoverFacets *facets
 */
 static PetscErrorCode CoverHandOn(DM dm, const CoverFacets *facets, Vec carried, Vec out)
 {
-  Vec                local[3]; /* local vectors of cover, carried, out */
+  Vec                local[3]; /* local forms of the global vectors cover, carried and out */
   const PetscScalar *r, *c = NULL;
   PetscScalar       *o;
 

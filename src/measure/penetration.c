@@ -69,7 +69,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
-        "%" PetscInt_FMT ", %.2g %% of the largest displacement, though the gap is %s %s: %s",
+        "%" PetscInt_FMT ", %.2g %% of the largest displacement, although the gap is %s %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
         open ? "open" : "closed", node ? "at the nonmortar vertices" : "in the mean",
         node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));

@@ -37,8 +37,8 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
   PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));
   PetscCall(TableViewRows(report, TABLE_LEVELS, &SchemaLevels, acc->nlevels, acc->levels, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "  errors over the energy, or over a pair's force where that is larger: not in the energy norm, as those above\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  errors relative to the energy, or to the force of a pair if that error "
+                                           "is larger; the errors above are in the energy norm\n"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %s\n", acc->end));
   PetscFunctionReturn(0);
 }

@@ -29,7 +29,7 @@ static const ReportField fallback_fields[] = {
   FIELD(TaoIPFilterFallbacks, amg_rebuilds, FIELD_INT, "",
     .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with the AMG rebuilt")}),
   FIELD(TaoIPFilterFallbacks, filters, FIELD_INT, "",
-    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with more filter")}),
+    .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f with a larger filter")}),
   FIELD(TaoIPFilterFallbacks, direct, FIELD_INT, "",
     .columns = {COLUMN(TABLE_FALLBACKS, "", "", 0, .format = "%.0f by MUMPS")}),
   FIELD(TaoIPFilterFallbacks, failures, FIELD_INT, "",

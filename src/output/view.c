@@ -20,8 +20,8 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
 
   PetscFunctionBegin;
   PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "balance: what is left of all forces on a body, over the sum of their sizes; the largest of the bodies\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "balance: resultant of all forces on a body, divided by the sum of their "
+                                           "magnitudes; largest value of all bodies\n"));
   if (last && last->npairs) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
     PetscCall(TableViewHead(report, TABLE_PAIRS, &SchemaPairs, 0, viewer));
@@ -154,7 +154,7 @@ static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "error over the energy",
-    "error in the energy norm relative to the displacement's norm, and parts of the bodies"));
+    "error in the energy norm relative to the displacement's norm, and shares of the bodies"));
   PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
   PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
   PetscFunctionReturn(0);
@@ -198,7 +198,7 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
     report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "With contact: at most %" PetscInt_FMT
-    " PCG iterations a Newton system, bound %.0f; a load step costs %.2f solves without contact\n",
+    " PCG iterations per Newton system, bound %.0f; a load step costs %.2f solves without contact\n",
     largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
   PetscFunctionReturn(0);
 }

@@ -382,8 +382,8 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   if (*tighten) acc->tolerance *= PetscMax(0.01, ACCURACY_MARGIN * allowed / now->algebraic);
   else {
     acc->reached = PETSC_FALSE;
-    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "TARGET NOT REACHED: the solver leaves %g, more than its share",
-      (double)now->algebraic));
+    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
+      "TARGET NOT REACHED: the solver leaves an error of %g, more than its share", (double)now->algebraic));
   }
   PetscFunctionReturn(0);
 }

@@ -9,9 +9,9 @@
 
 /* Values of each vertex of a face, in a vector with three values per vertex */
 typedef enum {
-  VERTEX_CLOSED, /* 1 if the pair has pressure there */
-  VERTEX_ANGLE,  /* sum of the facets' angles there [rad]: 2 pi inside a plane face */
-  VERTEX_HANGS   /* 1 for a hanging vertex */
+  VERTEX_CLOSED, /* 1 if the pair has pressure at the vertex, otherwise 0 */
+  VERTEX_ANGLE,  /* sum of the angles of the facets at the vertex [rad]; it is 2 pi inside a plane face */
+  VERTEX_HANGS   /* 1 for hanging vertices, 0 for other vertices */
 } VertexFact;
 
 #define ADAPT_PLANE \

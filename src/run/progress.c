@@ -19,7 +19,7 @@ static PetscErrorCode ProgressDuration(PetscLogDouble seconds, char text[PROGRES
   PetscFunctionReturn(0);
 }
 
-/* Finds whether a progress message is due. The clock of the first rank counts, which prints the message. */
+/* Finds whether a progress message is due. The clock of the first rank is used, since this rank prints the message. */
 static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBool *due)
 {
   PetscFunctionBegin;
@@ -56,7 +56,7 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
   return (PetscBool)(p->nsteps >= 2 && elapsed <= most && high <= 3.0 * low && *left >= 1.0);
 }
 
-/* Prints a progress message. With -accuracy there is no estimate, since a finer mesh may follow. */
+/* Prints a progress message. With -accuracy the remaining time is not estimated, since a finer mesh may follow. */
 static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
   const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path->time) + 1, nsteps);

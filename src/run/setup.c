@@ -25,7 +25,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
   PetscCheck(sim->control->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->comm, PETSC_ERR_SUP,
-    "-contact_penalty is not for scheme impact of dynamics: leave the option out, or take generalized_alpha");
+    "-contact_penalty does not support scheme impact of dynamics: omit the option, or use generalized_alpha");
   PetscCheck(sim->control->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
     "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
     "quadratic");
@@ -76,7 +76,7 @@ static PetscErrorCode SimulationSetUpContact(Simulation sim)
   PetscCall(ContactSetCyclic(sim->contact, scene->ncyclic, scene->cyclic));
   for (PetscInt p = 0; p < scene->npairs; ++p)
     PetscCheck(sim->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
-      "-contact_penalty is without friction, and contact pair \"%s\" has it", scene->pairs[p].name);
+      "-contact_penalty does not support friction, but contact pair \"%s\" has friction", scene->pairs[p].name);
   PetscCall(ContactHistoryCreate(sim->dm, scene, sim->history));
   PetscFunctionReturn(0);
 }

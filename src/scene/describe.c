@@ -301,7 +301,7 @@ static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscVi
   for (PetscInt i = 0; i < 2; ++i) size[i] = n[i] ? area[i] / n[i] : 0.0;
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1],
-    size[1] > 4.0 * size[0] ? ": the coarser side carries the constraints; the finer one would be better" : ""));
+    size[1] > 4.0 * size[0] ? ": the nonmortar side is the coarser one; swap the two sides" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -321,7 +321,7 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
     if (here->distance > 0) PetscCall(PetscViewerASCIIPrintf(viewer, "facets within %.6g\n", (double)here->distance));
     else
       PetscCall(
-        PetscViewerASCIIPrintf(viewer, "facets pair within a distance that is chosen from the size of the faces\n"));
+        PetscViewerASCIIPrintf(viewer, "facets are paired within a distance that depends on the size of the faces\n"));
     if (here->why && !here->self) {
       PetscCall(PetscViewerASCIIPrintf(viewer, "    found by a rule; %s is nonmortar because %s; ", here->nonmortar,
         here->why));

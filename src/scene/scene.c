@@ -32,7 +32,7 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
     "SceneLoad", nsteps, &nsteps, &set));
   PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model,
     (PetscEnum *)&scene->model, NULL));
-  PetscCall(PetscOptionsInt("-contact_updates", "Largest number of contact updates a load step", "SceneLoad",
+  PetscCall(PetscOptionsInt("-contact_updates", "Largest number of contact updates per load step", "SceneLoad",
     scene->contact_updates, &scene->contact_updates, NULL));
   PetscCall(PetscOptionsInt("-displacement_bounds", "First load step with bounded displacements; 0: none", "SceneLoad",
     bounds, &bounds, &bounded));

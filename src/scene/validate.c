@@ -22,20 +22,20 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
     SceneRequire(body->order >= 0 && body->order <= 2,
       "%s: body \"%s\" has order = %" PetscInt_FMT ", which must be 1 or 2", file, body->name, body->order);
     SceneRequire(body->element != ELEMENT_INCOMPATIBLE || body->order < 2,
-      "%s: body \"%s\" has element incompatible with order 2; incompatible modes are what cells of order 1 lack, so it "
-      "takes full or bbar",
+      "%s: body \"%s\" has element incompatible with order 2; incompatible modes are only for cells of order 1; use "
+      "element full or bbar",
       file, body->name);
     SceneRequire(body->element != ELEMENT_INCOMPATIBLE || !MaterialIsFinite(&body->material),
       "%s: body \"%s\" has element incompatible with material %s; at finite strain incompatible modes are unstable "
-      "under compression, so it takes full or bbar",
+      "under compression; use element full or bbar",
       file, body->name, MaterialTypes[body->material.type]);
     SceneRequire(scene->model != MODEL_QUADRATIC || !MaterialYields(&body->material),
-      "%s: body \"%s\" has material %s with model quadratic, whose single tangent leaves the yield surface; take model "
-      "energy",
+      "%s: body \"%s\" has material %s with model quadratic, whose single tangent does not follow the yield surface; "
+      "use model energy",
       file, body->name, MaterialTypes[body->material.type]);
     SceneRequire(body->element != ELEMENT_BBAR || body->material.type != MATERIAL_SAINT_VENANT,
-      "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is no change of volume to "
-      "average; use material neohookean near incompressibility, or element full",
+      "%s: body \"%s\" has element bbar with material saint_venant, whose dilatation tr E is not the change of volume "
+      "that bbar averages; use material neohookean near incompressibility, or element full",
       file, body->name);
   }
   PetscFunctionReturn(0);
@@ -77,8 +77,8 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
     if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE)
       PetscCall(SceneValidateFace(comm, file, scene, "displacement", here->name, here->face));
     SceneRequire(here->inclined || SceneIsWholeBody(here->face) || here->fixed[0] || here->fixed[1] || here->fixed[2],
-      "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; a symmetry plane whose face does not tell its "
-      "normal is written - cut: {face: %s, normal: x}",
+      "%s: displacement \"%s\" prescribes nothing on the face \"%s\"; if the name of a symmetry face does not "
+      "determine its normal, write - cut: {face: %s, normal: x}",
       file, here->name, here->face, here->face);
     PetscCall(SceneValidateRigidMass(comm, file, scene, here));
     for (PetscInt e = 0; e < d; ++e) {
@@ -106,14 +106,14 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], S
     PetscCall(SceneValidateFace(comm, file, scene, "pressure", pressure->name, pressure->face));
     SceneRequire(!pressure->follows ||
                    MaterialIsFinite(&scene->bodies[SceneFindBody(scene, pressure->face, &face)].material),
-      "%s: pressure \"%s\" follows the face \"%s\" of a body of small strain, whose normals do not turn: take a law of "
-      "finite strain, as neohookean, or a dead pressure",
+      "%s: pressure \"%s\" follows the face \"%s\" of a body of small strain, whose normals do not turn: use a law of "
+      "finite strain, for example neohookean, or a pressure that does not follow",
       file, pressure->name, pressure->face);
     SceneRequire(!pressure->follows || scene->model == MODEL_ENERGY,
-      "%s: pressure \"%s\" follows its face, which goes with model energy, and not with quadratic", file,
+      "%s: pressure \"%s\" follows its face, which model quadratic does not support; use model energy", file,
       pressure->name);
     SceneRequire(!pressure->follows || !SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_IMPACT,
-      "%s: pressure \"%s\" follows its face, which goes with scheme generalized_alpha of dynamics, and not with impact",
+      "%s: pressure \"%s\" follows its face, which scheme impact of dynamics does not support; use generalized_alpha",
       file, pressure->name);
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
@@ -133,17 +133,18 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[],
 {
   PetscFunctionBegin;
   SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds,
-    "%s: contact pair \"%s\" has friction, which goes with no displacement_bounds: leave them out", file, here->name);
+    "%s: contact pair \"%s\" has friction, which cannot be combined with displacement_bounds: remove them", file,
+    here->name);
   for (PetscInt q = 0; q < scene->npressures; ++q)
     SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows,
-      "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the load of such a pressure is "
-      "found by solves that begin where the last one ended, which with friction do not always end; let the pressure "
-      "be dead, or the pair without friction",
+      "%s: contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the repeated solves that find the "
+      "load of such a pressure do not always converge with friction; use a pressure that does not follow, or no "
+      "friction",
       file, here->name, scene->pressures[q].name);
   SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
                  (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
-    "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), to which scheme "
-    "generalized_alpha of dynamics adds energy at an impact: take scheme impact",
+    "%s: contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), for which scheme "
+    "generalized_alpha of dynamics adds energy at an impact; use scheme impact",
     file, here->name);
   PetscFunctionReturn(0);
 }
@@ -161,14 +162,14 @@ static PetscErrorCode SceneValidateDamping(MPI_Comm comm, const char file[], Sce
 
     PetscCall(MaterialGetLaw(&scene->bodies[b].material, &law));
     SceneRequire(law->constant || scene->bodies[b].material.type == MATERIAL_RIGID,
-      "%s: dynamics has damping_stiffness = %g, and body \"%s\" is of law %s: it is for laws linear and orthotropic; "
-      "take damping_mass",
+      "%s: dynamics has damping_stiffness = %g, and body \"%s\" is of law %s: it requires law linear or orthotropic; "
+      "use damping_mass",
       file, (double)scene->dynamics.damping_stiffness, scene->bodies[b].name,
       MaterialTypes[scene->bodies[b].material.type]);
   }
   SceneRequire(!scene->nsprings && !scene->nconnectors && scene->weak_springs == 0.0 && !scene->ntemperatures,
-    "%s: dynamics has damping_stiffness = %g, which does not go with springs, weak_springs or temperatures: take "
-    "damping_mass",
+    "%s: dynamics has damping_stiffness = %g, which cannot be combined with springs, connectors, weak_springs or "
+    "temperatures; use damping_mass",
     file, (double)scene->dynamics.damping_stiffness);
   PetscFunctionReturn(0);
 }

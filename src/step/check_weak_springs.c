@@ -55,7 +55,7 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
     char             reason[256];
 
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "body \"%s\" slides or turns away: its weak springs carry %g, and its loads are %g in all; add a support, or "
+      "body \"%s\" slides or turns away: its weak springs carry %g, and its loads sum up to %g; add a support, or "
       "stiffer springs than weak_springs: %g",
       scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
     if (force > weak_springs_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));

@@ -184,6 +184,6 @@ PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, Ste
     *again = (PetscBool)(*again || !p->ended_early);
   } else
     PetscCall(ReportReason(report, PETSC_FALSE,
-      "no mean of the internal forces of the time step keeps its energy; use smaller time steps"));
+      "no mean internal force was found that conserves the energy of the time step; use smaller time steps"));
   PetscFunctionReturn(0);
 }

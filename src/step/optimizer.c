@@ -215,7 +215,7 @@ static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *repo
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "no equilibrium exists at time %g: body \"%s\" flows plastically, for the load is beyond the collapse load; the "
+    "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
     "last "
     "equilibrium is at time %g",
     (double)p->time, p->flowing, (double)p->sim->path->time));

@@ -70,7 +70,7 @@ static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
   const PetscInt next = (PetscInt)PetscFloorReal(sim->path->time);
 
   PetscFunctionBegin;
-  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "SimulationSetUp() comes before SimulationStep()");
+  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "call SimulationSetUp() before SimulationStep()");
   PetscCheck(step >= 0 && step < sim->scene->nsteps, sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, sim->scene->nsteps - 1);
   PetscCheck(step == next, sim->comm, PETSC_ERR_ORDER,

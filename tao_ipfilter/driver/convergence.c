@@ -75,8 +75,8 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 
 /*
    Counts consecutive steps that are as small as rounding errors of x and do not reduce the KKT error by half. A step
-   that does may change small unknowns and slacks beside a large unknown. If x tends to zero, a small fraction of the
-   first x takes its place.
+   that does may change small unknowns and slacks beside a large unknown. If x tends to zero, the steps are compared
+   with the rounding errors of a small fraction of the first x.
 */
 static PetscErrorCode CountTinySteps(Tao tao)
 {

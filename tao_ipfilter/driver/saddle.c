@@ -50,7 +50,7 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
     if (found) PetscCall(IPLineSearchLeave(tao, left));
   }
   if (!*left) PetscFunctionReturn(0);
-  PetscCall(PetscInfo(tao, "The point is stationary, but no minimum\n"));
+  PetscCall(PetscInfo(tao, "The point is stationary, but not a minimum\n"));
   ip->rec->nsaddles++;
   ip->rec->best_error = ip->rec->best_violation = PETSC_INFINITY;
   PetscFunctionReturn(0);

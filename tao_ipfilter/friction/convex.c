@@ -296,9 +296,9 @@ static PetscErrorCode ConvexMarkClosed(IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   Finds f, v and y whose residual is a small fraction of `first` (the square root of an energy), or the nearest that
-   the rounds reach. Forces and motions are in equilibrium in either case. *solved: false if nothing holds a moving
-   body. *steps is increased by the number of systems solved.
+   Computes f, v and y whose residual is a small fraction of `first` (the square root of an energy). If the largest
+   number of rounds is reached, the residual may be larger. Forces and motions are in equilibrium in either case.
+   *solved: false if nothing holds a moving body. *steps is increased by the number of systems solved.
 */
 PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
   PetscBool *solved)

@@ -250,7 +250,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   if (*singular) PetscFunctionReturn(0);
   if (failed != PC_NOERROR) {
     PetscCall(PetscStrncpy(ip->lin->why,
-      failed == PC_FACTOR_OUTMEMORY ? "MUMPS finds no memory for the augmented system"
+      failed == PC_FACTOR_OUTMEMORY ? "MUMPS has not enough memory for the augmented system"
                                     : "MUMPS failed on the augmented system",
       sizeof(ip->lin->why)));
     ip->rec->fallbacks.failures++;

@@ -157,8 +157,8 @@ static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *sing
   PetscFunctionBegin;
   *factored = *singular = PETSC_FALSE;
   if (ip->hess->products) {
-    PetscCall(PetscStrncpy(ip->lin->why, "a Hessian that gives products alone leaves MUMPS nothing to factor",
-      sizeof(ip->lin->why)));
+    PetscCall(
+      PetscStrncpy(ip->lin->why, "MUMPS cannot factor a Hessian that only provides products", sizeof(ip->lin->why)));
     PetscFunctionReturn(0);
   }
   PetscCall(DirectLeastMemory(ip->cond->A, &least));
@@ -166,7 +166,9 @@ static PetscErrorCode DirectFactor(Tao tao, PetscBool *factored, PetscBool *sing
   if (!allows) PetscFunctionReturn(0);
   PetscCall(DirectTakeMatrix(ip->cond->A, direct));
   if (direct->A) PetscCall(DirectFactorWithin(tao, &error));
-  else PetscCall(PetscStrncpy(ip->lin->why, "no MUMPS to factor the whole matrix", sizeof(ip->lin->why)));
+  else
+    PetscCall(
+      PetscStrncpy(ip->lin->why, "MUMPS, which would factor the whole matrix, is not available", sizeof(ip->lin->why)));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
   if (*factored) {

@@ -22,7 +22,7 @@ static PetscErrorCode GetAMGF(Tao tao, PC *pc)
   PetscFunctionReturn(0);
 }
 
-/* Fallback: makes PCAMGF rebuild an AMG that belongs to an older matrix. *done: there is such an AMG. */
+/* Fallback: makes PCAMGF rebuild an AMG that belongs to an older matrix. *done: true if there is such an AMG. */
 static PetscErrorCode RebuildAMG(Tao tao, PetscBool *done)
 {
   PC       pc;

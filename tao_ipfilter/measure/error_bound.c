@@ -21,7 +21,7 @@
 #define IP_BOUND_TERMS \
   1e-6                      /* if the terms of the objective cancel, this fraction of their magnitude replaces the
                                   objective */
-#define IP_BOUND_FIRST 1e-8 /* if the terms vanish, this fraction of their first magnitude replaces them */
+#define IP_BOUND_FIRST 1e-8 /* if the terms vanish, they are replaced by this fraction of their first magnitude */
 #define IP_BOUND_PRESENT \
   1e-22 /* the larger one of both magnitudes times this fraction replaces a smaller objective where the iterate is
            refined */
@@ -196,7 +196,10 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy, PetscReal *present
   PetscFunctionReturn(0);
 }
 
-/* Sets kkt->work and kkt->work_dual, the error bound and its first sum relative to the allowed error per tolerance */
+/*
+   Sets kkt->work_dual, the first sum of the bound, and kkt->work, the largest of the sums. Both are divided by the
+   error that is allowed if the tolerance is 1.
+*/
 PetscErrorCode IPErrorBoundOfResiduals(Tao tao)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;

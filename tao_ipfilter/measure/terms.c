@@ -72,7 +72,7 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscCall(VecGetLocalSize(terms->t, &nt));
   PetscCheck(columns == n && nt == rows && rows % 2 == 0, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
     "T of the norm terms has %" PetscInt_FMT " rows and %" PetscInt_FMT " columns here, t %" PetscInt_FMT
-    " entries; wanted: two rows a term, as many columns as the solution has entries, %" PetscInt_FMT,
+    " entries; two rows per term are required, and as many columns as the solution has entries, %" PetscInt_FMT,
     rows, columns, nt, n);
   if (terms->limit) {
     PetscCall(VecGetLocalSize(terms->limit, &nt));
@@ -84,11 +84,11 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
     if (tao->ineq_constrained) PetscCall(VecGetLocalSize(tao->constraints_inequality, &constraints));
     PetscCheck(2 * nt == rows && nt == constraints, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
       "There are %" PetscInt_FMT " coefficients of %" PetscInt_FMT " norm terms and %" PetscInt_FMT
-      " inequality constraints; with coefficients there is one term a constraint",
+      " inequality constraints; with coefficients one term per constraint is required",
       nt, rows / 2, constraints);
   }
   PetscCheck(terms->limit || terms->coefficient, comm, PETSC_ERR_ARG_WRONG,
-    "Norm terms have limits, coefficients, or both");
+    "Norm terms need limits, coefficients, or both");
   PetscFunctionReturn(0);
 }
 

@@ -164,8 +164,8 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
   PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "TAOIPFILTER reads the %s constraints' Jacobian, and one of type %s, which has products but no entries, only for "
-    "up to %d unknowns, not %" PetscInt_FMT ": give it as AIJ",
+    "TAOIPFILTER reads entries of the Jacobian of the %s constraints; a matrix of type %s has products but no entries, "
+    "which is supported only for up to %d unknowns, not %" PetscInt_FMT ": provide an AIJ matrix",
     kind, type, IP_COLUMNS_MAX, n);
   PetscFunctionReturn(0);
 }

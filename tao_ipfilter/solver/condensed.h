@@ -32,7 +32,7 @@ struct _n_IPCondensed {
   PetscObjectState filter_state;       /* state of its values */
   PetscInt         ntouched;           /* number of local rows with entries of J^T D J, and these rows */
   PetscInt        *touched;
-  IS               filter; /* filtered unknowns; composed on A under PCAMGF_FILTER_KEY */
+  IS               filter; /* filtered unknowns, which are attached to A with the key PCAMGF_FILTER_KEY */
 };
 
 #endif

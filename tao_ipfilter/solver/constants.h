@@ -49,7 +49,9 @@
   0.99                           /* second-order corrections continue only if each reduces the violation to this
                                      fraction */
 #define IP_KAPPA_CURVATURE 1e-11 /* smallest curvature d^T W d of a direction d, relative to d^T d */
-#define IP_DELTA_FIRST     1e-4  /* regularization: first delta (multiple of M_u), relative to its unit */
+#define IP_DELTA_FIRST \
+  1e-4 /* regularization: first value of delta, the multiple of M_u that is added to the matrix, divided by the unit
+          of delta */
 #define IP_DELTA_GROW_FIRST \
   100.0                   /* regularization: growth of delta per trial until the first successful
                                      factorization */

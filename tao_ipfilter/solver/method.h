@@ -27,11 +27,11 @@ struct _n_IPMethod {
   const IPMethodOps *ops; /* NULL: there is no alternative method */
   void              *data;
   PetscBool          on;
-  PetscBool          linear;      /* the constraints are linear: the caller's Jacobian routine left its matrix
-                                     unchanged */
-  PetscBool          constant;    /* the problem is a quadratic program: the Hessian routine left its matrix
-                                     unchanged, too */
-  PetscBool          multipliers; /* the present multipliers were computed by this method */
+  PetscBool          linear;      /* true if the constraints are linear, which is found from the caller's Jacobian
+                                     routine leaving its matrix unchanged */
+  PetscBool          constant;    /* true if the problem is a quadratic program: the constraints are linear, and the
+                                     Hessian routine left its matrix unchanged */
+  PetscBool          multipliers; /* true if this method computed the present multipliers */
 };
 
 #endif

@@ -9,11 +9,11 @@ struct _n_IPFilterSet {
   PetscReal *theta, *phi;
 };
 
-/* Line search: violation theta and barrier function phi of the present iterate, their units, and the last step */
+/* Line search: violation theta and barrier function phi of the present iterate, and data of the last step */
 struct _n_IPSearch {
   PetscReal theta, phi;
   PetscReal theta0;             /* theta at the first iterate; negative: not yet computed */
-  PetscReal theta_ref, phi_ref; /* units of theta and phi */
+  PetscReal theta_ref, phi_ref; /* divisors that make theta and phi dimensionless */
   PetscReal equality_weight;    /* factor that converts c_E to the unit of theta */
   PetscReal rounding;           /* rounding error of phi */
   PetscReal theta_rounding;     /* rounding error of theta */

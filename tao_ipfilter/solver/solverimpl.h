@@ -92,9 +92,9 @@ typedef struct {
 
 /* Identifies a matrix and its state. A matrix with an equal stamp is unchanged. */
 typedef struct {
-  PetscObjectId    value_id; /* object and state of the values */
+  PetscObjectId    value_id; /* id of the object that has the values of the matrix, and the state of the values */
   PetscObjectState value_state;
-  PetscObjectId    pattern_id; /* object and state of its nonzero pattern */
+  PetscObjectId    pattern_id; /* id of the object that has the nonzero pattern, and the state of the pattern */
   PetscObjectState pattern_state;
 } IPStamp;
 

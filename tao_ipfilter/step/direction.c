@@ -377,7 +377,7 @@ PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscInt  most     = 200;
   const PetscReal rounding = 1e-10;
-  Vec             p        = ip->dir.x, v[4]; /* residual r, M^-1 r, A p, diagonal of M */
+  Vec             p        = ip->dir.x, v[4]; /* v: residual r, M^-1 r, A p, diagonal of M */
   PetscScalar     rz, before, pAp, pMp;
   PetscReal       first, norm;
 

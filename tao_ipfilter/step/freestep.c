@@ -74,8 +74,8 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 }
 
 /*
-   Stores objective, gradient and unknowns after the step as the sizes of the start. Those of the given start may be too
-   large by orders of magnitude.
+   Stores the sizes of objective, gradient and unknowns after the step in ip->first, in place of those at the given
+   starting point, which may be too large by orders of magnitude.
 */
 static PetscErrorCode FreeMeasure(Tao tao)
 {

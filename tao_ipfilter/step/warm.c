@@ -36,7 +36,7 @@ PetscBool IPWarmEquality(const TAO_IPFILTER *ip)
                      (!ip->sides->nall || ip->given->warm_s));
 }
 
-/* Sets the multipliers of the equality constraints to the caller's */
+/* Sets the multipliers of the equality constraints to those that the caller has given, if any */
 PetscErrorCode IPWarmSetEquality(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

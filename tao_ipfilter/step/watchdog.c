@@ -11,7 +11,7 @@
 #include "tao_ipfilter/solver/search.h"
 
 #define IP_WATCHDOG_PATIENCE 10 /* number of consecutive shortened steps before the first attempt */
-#define IP_WATCHDOG_STEPS    3  /* number of steps without a test */
+#define IP_WATCHDOG_STEPS    3  /* number of steps that are accepted without a test in an attempt */
 
 /* Creates a vector like `from`; nothing if `from` is NULL */
 static PetscErrorCode WatchdogDuplicate(Vec from, Vec *to)

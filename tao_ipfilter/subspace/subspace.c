@@ -149,7 +149,7 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscCall(VecGetArray(slack->z, &z));
   for (PetscInt i = 0; i < n; i++) {
     s[i] = PetscRealPart(z[i]) > 0.0 ? 0.0 : PetscMax(PetscRealPart(s[i]), 0.0);
-    z[i] = PetscMax(PetscRealPart(z[i]), 0.0); /* a negative force enters the residual lambda - z */
+    z[i] = PetscMax(PetscRealPart(z[i]), 0.0); /* if lambda is negative, the residual lambda - z is not zero */
   }
   PetscCall(VecRestoreArray(slack->z, &z));
   PetscCall(VecRestoreArray(slack->t, &s));

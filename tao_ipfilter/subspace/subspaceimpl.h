@@ -124,7 +124,7 @@ typedef struct {
   const IPLawsOps *lawsops; /* NULL: no implementation is registered */
   IPLaws           laws;    /* NULL without norm terms, and on ranks other than the first */
   IPCompliance     compliance;
-  IPCompanions     companions; /* their displacements are the first coordinates of y */
+  IPCompanions     companions; /* the displacements of the companions are the first coordinates of y */
   IPReducedSystem  system;
   IPActiveSet      set;
   PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient at the centre; K_WW^-1 g; work */

@@ -121,7 +121,7 @@ static PetscErrorCode Report(Tao tao, const char name[], PetscReal *optimum)
   PetscCall(TaoIPFilterGetKSPIterations(tao, &n, &its));
   for (PetscInt k = 0; k < n; k++) sum += its[k];
   PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-    "%s: %s\n  refined %s, AMG rebuilt %s, filter tightened %s, by MUMPS %s, failed %s, Hessian shifted %s\n", name,
+    "%s: %s\n  refined %s, AMG rebuilt %s, larger filter %s, by MUMPS %s, failed %s, Hessian shifted %s\n", name,
     TaoConvergedReasons[reason], Said((PetscBool)(count.refinements > 0)), Said((PetscBool)(count.amg_rebuilds > 0)),
     Said((PetscBool)(count.filters > 0)), Said((PetscBool)(count.direct > 0)), Said((PetscBool)(count.failures > 0)),
     Said((PetscBool)(shifted > 0))));

@@ -141,8 +141,8 @@ static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m
 }
 
 /*
-   Computes the contributions of the points to the stiffness: the isochoric one, and kappa Theta times the second
-   derivative of the dilatation
+   Computes the part of the stiffness that is a sum over the quadrature points: the isochoric stiffness, and kappa Theta
+   times the second derivative of the dilatation
 */
 static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
   PetscScalar K[])

@@ -222,43 +222,43 @@ typedef struct {
 } BodySection;
 
 struct _n_Elasticity {
-  DM               dm;
-  char             mattype[64];
-  PetscBool        mattype_given; /* whether an option has set the type */
-  CellBasis       *basis[4];      /* bases of hexahedra of order 1 and 2, and of tetrahedra of order 1 and 2; NULL:
+  DM             dm;
+  char           mattype[64];
+  PetscBool      mattype_given; /* whether an option has set the type */
+  CellBasis     *basis[4];      /* bases of hexahedra of order 1 and 2, and of tetrahedra of order 1 and 2; NULL:
                                      there are no such cells on this rank */
-  PetscInt         nbodies;
-  Body            *bodies;
-  PetscInt         quadrature;     /* Gauss points per axis for order 1 */
-  PetscInt         ncells, nnodes; /* number of cells and nodes on this rank; nodes are numbered as in the local
+  PetscInt       nbodies;
+  Body          *bodies;
+  PetscInt       quadrature;     /* Gauss points per axis for order 1 */
+  PetscInt       ncells, nnodes; /* number of cells and nodes on this rank; nodes are numbered as in the local
                                       section */
-  PetscInt        *cellstart;      /* ncells + 1 entries, see cellnodes */
-  PetscInt        *cellnodes;      /* nodes of the cells in tensor order; those of cell c start at
+  PetscInt      *cellstart;      /* ncells + 1 entries, see cellnodes */
+  PetscInt      *cellnodes;      /* nodes of the cells in tensor order; those of cell c start at
                                       cellnodes[cellstart[c]] */
-  PetscInt        *cellbody;
-  unsigned char   *prescribed;  /* bit d of a node's entry: its component d is prescribed; NULL: no component is
+  PetscInt      *cellbody;
+  unsigned char *prescribed;  /* bit d of a node's entry: its component d is prescribed; NULL: no component is
                                    prescribed */
-  Vec              springs;     /* stiffness of springs to the ground, one entry per row [force/length]; NULL: no
+  Vec            springs;     /* stiffness of springs to the ground, one entry per row [force/length]; NULL: no
                                    springs */
-  Mat              between;     /* stiffness of springs between unknowns [force/length]; NULL: no springs */
-  PetscReal       *temperature; /* 4 values per cell, see ThermalSubtract(); NULL: no temperature */
-  PetscBool        yields;      /* whether the law of some body has a history */
-  PetscInt        *firstpoint;  /* if so: index in `history` of the first point of each cell; PETSC_DECIDE: its law
-                                   has no history */
-  PetscInt         npoints;     /* number of points with a history on this rank */
-  PetscReal       *history;     /* MATERIAL_HISTORY values per point, at the last state of equilibrium */
-  PetscInt         nsections;
-  BodySection     *sections;
-  PetscInt        *cellsection, *cellbeyond; /* per cell: its section, or PETSC_DECIDE if none; index of its first
+  Mat            between;     /* stiffness of springs between unknowns [force/length]; NULL: no springs */
+  PetscReal     *temperature; /* 4 values per cell, see ThermalSubtract(); NULL: no temperature */
+  PetscBool      yields;      /* true if the law of any body has a history */
+  PetscInt      *firstpoint;  /* index in `history` of the first point of each cell; PETSC_DECIDE if the law of the cell
+                                   has no history; NULL if no law has one */
+  PetscInt       npoints;     /* number of points with a history on this rank */
+  PetscReal     *history;     /* MATERIAL_HISTORY values per point, at the last state of equilibrium */
+  PetscInt       nsections;
+  BodySection   *sections;
+  PetscInt      *cellsection, *cellbeyond; /* per cell: its section, or PETSC_DECIDE if none; index of its first
                                                 value in `beyond` */
-  PetscReal       *beyond;                   /* for each node of a cut cell: 1 if it is beyond the section, otherwise
+  PetscReal     *beyond;                   /* for each node of a cut cell: 1 if it is beyond the section, otherwise
                                                 0 */
-  PetscInt         nbeyond;
+  PetscInt       nbeyond;
   AssembledTangent assembled;
-  PetscReal        inertia, viscosity; /* for tangents in dynamics: factor of the mass, 0 for none; factor by which
-                                          viscosity increases the stiffness, minus 1 */
-  PetscBool        consistent, *light; /* whether the mass is consistent; per local node whether it has no mass,
-                                          NULL: all nodes have mass */
+  PetscReal        inertia, viscosity; /* of tangents in a dynamic analysis: factor of the mass matrix, 0 in a static
+                                          analysis; factor by which viscosity increases the stiffness, minus 1 */
+  PetscBool        consistent, *light; /* true if the mass is consistent; for each local node: true if it has no
+                                          mass; NULL: all nodes have mass */
 };
 
 /* locals.c: gets local values of a displacement (NULL: zero), and the coordinates */

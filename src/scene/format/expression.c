@@ -6,7 +6,7 @@ static PetscErrorCode ExpressionError(SceneKeys keys, const char key[], const ch
   const Expression *e)
 {
   PetscFunctionBegin;
-  PetscCall(SceneKeysError(keys, "%s is \"%s\", which makes no sense%s%s%s%s%s", key, text,
+  PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a valid expression%s%s%s%s%s", key, text,
     *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "",
     *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
   PetscFunctionReturn(0);

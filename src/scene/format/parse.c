@@ -216,7 +216,7 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
         SceneKeysError(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
-      if (same) PetscCall(SceneKeysErrorOf(keys, key, words[i], "stands twice: each name in a list is given once"));
+      if (same) PetscCall(SceneKeysErrorOf(keys, key, words[i], "occurs twice; each name in a list must be unique"));
     }
   }
   if (required && !*n) PetscCall(SceneKeysError(keys, "%s is empty", key));

@@ -37,7 +37,7 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   PetscFunctionBegin;
   PetscCall(TableReadColumn(keys, owner, "times", times, &n, &time));
   PetscCall(TableReadColumn(keys, owner, "values", values, &n, &value));
-  if (!n) PetscCall(SceneKeysError(keys, "%s_times is empty, or values are not as many", owner));
+  if (!n) PetscCall(SceneKeysError(keys, "%s_times is empty, or the numbers of times and values differ", owner));
   for (PetscInt i = 1; i < n; ++i) {
     if (!(time[i] > time[i - 1]))
       PetscCall(
@@ -64,7 +64,7 @@ PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], Scene scene,
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &values, "%s_values", owner));
   *found = (PetscBool)(expression || times || values);
   if (expression && (times || values))
-    PetscCall(SceneKeysError(keys, "%s has an expression and a table; it is one of the two", owner));
+    PetscCall(SceneKeysError(keys, "%s has an expression and a table; give only one of the two", owner));
   else if (!times != !values)
     PetscCall(
       SceneKeysError(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));

@@ -79,7 +79,7 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscCall(SceneHasKey(keys, owner, "yield", &has));
   if (!has && h->yield == 0.0)
     PetscCall(SceneKeysError(keys,
-      "the key \"%s_yield\" is missing; a table of %s_plastic_strains and %s_yield_stresses may take its place", owner,
+      "the key \"%s_yield\" is missing; a table of %s_plastic_strains and %s_yield_stresses may replace it", owner,
       owner, owner));
   if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysErrorOf(keys, owner, key, why));
   PetscFunctionReturn(0);

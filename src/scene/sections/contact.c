@@ -17,7 +17,7 @@ static PetscErrorCode InterferenceRead(SceneKeys keys, Scene scene, const char k
   if (any || none) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, &pair->interference));
   if (pair->interference < 0.0)
-    PetscCall(SceneKeysError(keys, "%s is %s; it is true, false, or the largest overlap that is meant", key, text));
+    PetscCall(SceneKeysError(keys, "%s is %s; it must be true, false, or the largest intended overlap", key, text));
   PetscFunctionReturn(0);
 }
 
@@ -52,8 +52,7 @@ static PetscErrorCode StickRead(SceneKeys keys, Scene scene, const char key[], c
   (void)scene;
   PetscCall(SceneParseAnswer(keys, key, text, &sticks));
   if (sticks && (pair->friction > 0.0 || pair->shear_limit < PETSC_INFINITY))
-    PetscCall(SceneKeysError(keys,
-      "%s is true: a face that sticks whatever the force has no friction or shear_limit beside it", key));
+    PetscCall(SceneKeysError(keys, "%s is true: a face that always sticks has neither friction nor shear_limit", key));
   if (sticks) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -294,14 +293,14 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneHasKey(keys, owner, "shear_limit", &limit));
   if (pair->interference_ramp >= 0 && !interference)
     PetscCall(
-      SceneKeysError(keys, "%s_ramp is what an interference follows, but %s_interference is missing", owner, owner));
+      SceneKeysError(keys, "%s_ramp is the ramp of an interference, but %s_interference is missing", owner, owner));
   if (pair->interference_ramp >= 0 && interference &&
       (pair->interference >= PETSC_INFINITY || pair->interference == 0.0))
     PetscCall(SceneKeysError(keys,
       "%s_interference is true, false or 0; with a ramp it must be the largest intended overlap", owner));
   if (pair->friction_ramp >= 0 && !coefficient)
     PetscCall(
-      SceneKeysError(keys, "%s_friction_ramp is what a coefficient follows, but %s_friction is missing", owner, owner));
+      SceneKeysError(keys, "%s_friction_ramp is the ramp of a coefficient, but %s_friction is missing", owner, owner));
   if (limit && !coefficient) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }

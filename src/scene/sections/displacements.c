@@ -180,7 +180,7 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
       "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole", d->name,
       scene->bodies[d->body].name));
   if (face)
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a place; it is one of the two", d->name));
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a place; give only one of the two", d->name));
   d->at = point ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
   if (point) PetscCall(PetscArraycpy(d->to, d->from, 3));
   PetscCall(PetscFree(d->face));
@@ -198,8 +198,8 @@ static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
   PetscFunctionBegin;
   if (SceneTurnsFreely(d) && SceneRotates(d))
     PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; where one rotation is "
-      "free the others are 0",
+      "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; if one rotation is "
+      "free, the others must be 0",
       d->name));
   for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
   for (PetscInt i = 0; i < 3; ++i)
@@ -245,7 +245,7 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
   else {
     PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
     if (body && face)
-      PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a body; it is one of the two", d->name));
+      PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a body; give only one of the two", d->name));
     PetscCall(SceneSetWholeBody(keys, scene, owner, "of an elastic body faces, points and edges are displaced", d->body,
       &d->face));
   }

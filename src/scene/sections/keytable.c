@@ -86,23 +86,25 @@ static const SceneKey body_rows[] = {
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`auto`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2), `incompatible` "
     "(modes for bending) or `auto`: the best of them for material and cells, see [which element](#which-element)"),
-  INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 of hexahedra, 2 of tetrahedra",
-    "of the displacements in a cell, 1 or 2; 2: hexahedra of 27 and tetrahedra of 10 nodes, curved as the surface is"),
-  REALS("initial_velocity", NULL, 3, SceneBody, velocity, OPTIONAL, ANY, "L/T", "0", "in `dynamics`: at time 0"),
+  INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 for hexahedra, 2 for tetrahedra",
+    "polynomial order of the displacements in a cell, 1 or 2. Hexahedra of order 2 have 27 nodes, tetrahedra 10; they "
+    "are curved as the surface is"),
+  REALS("initial_velocity", NULL, 3, SceneBody, velocity, OPTIONAL, ANY, "L/T", "0",
+    "velocity at time 0, only in `dynamics`"),
   REALS("initial_spin", NULL, 3, SceneBody, spin, OPTIONAL, ANY, "1/T", "0",
     "in `dynamics`: angular velocity at time 0 about the centre of mass [radians/T], added to `initial_velocity`"),
   {NULL}};
 
 static const SceneKey material_rows[] = {NAMED("law", NULL, CHOICE, SceneMaterial, material.type, OPTIONAL,
-                                           MaterialTypes, "`linear`", "the law; its constants as in a body"),
+                                           MaterialTypes, "`linear`", "the law; its constants are keys, as in a body"),
   {NULL}};
 
 static const SceneKey face_rows[] = {
   TEXT("of", NULL, SceneSubface, of, REQUIRED, "", "a face, or a part listed before"),
   REALS("lower", NULL, 3, SceneSubface, lower, OPTIONAL, UNBOUNDED, "L", "no bound",
-    "lower corner of the box that the facets' centroids are in; `-inf` bounds nothing"),
+    "lower corner of the box that contains the centroids of the facets; `-inf`: no bound"),
   REALS("upper", NULL, 3, SceneSubface, upper, OPTIONAL, UNBOUNDED, "L", "no bound",
-    "upper corner of that box; `inf` bounds nothing"),
+    "upper corner of that box; `inf`: no bound"),
   {NULL}};
 
 static const SceneKey displacement_rows[] = {
@@ -159,9 +161,11 @@ static const SceneKey spring_rows[] = {TEXT("face", NULL, SceneSpring, face, REQ
 
 static const SceneKey connector_rows[] = {
   NUMBER_OF("body", BODY, SceneConnector, body, "required", "the body at one end"),
-  REALS("point", NULL, 3, SceneConnector, point[0], REQUIRED, ANY, "L", "", "a point of it, in undeformed coordinates"),
+  REALS("point", NULL, 3, SceneConnector, point[0], REQUIRED, ANY, "L", "",
+    "a point of `body`, in undeformed coordinates"),
   NUMBER_OF("to", BODY, SceneConnector, to, "the ground", "the body at the other end"),
-  REALS("to_point", NULL, 3, SceneConnector, point[1], SHOWN, ANY, "L", "`point`", "a point of that, or of the ground"),
+  REALS("to_point", NULL, 3, SceneConnector, point[1], SHOWN, ANY, "L", "`point`",
+    "a point of that body, or of the ground"),
   REALS("stiffness", NULL, 1, SceneConnector, stiffness, SHOWN, ABOVE_0, "F/L", "",
     "stiffness along the undeformed line between the points. Required without `value`"),
   REALS("value", NULL, 3, SceneConnector, value, SHOWN, FROM_0, "F/L", "",
@@ -175,9 +179,9 @@ static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "r
   REALS("force", NULL, 1, SceneBolt, force, SHOWN, ANY, "F", "",
     "force in the section at load factor 1; positive: tension. Required without `shortening`"),
   REALS("shortening", NULL, 1, SceneBolt, shortening, SHOWN, ANY, "L", "",
-    "by how much the two sides of the section are pulled over one another at load factor 1, instead of `force`"),
+    "length by which the two sides of the section are pulled over one another at load factor 1, instead of `force`"),
   INTS("lock", NULL, 1, SceneBolt, lock, OPTIONAL, "0: never",
-    "load step after which the shortening stays as it is, and the force is no longer given"),
+    "load step after which the shortening is constant and the force is no longer prescribed"),
   NUMBER_OF("ramp", RAMP, SceneBolt, ramp, "`load`", "a ramp that force or shortening follows"), {NULL}};
 
 static const SceneKey body_force_rows[] = {NUMBER_OF("body", BODY, SceneBodyForce, body, "every body", "a body"),
@@ -189,13 +193,14 @@ static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTempera
                                               "all bodies with thermal expansion",
                                               "a body whose material has an `expansion`"),
   ONE("value", NULL, EXPRESSION, SceneTemperature, value, REQUIRED, NULL, NULL, "temperature", "",
-    "above that without stress, at factor 1: a number, or an expression of the undeformed place `x`, `y`, `z`"),
+    "difference from the temperature without stress, at load factor 1: a number, or an expression of the undeformed "
+    "coordinates `x`, `y`, `z`"),
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey contact_rows[] = {
-  TEXT("mortar", NULL, SceneContactPair, mortar, OPTIONAL, "required but in `auto`",
+  TEXT("mortar", NULL, SceneContactPair, mortar, OPTIONAL, "required, except in `auto`",
     "the mortar (master) face, preferably the larger one; or a body, see [contact: auto](#contact-auto)"),
-  TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required but in `auto`",
+  TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required, except in `auto`",
     "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
   TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
     "instead of `mortar` and `nonmortar`: a face, or a body with its whole surface, that comes into contact with "
@@ -223,9 +228,9 @@ static const SceneKey contact_rows[] = {
     "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than "
     "35 degrees stay sharp. `false`: between the facets"),
   REALS("tie", NULL, 1, SceneContactPair, tie, OPTIONAL, FROM_0, "L", "none",
-    "only of `auto` and of pairs of bodies: surfaces that are nearer than this are tied"),
+    "only for `auto` and pairs of bodies: surfaces that are nearer than this are tied"),
   OWN("except", NULL, SceneContactPair, except, OPTIONAL, SceneOwnExcept, "", "none",
-    "only of `auto`: bodies and faces that get no contact, or two of them as `a/b`"),
+    "only for `auto`: bodies and faces that get no contact, or two of them as `a/b`"),
   {NULL}};
 
 static const SceneKey tie_rows[] = {TEXT("mortar", NULL, SceneTie, mortar, REQUIRED, "", "a face"),

@@ -35,7 +35,7 @@ PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneKeysGet(keys, (PetscBool)!turns, &text, "%s_value", owner));
   PetscCall(SceneKeysGet(keys, (PetscBool)!body, &text, "%s_face", owner));
   if (body && text)
-    PetscCall(SceneKeysError(keys, "force \"%s\" names a face and a body; it is one of the two", force->name));
+    PetscCall(SceneKeysError(keys, "force \"%s\" names a face and a body; give only one of the two", force->name));
   PetscCall(SceneSetWholeBody(keys, scene, owner, "on an elastic body forces act on faces", force->body, &force->face));
   PetscFunctionReturn(0);
 }

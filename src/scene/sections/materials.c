@@ -42,8 +42,8 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, P
     for (PetscInt m = 0; m < first; ++m) {
       PetscCall(PetscStrcasecmp(scene->materials[i].name, scene->materials[m].name, &same));
       if (same)
-        PetscCall(
-          SceneKeysError(keys, "the material \"%s\" stands in the scene and in its library", scene->materials[i].name));
+        PetscCall(SceneKeysError(keys, "the material \"%s\" is defined both in the scene and in its library",
+          scene->materials[i].name));
     }
   }
   PetscFunctionReturn(0);

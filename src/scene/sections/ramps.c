@@ -87,7 +87,7 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
   if (reserved)
     PetscCall(SceneKeysError(keys,
-      "the ramp name \"%s\" is taken by the load itself; its factors stand in load_factors", ramp->name));
+      "the ramp name \"%s\" is taken by the load itself; its factors are given by load_factors", ramp->name));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
@@ -98,7 +98,7 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
       SceneKeysError(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values", ramp->name));
   if (text && program)
     PetscCall(
-      SceneKeysError(keys, "the ramp \"%s\" has factors and another program; it is one of the two", ramp->name));
+      SceneKeysError(keys, "the ramp \"%s\" has factors and another program; give only one of the two", ramp->name));
   if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
   PetscFunctionReturn(0);
 }

@@ -67,7 +67,7 @@ PetscErrorCode SceneFinishRefinement(SceneKeys keys, Scene scene, const char own
   PetscCall(SceneHasKey(keys, owner, "upper", &upper));
   if (!r->face[0] && !(lower && upper))
     PetscCall(SceneKeysError(keys,
-      "%s says neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]",
+      "%s has neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]",
       owner));
   for (PetscInt d = 0; d < 3 && !r->face[0]; ++d) {
     if (!(r->lower[d] <= r->upper[d]))
