@@ -64,7 +64,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     if (pair->self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\": a vertex of %s is %.3g deep in its own body at the end of load step %" PetscInt_FMT
-        ", %.2g %% of the largest displacement, though the gap is closed in the mean: refine the surface there",
+        ", %.2g %% of the largest displacement, although the gap is closed in the mean: refine the surface there",
         pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
