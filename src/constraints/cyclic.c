@@ -90,7 +90,7 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   PetscCall(VecRestoreArrayRead(image, &v));
   PetscCall(VecRestoreArrayRead(given, &u));
   differ = (PetscBool)(differ || worst > 1e-9 * largest);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPIU_BOOL, MPI_LOR, c->bodies.comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_PETSCBOOL, MPI_LOR, c->bodies.comm));
   PetscCheck(!differ, c->bodies.comm, PETSC_ERR_USER_INPUT,
     "cyclic symmetry: displacements are prescribed on a face of the cut that do not repeat themselves from sector to "
     "sector, such as one component across the axis: prescribe all three components, or that along the axis");

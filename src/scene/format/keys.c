@@ -285,14 +285,9 @@ static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[]
 {
   const size_t line      = SceneKeysGetLine(keys, unknown);
   char         where[32] = "", meant[1024];
-  PetscBool    cyclic;
 
   PetscFunctionBegin;
   if (line) PetscCall(PetscSNPrintf(where, sizeof(where), "line %zu: ", line));
-  PetscCall(PetscStrncmp(unknown, "cyclic", 6, &cyclic));
-  PetscCheck(!cyclic, keys->comm, PETSC_ERR_USER_INPUT,
-    "%s: %scyclic symmetry is not supported: model the whole ring, or a sector between symmetry planes (key symmetry)",
-    keys->file, where);
   PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
     "%s: %sin the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, where,
     unknown);
