@@ -109,7 +109,6 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *f
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
   PetscInt        n, touched;
-  PetscBool       small;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -118,8 +117,6 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *f
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  PetscCall(IPFilteredIsSmall(tao, &small));
-  if (small && ip->terms->n && IPFilteredOf(tao)->newton) kept->whole = PETSC_TRUE;
   if (*few && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
   else if (*few) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
@@ -279,23 +276,26 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r
 
 /*
    Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
-   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic.
+   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic. A violation
+   that is left after the problem was centred again does not count: a body that rests on a rigid one does not move before
+   it has directions, so that its violations have no scale.
 */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {
-  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt for_long = 8;
-  PetscReal      all, off;
+  TAO_IPFILTER     *ip       = (TAO_IPFILTER *)tao->data;
+  const IPFiltered *f        = IPFilteredOf(tao);
+  const PetscInt    for_long = 8;
+  PetscReal         all, off;
 
   PetscFunctionBegin;
   PetscCall(VecAXPBY(r, -1.0, 0.0, ip->rx));
   PetscCall(VecNorm(r, NORM_2, &all));
-  PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
+  PetscCall(VecISSet(r, f->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
-                       (!IPFilteredOf(tao)->reduced->met ||
+                       (!f->reduced->met || f->ncentred ||
                          PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
-  if (IPFilteredOf(tao)->nfutile && IPFilteredOf(tao)->nfutile % for_long == 0) *exact = PETSC_FALSE;
+  if (f->nfutile && f->nfutile % for_long == 0) *exact = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 

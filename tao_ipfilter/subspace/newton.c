@@ -57,12 +57,22 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
   PetscFunctionReturn(0);
 }
 
-/* Computes the model's minimizer d in V, and the forces of the constraints there */
-static PetscErrorCode NewtonMinimizeModel(Tao tao, const IPBasis *basis, Vec d, Vec force, PetscBool *solved)
+/*
+   Computes the model's minimizer d in V, and the forces of the constraints there. Where the reduced friction problem is
+   not solved with few unknowns in W, W is extended to all unknowns.
+*/
+static PetscErrorCode NewtonMinimizeModel(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *solved)
 {
+  Vec centre = IPFilteredOf(tao)->centre;
+
   PetscFunctionBegin;
-  PetscCall(IPFilteredSolve(tao, basis, d, force, solved));
-  if (*solved) PetscCall(VecAXPY(d, 1.0, IPFilteredOf(tao)->centre));
+  PetscCall(IPFilteredSolve(tao, &kept->basis, d, force, solved));
+  if (!*solved && kept->reduced.simply) {
+    PetscCall(IPFilteredWiden(tao, kept, solved));
+    if (*solved) PetscCall(NewtonCentreModel(tao, &kept->basis, centre));
+    if (*solved) PetscCall(IPFilteredSolve(tao, &kept->basis, d, force, solved));
+  }
+  if (*solved) PetscCall(VecAXPY(d, 1.0, centre));
   PetscFunctionReturn(0);
 }
 
@@ -100,7 +110,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal
   PetscCall(VecSet(d, 0.0));
   PetscCall(NewtonCentreModel(tao, &kept->basis, d));
   do {
-    PetscCall(NewtonMinimizeModel(tao, &kept->basis, d, force, solved));
+    PetscCall(NewtonMinimizeModel(tao, kept, d, force, solved));
     if (!*solved) break;
     PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
     if (norm <= target) break;

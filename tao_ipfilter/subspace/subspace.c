@@ -89,27 +89,20 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
-/* Finds whether there are so few unknowns that a factorization of the whole K is cheap */
-PetscErrorCode IPFilteredIsSmall(Tao tao, PetscBool *small)
-{
-  const PetscInt most = 10000;
-  PetscInt       n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetSize(tao->solution, &n));
-  *small = (PetscBool)(n <= most);
-  PetscFunctionReturn(0);
-}
-
-/* Finds whether W may be extended to all unknowns, so that no directions are needed */
+/*
+   Finds whether W may be extended to all unknowns, so that no directions are needed. A factorization of the whole K
+   must be cheap.
+*/
 static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
 {
+  const PetscInt   most = 10000;
   IPSubspaceState *kept;
+  PetscInt         n;
 
   PetscFunctionBegin;
   PetscCall(IPSubspaceStateGet(tao, &kept));
-  PetscCall(IPFilteredIsSmall(tao, can));
-  *can = (PetscBool)(*can && ((TAO_IPFILTER *)tao->data)->terms->n && !IPFilteredOf(tao)->newton && !kept->whole);
+  PetscCall(VecGetSize(tao->solution, &n));
+  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms->n && !kept->whole && n <= most);
   PetscFunctionReturn(0);
 }
 

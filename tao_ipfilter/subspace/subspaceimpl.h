@@ -235,7 +235,6 @@ PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, Pe
 PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPFilteredIsSmall(Tao, PetscBool *small);
 PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);
 PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPSubspaceState *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPSubspaceState *, PetscBool *possible);
