@@ -276,9 +276,9 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r
 
 /*
    Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
-   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic. A violation
-   that is left after the problem was centred again does not count: a body that rests on a rigid one does not move before
-   it has directions, so that its violations have no scale.
+   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic. Violations
+   that remain after the problem was centred again are ignored: a body that rests on a rigid one does not move before
+   there are directions, so that its violations have no scale.
 */
 static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 {

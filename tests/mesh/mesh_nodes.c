@@ -38,15 +38,16 @@ static PetscErrorCode Volumes(DM dm, PetscInt nbodies, PetscReal volume[])
 
 int main(int argc, char **argv)
 {
-  Scene     scene;
-  char      file[PETSC_MAX_PATH_LEN];
-  PetscReal volume[3][16];
+  Scene      scene;
+  char       file[PETSC_MAX_PATH_LEN];
+  PetscReal *volume[3];
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", file, sizeof(file), NULL));
   PetscCall(SceneLoad(PETSC_COMM_WORLD, file, &scene));
   for (PetscInt b = 0; b < scene->nbodies; ++b) scene->bodies[b].order = 2;
+  for (PetscInt level = 0; level < 3; ++level) PetscCall(PetscMalloc1(scene->nbodies, &volume[level]));
   for (PetscInt level = 0; level < 3; ++level) {
     DM       dm;
     Vec      u;
@@ -69,6 +70,7 @@ int main(int argc, char **argv)
     else if (first > 12 * second) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume of fourth order\n"));
     else PetscCall(PetscPrintf(PETSC_COMM_WORLD, "volume changes by %g, then by %g\n", (double)first, (double)second));
   }
+  for (PetscInt level = 0; level < 3; ++level) PetscCall(PetscFree(volume[level]));
   PetscCall(SceneDestroy(&scene));
   PetscCall(PetscFinalize());
   return 0;

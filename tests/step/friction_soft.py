@@ -33,6 +33,18 @@ UNLIKE = [
     (1.6, 0.7, [4, 3, 3], 9e4),
     (1.1, 0.5, [2, 2, 2], 6000),
 ]
+# A block that rests on rigid ground, inclined by atan 1/3, and is held by friction alone
+RESTS = """problem: rests
+bodies:
+  - ground: {lower: [-2, 0, -1], upper: [2, 1, 0], cells: [4, 2, 1], material: rigid}
+  - block: {lower: [-0.5, 0.1, 0], upper: [0.5, 0.9, 0.5], cells: [4, 2, 2], young: 1e6, poisson: 0.3}
+displacements:
+  - fix: {body: ground, value: [0, 0, 0]}
+body_forces:
+  - weight: {body: block, value: [3000, 0, -9000]}
+contact:
+  - foot: {mortar: ground.zmax, nonmortar: block.zmin, friction: 0.4}
+"""
 STACKS = {"cubes": CUBES, "unlike": UNLIKE}
 
 
@@ -88,6 +100,7 @@ SCENES = {
     "finite_tied": pad("", "4, 4, 4", ", material: neohookean"),
     "finite_quarter": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean", QUARTER),
     "leaves": leaves(5, 0.1),
+    "rests": RESTS,
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
     "finite_sticks_6": pad(", stick: true", "6, 6, 6", ", material: neohookean"),
 } | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true"), "tower": tower(", friction: 0.6"), "tower_sticks": tower(", stick: true"), "tower_tied": tower("")}
@@ -121,6 +134,8 @@ else:
     step = load("finite_sticks_6")
     forces = [pair["force"][2] for pair in step["pairs"]]
     say("finite_sticks_6: both faces carry the same and stick", abs(sum(forces)) < 1e-8 * abs(forces[0]) and all(pair["slip_area"] == 0 and pair["dissipated"] < 1e-12 for pair in step["pairs"]), step["pairs"])
+    off = [abs(a - b) for a, b in zip(load("rests")["pairs"][0]["force"], (-1200, 0, 3600))]
+    say("rests: carries the weight to 1e-6", max(off) < 3.6e-3, off)
     step = load("leaves")
     say("leaves: work is stored or taken up by the contacts to 1 %", abs(step["work"] - step["energy"] - step["contact_work"]) < 0.01 * step["work"], step["work"])
     for name, coefficient in (("grips", 1), ("finite", 0.3), ("finite_quarter", 0.3), ("leaves", 0.1)):
