@@ -78,13 +78,16 @@ PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Gets the vertices of a face on this rank (DMPlex points), including those whose facets other ranks own */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
-/* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetCyclicImages(DM, const SceneCyclic *, PetscReal turn[3][3], PetscInt *n,
   PetscInt *nodes[], PetscInt *images[]);
+/* Global rows of the given component of the face's nodes that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* Get the 4 vertices of a facet, counterclockwise seen from outside the body (a triangle repeats its last vertex), and
-   the 8 vertices of a hexahedron in tensor order, x fastest */
+/* The 4 vertices of a facet, counterclockwise seen from outside the body; a triangle repeats its last vertex */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
+/* Twice the area vector of an undeformed facet, and the sums of these vectors and of their lengths over all ranks */
+PETSC_EXTERN void           MeshComputeFacetArea(PetscReal x[4][3], PetscReal area[3]);
+PETSC_EXTERN PetscErrorCode MeshSumFacetAreas(DM, IS facets, PetscReal sums[4]);
+/* The 8 vertices of a hexahedron in tensor order, x fastest */
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 PETSC_EXTERN PetscErrorCode MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 /* The nodes of a facet: its 4 vertices, or 9 with edge and facet nodes; of a triangle 3 or 6. The nodes of a

@@ -185,6 +185,24 @@ static PetscErrorCode SchemeAddDamping(const SceneDynamics *scene, Vec before, V
   PetscFunctionReturn(0);
 }
 
+/*
+   Computes the acceleration a and the velocity v at u by Newmark's formulas, for a time step of length dt from the
+   displacement `from`
+*/
+static PetscErrorCode SchemeNewmark(const SceneDynamics *scene, PetscReal dt, Vec from, Vec u, const Dynamics *d, Vec a,
+  Vec v)
+{
+  const SchemeNumbers s = SchemeGetNumbers(scene);
+
+  PetscFunctionBegin;
+  PetscCall(SchemeContinue(dt, 0.5 - s.beta, from, d->velocity, d->auxiliary, a));
+  PetscCall(VecAYPX(a, -1.0, u));
+  PetscCall(VecScale(a, 1.0 / (s.beta * dt * dt)));
+  PetscCall(VecWAXPY(v, dt * (1.0 - s.gamma), d->auxiliary, d->velocity));
+  PetscCall(VecAXPY(v, dt * s.gamma, a));
+  PetscFunctionReturn(0);
+}
+
 /* Computes velocity and accelerations at u, the end of a time step that began at `before` */
 PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec before, Vec u, Dynamics *d)
 {
@@ -194,11 +212,7 @@ PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec befor
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &a));
   PetscCall(VecDuplicate(u, &v));
-  PetscCall(SchemeContinue(dt, 0.5 - s.beta, before, d->velocity, d->auxiliary, a));
-  PetscCall(VecAYPX(a, -1.0, u));
-  PetscCall(VecScale(a, 1.0 / (s.beta * dt * dt)));
-  PetscCall(VecWAXPY(v, dt * (1.0 - s.gamma), d->auxiliary, d->velocity));
-  PetscCall(VecAXPY(v, dt * s.gamma, a));
+  PetscCall(SchemeNewmark(scene, dt, before, u, d, a, v));
   PetscCall(SchemeFollow(d, dt, before, u, v));
   PetscCall(SchemeFollow(d, dt, d->velocity, v, a));
   if (d->rest) PetscCall(VecZeroEntries(a));
@@ -217,6 +231,7 @@ PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec befor
   PetscFunctionReturn(0);
 }
 
+/* Computes the norm sqrt(x^T M x) with the mass matrix M */
 static PetscErrorCode SchemeNorm(const Dynamics *d, Vec x, PetscReal *norm)
 {
   PetscScalar square;
@@ -234,9 +249,9 @@ static PetscErrorCode SchemeNorm(const Dynamics *d, Vec x, PetscReal *norm)
 /*
    Estimates the error of a time step from `from` to u over its length and the largest speed so far; both are norms with
    the mass. With Newmark's parameter beta the displacement is off by (beta - 1/6) dt^2 times the change of the
-   acceleration (Zienkiewicz and Xie 1991). Where contact closes or opens, motion is not smooth, and this is of first
-   order: the factor is 1. before: length of the step before, 0 in the first. Mean accelerations of the impact scheme
-   belong to the middle of a step.
+   acceleration (Zienkiewicz and Xie 1991). Where contact closes or opens, the motion is not smooth, the scheme is of
+   first order, and the factor is 1. before: length of the previous time step; 0 in the first time step. The impact
+   scheme has mean accelerations, which belong to the middle of a time step.
 */
 PetscErrorCode SchemeEstimate(const SceneDynamics *scene, PetscReal dt, PetscReal before, PetscBool smooth, Vec from,
   Vec u, Dynamics *d, PetscReal *error)
@@ -249,11 +264,7 @@ PetscErrorCode SchemeEstimate(const SceneDynamics *scene, PetscReal dt, PetscRea
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &a));
   PetscCall(VecDuplicate(u, &v));
-  PetscCall(SchemeContinue(dt, 0.5 - s.beta, from, d->velocity, d->auxiliary, a));
-  PetscCall(VecAYPX(a, -1.0, u));
-  PetscCall(VecScale(a, 1.0 / (s.beta * dt * dt)));
-  PetscCall(VecWAXPY(v, dt * (1.0 - s.gamma), d->auxiliary, d->velocity));
-  PetscCall(VecAXPY(v, dt * s.gamma, a));
+  PetscCall(SchemeNewmark(scene, dt, from, u, d, a, v));
   PetscCall(SchemeNorm(d, d->velocity, &speed));
   d->fastest = PetscMax(d->fastest, speed);
   PetscCall(SchemeNorm(d, v, &speed));

@@ -206,44 +206,23 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   PetscFunctionReturn(0);
 }
 
-/* Normal of a facet, as long as twice its area, from its vertices */
-static void SupportFacetNormal(PetscReal x[4][3], PetscReal normal[3])
-{
-  for (PetscInt d = 0; d < 3; ++d) {
-    const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
-
-    normal[d] = (x[2][s] - x[0][s]) * (x[3][t] - x[1][t]) - (x[2][t] - x[0][t]) * (x[3][s] - x[1][s]);
-  }
-}
-
-/* Whether a face is a plane, and its unit normal */
+/* Finds whether a face is plane, and its unit normal. A rigid surface without facets knows its normal. Collective. */
 static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, IS facets, PetscReal normal[3],
   PetscBool *plane)
 {
   const PetscReal rounding = 1e-10;
-  const PetscInt *f;
-  PetscInt        n;
-  PetscReal       sums[4] = {0.0}; /* vectors of the facets' areas; their areas */
+  PetscReal       sums[4];
 
   PetscFunctionBegin;
   *plane = PETSC_FALSE;
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n && !SceneBodyIsSurface(body); ++i) {
-    PetscInt  vertices[4];
-    PetscReal x[4][3], area[3];
-
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    SupportFacetNormal(x, area);
-    for (PetscInt d = 0; d < 3; ++d) sums[d] += area[d];
-    sums[3] += VectorNorm(area);
+  if (SceneBodyIsSurface(body)) {
+    *plane = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
+    PetscCall(PetscArraycpy(normal, &body->own[SURFACE_AXIS], 3));
+  } else {
+    PetscCall(MeshSumFacetAreas(support->dm, facets, sums));
+    *plane = (PetscBool)(VectorNorm(sums) > (1.0 - rounding) * sums[3]);
+    PetscCall(PetscArraycpy(normal, sums, 3));
   }
-  PetscCall(ISRestoreIndices(facets, &f));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
-  if (!SceneBodyIsSurface(body)) *plane = (PetscBool)(VectorNorm(sums) > (1.0 - rounding) * sums[3]);
-  else *plane = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
-  for (PetscInt d = 0; d < 3; ++d) normal[d] = SceneBodyIsSurface(body) ? body->own[SURFACE_AXIS + d] : sums[d];
   VectorScaleToUnit(normal);
   PetscFunctionReturn(0);
 }
@@ -272,7 +251,7 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
 
     PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
     PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    SupportFacetNormal(x, normal);
+    MeshComputeFacetArea(x, normal);
     VectorScaleToUnit(normal);
     for (PetscInt a = 0; a < 4; ++a) {
       SupportAddMotion(support, nonmortar, plane ? flat : normal, x[a], 1);

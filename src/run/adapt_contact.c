@@ -78,18 +78,6 @@ static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
   return aa > 0.0 && bb > 0.0 ? PetscAcosReal(PetscClipInterval(ab / PetscSqrtReal(aa * bb), -1.0, 1.0)) : 0.0;
 }
 
-/* Computes twice the area vector of an undeformed facet */
-static void FacetArea(PetscReal x[4][3], PetscReal area[3])
-{
-  PetscReal d[3], e[3];
-
-  for (PetscInt c = 0; c < 3; ++c) {
-    d[c] = x[2][c] - x[0][c];
-    e[c] = x[3][c] - x[1][c];
-  }
-  VectorCross(d, e, area);
-}
-
 /* Adds the facets' angles at a face's vertices, and finds whether the face is plane */
 static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec facts, PetscBool *plane)
 {
@@ -97,7 +85,7 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   IS              facets;
   PetscInt        n;
   const PetscInt *f;
-  PetscReal       sums[4] = {0.0};
+  PetscReal       sums[4];
   Vec             angles;
   PetscScalar    *a;
 
@@ -111,13 +99,10 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
     PetscInt  vertices[4];
-    PetscReal x[4][3], area[3];
+    PetscReal x[4][3];
 
     PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
     PetscCall(MeshGetVertexCoordinates(sim->dm, 4, vertices, x));
-    FacetArea(x, area);
-    for (PetscInt c = 0; c < 3; ++c) sums[c] += area[c];
-    sums[3] += VectorNorm(area);
     for (PetscInt k = 0; k < 4; ++k) {
       PetscInt offset;
 
@@ -126,11 +111,11 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
     }
   }
   PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(MeshSumFacetAreas(sim->dm, facets, sums));
   PetscCall(ISDestroy(&facets));
   PetscCall(VecRestoreArray(angles, &a));
   PetscCall(DMLocalToGlobal(sim->dm, angles, ADD_VALUES, facts));
   PetscCall(DMRestoreLocalVector(sim->dm, &angles));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
   *plane = (PetscBool)(VectorNorm(sums) >= (1.0 - ADAPT_PLANE) * sums[3]);
   PetscFunctionReturn(0);
 }

@@ -111,6 +111,7 @@ struct _n_Contact {
 /* rows.c: the list of all possible rows */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
+PETSC_INTERN PetscErrorCode ContactGatherEntries(Vec, IS from, Vec *gathered);
 
 /* hanging_rows.c: distributes the sums of hanging vertices' rows to the rows of other vertices */
 PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);

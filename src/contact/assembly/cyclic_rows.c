@@ -116,16 +116,11 @@ static PetscErrorCode CyclicFieldsDestroy(CyclicFields *fields)
 /* Creates a sequential vector with the blocks of a field at the images */
 static PetscErrorCode CyclicGatherImages(const CyclicCut *cut, PetscInt width, Vec field, Vec *gathered)
 {
-  IS         from;
-  VecScatter scatter;
+  IS from;
 
   PetscFunctionBegin;
   PetscCall(ISCreateBlock(PETSC_COMM_SELF, width, cut->n, cut->images, PETSC_COPY_VALUES, &from));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, width * cut->n, gathered));
-  PetscCall(VecScatterCreate(field, from, *gathered, NULL, &scatter));
-  PetscCall(VecScatterBegin(scatter, field, *gathered, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, field, *gathered, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ContactGatherEntries(field, from, gathered));
   PetscCall(ISDestroy(&from));
   PetscFunctionReturn(0);
 }

@@ -53,20 +53,15 @@ static PetscErrorCode HangingRowsListMeans(Mat means, PetscInt *n, PetscInt colu
    HangingRowsListMeans() */
 static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
 {
-  PetscInt   n, *columns;
-  IS         from;
-  VecScatter scatter;
+  PetscInt n, *columns;
+  IS       from;
 
   PetscFunctionBegin;
   PetscCall(HangingRowsListMeans(means, &n, NULL));
   PetscCall(PetscMalloc1(n, &columns));
   PetscCall(HangingRowsListMeans(means, &n, columns));
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, columns, PETSC_OWN_POINTER, &from));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, gathered));
-  PetscCall(VecScatterCreate(number, from, *gathered, NULL, &scatter));
-  PetscCall(VecScatterBegin(scatter, number, *gathered, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, number, *gathered, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(ContactGatherEntries(number, from, gathered));
   PetscCall(ISDestroy(&from));
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,22 @@
 #include <petscsf.h>
 #include "assemblyimpl.h"
 
+/* Collective. Creates a sequential vector with the entries `from` of v, which other ranks may own */
+PetscErrorCode ContactGatherEntries(Vec v, IS from, Vec *gathered)
+{
+  VecScatter scatter;
+  PetscInt   n;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(from, &n));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, gathered));
+  PetscCall(VecScatterCreate(v, from, *gathered, NULL, &scatter));
+  PetscCall(VecScatterBegin(scatter, v, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, v, *gathered, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscFunctionReturn(0);
+}
+
 /* Sets marked[v] to 1 for the vertices of this rank's facets and for vertices that this rank owns of other ranks'
    facets, and to 0 for other points */
 static PetscErrorCode RowsMarkVertices(PetscSF sf, PetscBool parallel, const ContactSurface *s, PetscInt npoints,

@@ -1,5 +1,6 @@
 /* Queries of a mesh: faces, their vertices and unknowns, and the vertices of cells and facets */
 #include "queryimpl.h"
+#include <vector3.h>
 
 /*
    Returns the number that each corner of a cell has in the closure of DMPlex. The corners are in tensor order (x
@@ -178,6 +179,44 @@ PetscErrorCode MeshGetFacetVertices(DM dm, PetscInt facet, PetscInt vertices[4])
   }
   PetscCall(DMPlexRestoreTransitiveClosure(dm, facet, PETSC_TRUE, &npoints, &closure));
   if (ncorners == 3) vertices[3] = vertices[2];
+  PetscFunctionReturn(0);
+}
+
+/* Computes twice the area vector of a facet with the vertices x. It points out of the body. */
+void MeshComputeFacetArea(PetscReal x[4][3], PetscReal area[3])
+{
+  PetscReal d[3], e[3];
+
+  for (PetscInt c = 0; c < 3; ++c) {
+    d[c] = x[2][c] - x[0][c];
+    e[c] = x[3][c] - x[1][c];
+  }
+  VectorCross(d, e, area);
+}
+
+/* Collective. Adds up twice the area vectors of the ranks' undeformed facets, in sums[0..2], and their lengths, in
+   sums[3]. A face is plane if both have the same magnitude. */
+PetscErrorCode MeshSumFacetAreas(DM dm, IS facets, PetscReal sums[4])
+{
+  const PetscInt *f;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(sums, 4));
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], area[3];
+
+    PetscCall(MeshGetFacetVertices(dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
+    MeshComputeFacetArea(x, area);
+    for (PetscInt c = 0; c < 3; ++c) sums[c] += area[c];
+    sums[3] += VectorNorm(area);
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)dm)));
   PetscFunctionReturn(0);
 }
 
