@@ -44,29 +44,17 @@ PetscErrorCode IPBasisDestroy(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Computes s = P^T v for the first k directions. Collective. */
-static PetscErrorCode BasisDots(const IPBasis *b, PetscInt k, Vec v, PetscReal s[])
+/* Computes s = P^T v for k directions from number `first` on. Collective. */
+PetscErrorCode IPBasisDots(const IPBasis *b, PetscInt first, PetscInt k, Vec v, PetscReal s[])
 {
   const PetscScalar *a;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(v, &a));
-  IPSingleDots(b->nlocal, k, b->p, a, s);
+  IPSingleDots(b->nlocal, k, b->p + first, a, s);
   PetscCall(VecRestoreArrayRead(v, &a));
-  for (PetscInt j = 0; j < k; j++) s[j] *= b->size[j];
+  for (PetscInt j = 0; j < k; j++) s[j] *= b->size[first + j];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s, (PetscMPIInt)k, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
-  PetscFunctionReturn(0);
-}
-
-/* Computes P^T v for the directions from `first` on. Collective. */
-PetscErrorCode IPBasisDots(const IPBasis *b, PetscInt first, Vec v, PetscReal s[])
-{
-  IPBasis later = *b;
-
-  PetscFunctionBegin;
-  later.p    = b->p + first;
-  later.size = b->size + first;
-  PetscCall(BasisDots(&later, b->n - first, v, s));
   PetscFunctionReturn(0);
 }
 
@@ -113,7 +101,7 @@ static PetscErrorCode BasisExpand(IPBasis *b, PetscInt j)
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(b->d));
   PetscCall(VecGetArray(b->d, &d));
-  IPSingleAdd(b->nlocal, b->size[j], b->p[j], d);
+  IPSingleCombine(b->nlocal, 1, &b->size[j], &b->p[j], d);
   PetscCall(VecRestoreArray(b->d, &d));
   PetscFunctionReturn(0);
 }
@@ -239,7 +227,7 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
     PetscCall(BasisMultiply(b, K, b->n));
     PetscCall(VecDot(b->d, b->Kd, &energy));
     if (!(PetscRealPart(energy) > (k ? eps : 0.0)) || PetscIsInfOrNanReal(PetscRealPart(energy))) break;
-    PetscCall(BasisDots(b, b->n, b->Kd, s));
+    PetscCall(IPBasisDots(b, 0, b->n, b->Kd, s));
     PetscCall(BasisScale(b, b->n, PetscRealPart(energy), s));
     BasisForward(b, s, l, &square);
     *appended = (PetscBool)(square < 1.0 - independent);
@@ -363,25 +351,28 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
 static PetscErrorCode BasisCombine(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
   const PetscInt chunk = 128;
-  PetscReal     *size, *row;
+  PetscReal     *size, *factor, *row;
+  float        **part;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(k, &size, chunk * k, &row));
-  for (PetscInt c = 0; c < k; c++) { /* a bound of the largest entry */
-    size[c] = 0.0;
-    for (PetscInt j = 0; j < n; j++) size[c] += PetscAbsReal(T[j + c * n]) * b->size[j];
+  PetscCall(PetscMalloc4(k, &size, n * k, &factor, chunk * k, &row, n, &part));
+  for (PetscInt c = 0; c < k; c++) {
+    size[c] = 0.0; /* bounds the largest entry */
+    for (PetscInt j = 0; j < n; j++) {
+      factor[j + c * n] = T[j + c * n] * b->size[j];
+      size[c] += PetscAbsReal(factor[j + c * n]);
+    }
   }
   for (PetscInt start = 0; start < b->nlocal; start += chunk) {
     const PetscInt rows = PetscMin(chunk, b->nlocal - start);
 
+    for (PetscInt j = 0; j < n; j++) part[j] = b->p[j] + start;
     PetscCall(PetscArrayzero(row, chunk * k));
-    for (PetscInt c = 0; c < k; c++) {
-      for (PetscInt j = 0; j < n; j++) IPSingleAdd(rows, T[j + c * n] * b->size[j], b->p[j] + start, row + c * chunk);
-    }
-    for (PetscInt c = 0; c < k; c++) IPSingleRound(rows, row + c * chunk, size[c], b->p[c] + start);
+    for (PetscInt c = 0; c < k; c++) IPSingleCombine(rows, n, factor + c * n, part, row + c * chunk);
+    for (PetscInt c = 0; c < k; c++) IPSingleRound(rows, row + c * chunk, size[c], part[c]);
   }
   PetscCall(PetscArraycpy(b->size, size, k));
-  PetscCall(PetscFree2(size, row));
+  PetscCall(PetscFree4(size, factor, row, part));
   PetscFunctionReturn(0);
 }
 
@@ -457,7 +448,7 @@ static PetscErrorCode BasisMultiplyAll(IPBasis *b, Mat K)
   for (PetscInt j = 0; j < b->n; j++) {
     PetscCall(BasisExpand(b, j));
     PetscCall(BasisMultiply(b, K, j));
-    PetscCall(BasisDots(b, j + 1, b->Kd, &b->gram[j * b->max]));
+    PetscCall(IPBasisDots(b, 0, j + 1, b->Kd, &b->gram[j * b->max]));
     for (PetscInt i = 0; i < j; i++) b->gram[j + i * b->max] = b->gram[i + j * b->max];
   }
   PetscCall(BasisFactor(b));

@@ -20,12 +20,6 @@ AMGF_CLONES void IPSingleRound(PetscInt n, const PetscScalar *v, PetscReal size,
   }
 }
 
-/* Adds a p to v */
-AMGF_CLONES void IPSingleAdd(PetscInt n, PetscReal a, const float *p, PetscScalar *v)
-{
-  for (PetscInt i = 0; i < n; i++) v[i] += a * p[i];
-}
-
 /* Returns the dot product of p and v */
 static inline PetscReal SingleDot(PetscInt n, const float *p, const PetscScalar *v)
 {

@@ -80,7 +80,7 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscCall(VecCopy(centre, f->centre));
   PetscCall(VecCopy(gradient, f->gradient));
   PetscCall(VecCopy(c, f->c));
-  PetscCall(IPBasisDots(basis, 0, f->gradient, f->pg));
+  PetscCall(IPBasisDots(basis, 0, basis->n, f->gradient, f->pg));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedCenter(f->reduced, f->gradient, f->c, value, f->pg));
   PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
@@ -277,7 +277,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
   if (!*extended) PetscFunctionReturn(0);
-  PetscCall(IPBasisDots(basis, basis->n - 1, f->gradient, &f->pg[basis->n - 1]));
+  PetscCall(IPBasisDots(basis, basis->n - 1, 1, f->gradient, &f->pg[basis->n - 1]));
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));

@@ -152,7 +152,7 @@ typedef struct {
 typedef struct {
   PetscBool      newton;  /* whether Newton's method is used, since the objective is not quadratic */
   PetscContainer kept;    /* contains an IPSubspaceState */
-  IS             W;       /* unknowns whose unit vectors are in V: those of the constraints, and their neighbours */
+  IS             W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
   IPReduced     *reduced; /* the reduced problem in `kept`; NULL: not set up */
   Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal      f;                   /* f at that point */
@@ -168,7 +168,6 @@ typedef struct {
 
 /* single.c */
 PETSC_INTERN void IPSingleRound(PetscInt n, const PetscScalar *v, PetscReal size, float *p);
-PETSC_INTERN void IPSingleAdd(PetscInt n, PetscReal a, const float *p, PetscScalar *v);
 PETSC_INTERN void IPSingleDots(PetscInt n, PetscInt k, float *const p[], const PetscScalar *v, PetscReal s[]);
 PETSC_INTERN void IPSingleCombine(PetscInt n, PetscInt k, const PetscReal a[], float *const p[], PetscScalar *v);
 
@@ -178,7 +177,7 @@ PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
 PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPBasisUpdate(IPBasis *, Mat K, PetscBool new_K, IS fixed, IS W);
-PETSC_INTERN PetscErrorCode IPBasisDots(const IPBasis *, PetscInt first, Vec, PetscReal[]);
+PETSC_INTERN PetscErrorCode IPBasisDots(const IPBasis *, PetscInt first, PetscInt k, Vec, PetscReal[]);
 PETSC_INTERN PetscErrorCode IPBasisAdd(const IPBasis *, const PetscReal[], Vec);
 PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
