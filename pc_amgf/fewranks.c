@@ -1,7 +1,7 @@
 /*
-   Solves the filtered system on the first few ranks only. The matrix A_w is small, so that on all ranks messages would
-   take longer than arithmetic. The filter's KSP gets a PCSHELL, which moves A_w and the vectors to those ranks. The
-   direct solver there reads the options of the filter's prefix.
+   Solves the system of the filtered matrix A_w on the first few ranks only. A_w is small: on all ranks communication
+   would take longer than arithmetic. The filter's KSP gets a PCSHELL, which sends A_w and the vectors to those ranks.
+   The direct solver on those ranks has the options prefix of the filter.
 */
 #include "amgfimpl.h"
 #include "mumps.h"

@@ -1,10 +1,11 @@
 /*
-   Finds a start by path following if Newton's method fails for the laws of laws.c. The laws are smoothed:
+   Computes a starting point for Newton's method by path following. It is used where Newton's method fails on the laws
+   of laws.c. The laws are smoothed:
      lambda w = m, v_n = w, lambda > 0, w > 0,  r tau = -b(lambda) v_t, r = sqrt(|v_t|^2 + e^2),
-   and m and e are reduced to zero, as in an interior point method. The friction law is linearized in this form, not
-   divided by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration,
-   1999), which works for sticking and for slipping terms. Newton's method then starts with those rows closed that are
-   closed at the end of the path.
+   and m and e are reduced to zero, as in an interior point method. The friction law is linearized in this form and not
+   after a division by r (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image
+   restoration, 1999). This form suits sticking and slipping terms. Rows that are closed at the end of the path are
+   closed when Newton's method starts.
 */
 #include "frictionimpl.h"
 

@@ -128,8 +128,8 @@ static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 }
 
 /*
-   Finds whether the full step would end the solve except for the force residual: the step lengths are 1 with some
-   margin to the boundary, and all products (t + dt)(z + dz) are within the tolerance
+   Finds whether all products (t + dt)(z + dz) would be within the tolerance after the full step, and the full step
+   leaves a margin to the boundary. Only the force residual can then require another iteration.
 */
 static PetscErrorCode DirectionWouldFinish(Tao tao, PetscBool *finish)
 {

@@ -124,15 +124,16 @@ int main(int argc, char **argv)
 {
   static const BodyShape shape[]   = {SHAPE_RIGID_PLANE, SHAPE_RIGID_SPHERE, SHAPE_RIGID_CYLINDER, SHAPE_RIGID_CONE,
       SHAPE_RIGID_TORUS, SHAPE_RIGID_EXTRUDED, SHAPE_RIGID_REVOLVED};
+  static const PetscReal own[]     = {0.1, 0.2, 0.9, 0, 0, -1, 0.5, 0.2, 45, 0.3, 1, 0, 0, 0.05, 0, 0, 6, 0, -0.2, 0.4,
+        -0.2, 0.4, 1};
   static const PetscReal known[]   = {0.7, PETSC_SQRT2 * 0.7 - 0.5, 0.2, 0.0, 0.05, 0.31055512754639893, 0.25};
   SceneBody              bodies[2] = {
                  {.name = (char *)"block", .lower = {-0.6, -0.5, -1}, .upper = {0.5, 0.6, 0}, .cells = {3, 3, 2}},
-                 {.name      = (char *)"tool",
-                   .material = {.type = MATERIAL_RIGID},
-                   .own = {0.1, 0.2, 0.9, 0, 0, -1, 0.5, 0.2, 45, 0.3, 1, 0, 0, 0.05, 0, 0, 6, 0, -0.2, 0.4, -0.2, 0.4, 1}}};
+                 {.name = (char *)"tool", .material = {.type = MATERIAL_RIGID}}};
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
+  PetscCall(PetscArraycpy(bodies[1].own, own, PETSC_STATIC_ARRAY_LENGTH(own)));
   for (PetscInt i = 0; i < 7; ++i) {
     bodies[1].shape = shape[i];
     PetscCall(TestSurface(bodies, BodyShapes[shape[i]]));

@@ -207,7 +207,7 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
   return PETSC_TRUE;
 }
 
-/* Computes volume, displacement gradient and dilatation at each point; the dilatation is the projected one */
+/* Computes at each quadrature point its volume w[q], and the displacement gradient and the projected dilatation H[q] */
 static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal w[], PetscReal H[][ELEMENT_STRAINS])
 {
