@@ -30,6 +30,22 @@ static inline PetscReal VectorScaleToUnit(PetscReal n[3])
   return length;
 }
 
+/* Computes turn = R - 1 from the rotation vector r = |r| n [rad] by Rodrigues' formula: sin|r| [n] + (1 - cos|r|)
+   [n]^2. This form has no cancellation for small angles. */
+static inline void MatrixSetTurn(const PetscReal r[3], PetscReal turn[3][3])
+{
+  const PetscReal angle = VectorNorm(r), sine = angle > 0.0 ? PetscSinReal(angle) / angle : 1.0,
+                  versine = angle > 0.0 ? 2.0 * PetscSqr(PetscSinReal(0.5 * angle) / angle) : 0.5;
+
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+    turn[i][i] = -versine * (r[j] * r[j] + r[k] * r[k]);
+    turn[i][j] = versine * r[i] * r[j] - sine * r[k];
+    turn[i][k] = versine * r[i] * r[k] + sine * r[j];
+  }
+}
+
 /* Cofactors C of J; returns the determinant. The inverse of J is the transpose of C over it */
 static inline PetscReal MatrixCofactors(PetscReal J[3][3], PetscReal C[3][3])
 {

@@ -16,7 +16,6 @@ typedef struct {
 PETSC_INTERN PetscInt  MotionFindLeader(Scene, PetscInt displacement);
 PETSC_INTERN void      MotionGet(Scene, PetscInt leader, const PetscReal factor[], RigidMotion *);
 PETSC_INTERN PetscReal MotionDisplace(const RigidMotion *, const PetscScalar x[3], PetscInt component);
-PETSC_INTERN void      MotionRotate(const PetscReal r[3], PetscReal turn[3][3]);
 
 /* poses.c: the rigid motion that is nearest to the motion of a body */
 typedef struct {

@@ -9,6 +9,7 @@
    the rotations of the rigid body are small too: R and o are then those of the undeformed body.
 */
 #include "constraintsimpl.h"
+#include <vector3.h>
 #include <string.h>
 
 /* largest rotation between two states [degrees]. If the gap is linearized only once per load step, rotations are
@@ -329,7 +330,7 @@ void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
 {
   PetscReal turn[3][3];
 
-  MotionRotate(body->angle, turn);
+  MatrixSetTurn(body->angle, turn);
   for (PetscInt i = 0; i < 9; ++i) {
     Q[i / 3][i % 3] = body->last[i / 3][i % 3];
     for (PetscInt k = 0; k < 3; ++k) Q[i / 3][i % 3] += turn[i / 3][k] * body->last[k][i % 3];

@@ -50,19 +50,16 @@ PetscErrorCode DetectMoves(Scene scene, PetscReal time, DetectMove moves[])
   PetscFunctionReturn(0);
 }
 
-/* Rotates n points by Rodrigues' formula and shifts them */
+/* Rotates and shifts n points */
 void DetectMovePoints(const DetectMove *move, PetscInt n, const PetscReal from[], PetscReal to[])
 {
-  PetscReal       axis[3] = {move->rotation[0], move->rotation[1], move->rotation[2]};
-  const PetscReal angle = VectorScaleToUnit(axis), c = PetscCosReal(angle), s = PetscSinReal(angle);
+  PetscReal turn[3][3];
 
+  MatrixSetTurn(move->rotation, turn);
   for (PetscInt i = 0; i < n; ++i) {
-    PetscReal r[3], cross[3], along;
+    PetscReal r[3];
 
     for (PetscInt k = 0; k < 3; ++k) r[k] = from[3 * i + k] - move->center[k];
-    VectorCross(axis, r, cross);
-    along = VectorDot(axis, r);
-    for (PetscInt k = 0; k < 3; ++k)
-      to[3 * i + k] = move->center[k] + move->shift[k] + c * r[k] + s * cross[k] + (1.0 - c) * along * axis[k];
+    for (PetscInt k = 0; k < 3; ++k) to[3 * i + k] = from[3 * i + k] + move->shift[k] + VectorDot(turn[k], r);
   }
 }

@@ -106,27 +106,13 @@ static PetscErrorCode CyclicMean(MPI_Comm comm, const SceneCyclic *cut, const Pe
   PetscFunctionReturn(0);
 }
 
-/* turn: the rotation about a unit vector minus 1; small angles keep their digits */
-static void CyclicRotate(const PetscReal axis[3], PetscReal angle, PetscReal turn[3][3])
-{
-  const PetscReal sine = PetscSinReal(angle), versine = 2.0 * PetscSqr(PetscSinReal(0.5 * angle));
-
-  for (PetscInt i = 0; i < 3; ++i) {
-    const PetscInt j = (i + 1) % 3, k = (i + 2) % 3;
-
-    turn[i][i] = -versine * (axis[j] * axis[j] + axis[k] * axis[k]);
-    turn[i][j] = versine * axis[i] * axis[j] - sine * axis[k];
-    turn[i][k] = versine * axis[i] * axis[k] + sine * axis[j];
-  }
-}
-
 /* Finds the sector's angle from the mean positions of both faces; turn: R - 1. An error if a turn has no whole number
    of such angles */
 static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, const PetscReal axis[3], PetscInt n,
   const CyclicNode from[], PetscInt m, const CyclicNode to[], PetscReal turn[3][3], PetscReal *size)
 {
   const PetscReal whole = 360.0;
-  PetscReal       mean[2][3], cross[3], other, angle, sectors;
+  PetscReal       mean[2][3], cross[3], rotation[3], other, angle, sectors;
 
   PetscFunctionBegin;
   PetscCall(CyclicMean(comm, cut, axis, n, from, mean[0], size));
@@ -139,11 +125,11 @@ static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, cons
   sectors = whole / (PetscAbsReal(angle) * 180.0 / PETSC_PI);
   PetscCheck(PetscAbsReal(sectors - PetscFloorReal(sectors + 0.5)) < 1e-4 * sectors, comm, PETSC_ERR_USER_INPUT,
     "cyclic symmetry \"%s\": the faces %s and %s are %g degrees apart about the axis, and a turn has no whole number "
-    "of "
-    "such sectors",
+    "of such sectors",
     cut->name, cut->from, cut->to, (double)(PetscAbsReal(angle) * 180.0 / PETSC_PI));
   angle = (angle < 0.0 ? -2.0 : 2.0) * PETSC_PI / PetscFloorReal(sectors + 0.5);
-  CyclicRotate(axis, angle, turn);
+  for (PetscInt d = 0; d < 3; ++d) rotation[d] = angle * axis[d];
+  MatrixSetTurn(rotation, turn);
   PetscFunctionReturn(0);
 }
 
