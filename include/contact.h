@@ -29,8 +29,9 @@ typedef struct {
   PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
   PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL if
                          no pair has friction */
-  PetscReal *mortar_sum; /* [6 nlocal] sums of the vectors of J, and of cover, over the nodes of the mortar face, in
-                            the directions at the row's vertex; NULL if no body is a sector of cyclic symmetry */
+  PetscReal *mortar_sum; /* [6 nlocal] sums over the mortar face's nodes of the vectors of J, and of those of
+                            `cover`, in the directions at the row's vertex; NULL if no body is a sector of cyclic
+                            symmetry */
   PetscReal *normal;     /* [3 nlocal] unit normal of each row, outward from the nonmortar side */
   PetscInt   nlocal;     /* number of rows of this rank */
   PetscInt  *vertex;     /* nonmortar vertex (local DMPlex point) of each local row */
@@ -58,8 +59,8 @@ PETSC_EXTERN PetscErrorCode ContactIsAtEdge(Contact, PetscInt pair, PetscInt nod
 /* Counts the nodes of a pair's nonmortar face on which no friction acts although the faces slide, after a contact
    update, and all nodes of that face */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
-/* Collective. Largest penetration of vertices of either face of each pair at a displacement, and its accuracy
-   [length] */
+/* Collective. Computes, for each pair, the largest penetration of a vertex of either face at a displacement, and the
+   uncertainty of this depth [length] */
 PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
 /* Collective. Computes the largest depth of vertices of a pair that passed through the other face between u0 and u1,
    and the search depth of the pair [length]. turned: whether a facet rotated by more than 90 degrees */

@@ -1,4 +1,5 @@
-/* Formulations that a scene chooses from: element of a body, gap of a contact pair, energy model of a load step. */
+/* Formulations that a scene can choose: the element of a body, the gap of a contact pair, the energy model of a load
+   step, and the time integration. */
 #ifndef FORMULATION_H
 #define FORMULATION_H
 
@@ -8,41 +9,44 @@
   #error "contact needs a PETSc with real scalars: displacements, gaps and pressures are real numbers"
 #endif
 
-/* The element types. A new one is a file in src/elasticity/elements and a line here: name in C, and name in scenes */
+/* The element types. A new element type needs a file in src/elasticity/elements and a line here, with its name in C
+   and its name in scenes. */
 #define ELEMENT_TYPES(ELEMENT) \
-  ELEMENT(FULL, Full, "full") /* full integration; locks as Poisson's ratio nears 1/2, and in bending */ \
-  ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation: the volume change is constant in an element (B-bar, F-bar) */ \
-  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* no locking in bending or near nu = 1/2; small strain */
+  ELEMENT(FULL, Full, "full") /* full integration; too stiff (locking) in bending, and near Poisson's ratio 1/2 */ \
+  ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation (B-bar, F-bar): the change of volume is constant in a cell */ \
+  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* incompatible modes: no locking in bending or near Poisson's
+                                                         ratio 1/2; small strain only */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
-/* ELEMENT_AUTO: SceneChooseElements() takes one of the others */
+/* ELEMENT_AUTO stands for the element that SceneChooseElements() selects. */
 typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) ELEMENT_AUTO } ElementType;
 #undef ELEMENT_TYPE
 PETSC_EXTERN const char *const ElementTypes[];
 
 typedef enum {
-  GAP_MORTAR, /* segment to segment: integrated over the overlap of the faces */
-  GAP_NODE,   /* node to segment: nonmortar vertex to the closest point of the mortar face */
-  GAP_DUAL    /* mortar with dual functions: contact forces act at the vertices of the nonmortar face */
+  GAP_MORTAR, /* segment to segment: the gap is integrated over the overlap of the two faces */
+  GAP_NODE,   /* node to segment: distance from a nonmortar vertex to the closest point of the mortar face */
+  GAP_DUAL    /* mortar with dual shape functions: the contact force of a row acts at its own nonmortar vertex */
 } GapType;
 PETSC_EXTERN const char *const GapTypes[];
 
-/* How the energy of a load step is minimized. Both are the same if every body is linear */
+/* The function that a load step minimizes. Both models are equal if every body is linear. */
 typedef enum {
   MODEL_ENERGY,   /* the nonlinear energy; the result is in equilibrium */
-  MODEL_QUADRATIC /* its quadratic model about the last state; the tangent is assembled once per load step */
+  MODEL_QUADRATIC /* the quadratic model of the energy about the last state; the tangent is assembled once per load
+                     step */
 } StepModel;
 PETSC_EXTERN const char *const StepModels[];
 
 /* How time is integrated */
 typedef enum {
-  SCHEME_GENERALIZED_ALPHA, /* second order, with dissipation of high frequencies as asked for */
-  SCHEME_IMPACT             /* trapezoidal rule with implicit contact forces */
+  SCHEME_GENERALIZED_ALPHA, /* second order; dissipates high frequencies as much as the spectral radius says */
+  SCHEME_IMPACT             /* trapezoidal rule, with the contact forces at the end of the time step */
 } DynamicsScheme;
 PETSC_EXTERN const char *const DynamicsSchemes[];
 
 typedef enum {
-  MASS_REDISTRIBUTED, /* lumped; nodes in contact pairs have none: it goes to the other nodes of their cells */
+  MASS_REDISTRIBUTED, /* lumped; the mass of nodes in contact pairs is moved to the other nodes of their cells */
   MASS_LUMPED,
   MASS_CONSISTENT
 } MassType;

@@ -1,10 +1,10 @@
 /*
-   Meshes: one DMPlex of hexahedra and tetrahedra for all bodies (disjoint components), distributed and refined.
-
-   Labels: "body" (cells -> index of the body); one label per named face, "<body>.<face>", stratum 1 holding its facets
-   and their edges and vertices (MeshGetFaceNames() lists the faces of a body). Local section: 3 displacement components
-   per node, interleaved, block size 3, no constrained dofs. The nodes of a body of order 1 are its vertices, those of a
-   body of order 2 also its edges, and of hexahedra its facets and cells. Coordinates are the reference geometry.
+   Meshes: one DMPlex of hexahedra and tetrahedra for all bodies, distributed and refined. Different bodies share no
+   points. Labels: the label "body" has the number of the body at each cell. The label "<body>.<face>" of each named
+   face has the value 1 at the facets of the face and at their edges and vertices; MeshGetFaceNames() lists the faces of
+   a body. Local section: 3 displacement components per node, block size 3, no constrained unknowns. The nodes of a body
+   of order 1 are its vertices. Those of a body of order 2 are also its edges and, in hexahedra, its facets and cells.
+   The coordinates are those of the undeformed bodies.
 */
 #ifndef MESH_H
 #define MESH_H
@@ -13,7 +13,7 @@
 #include "model.h"
 
 #define MESH_BODY_LABEL "body"
-/* prefix, followed by a number, of the name of a part of the boundary of a body from a file */
+/* name of a part of the boundary of a body from a mesh file; a number follows */
 #define MESH_SURFACE         "surface_"
 #define MESH_MAX_NODES       27 /* largest number of nodes of a cell */
 #define MESH_MAX_FACET_NODES 9
@@ -36,22 +36,23 @@ static inline PetscInt MeshCorners(PetscInt nnodes)
 
 /* Creates the mesh of all bodies, refined uniformly `refine` times */
 PETSC_EXTERN PetscErrorCode MeshCreate(MPI_Comm, PetscInt nbodies, const SceneBody[], PetscInt refine, DM *);
-/* Cells that are marked for refinement on a sequence of meshes, by the numbers of the cells on the first rank */
+/* The cells that are marked for refinement on each mesh of a sequence. Cells have the numbers that they have on the
+   first rank. */
 typedef struct {
-  PetscInt   n, *count; /* number of meshes, and number of marked cells on each */
+  PetscInt   n, *count; /* number of meshes; number of marked cells on each mesh */
   PetscInt **cells;
 } MeshMarks;
-/* Creates the mesh of a scene: refined as the scene requires, then in the marked cells; marks may be NULL */
+/* Creates the mesh of a scene. It is refined as the scene requires, and then in the marked cells. marks: may be NULL */
 PETSC_EXTERN PetscErrorCode MeshCreateScene(MPI_Comm, Scene, const MeshMarks *, DM *);
 PETSC_EXTERN PetscErrorCode MeshMarksAdd(DM, const PetscBool marked[], MeshMarks *);
 PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
-/* means: for each hanging vertex, in the middle of an edge or a facet of a coarser cell, the weights of the vertices of
-   which it is the mean; NULL if there are no hanging vertices */
+/* Gets the means that define hanging vertices, which lie in the middle of an edge or a facet of a coarser cell. The
+   row of a hanging vertex has the weights of the vertices whose mean it is. *means: NULL if no vertex hangs */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
 /* Marks the boundary facets of the bodies on this rank */
 PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
-/* Checks the shape's parameters, or that the mesh file contains the volume, and the body's parts of faces */
+/* Checks the parameters of the shape, or that the mesh file contains the volume; checks the body's parts of faces */
 PETSC_EXTERN PetscErrorCode MeshCheckBody(MPI_Comm, const SceneBody *);
 /* Names of a body's faces without the body's name: faces of the shape, or physical surfaces of the Gmsh file; then
    its parts of faces */
@@ -74,24 +75,25 @@ PETSC_EXTERN PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *);
    contact pairs */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
 PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
-/* Named face of a mesh: its facets (each facet is on exactly one rank, overlap 0) as local DMPlex points, sorted */
+/* Gets the facets of a named face on this rank as local DMPlex points, sorted. Each facet is on exactly one rank. */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Gets the vertices of a face on this rank (DMPlex points), including those whose facets other ranks own */
 PETSC_EXTERN PetscErrorCode MeshGetFaceVertices(DM, const char face[], IS *vertices);
 PETSC_EXTERN PetscErrorCode MeshGetCyclicImages(DM, const SceneCyclic *, PetscReal turn[3][3], PetscInt *n,
   PetscInt *nodes[], PetscInt *images[]);
-/* Global rows of the given component of the face's nodes that this rank owns */
+/* Gets the global rows of one displacement component at the nodes of a face that this rank owns */
 PETSC_EXTERN PetscErrorCode MeshGetFaceDofs(DM, const char face[], PetscInt component, IS *rows);
-/* The 4 vertices of a facet, counterclockwise seen from outside the body; a triangle repeats its last vertex */
+/* Gets the 4 vertices of a facet, counterclockwise seen from outside the body. A triangle repeats its last vertex. */
 PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt vertices[4]);
-/* Twice the area vector of an undeformed facet, and the sums of these vectors and of their lengths over all ranks */
+/* Computes twice the area vector of an undeformed facet; and sums of these vectors and of their lengths over all
+   ranks */
 PETSC_EXTERN void           MeshComputeFacetArea(PetscReal x[4][3], PetscReal area[3]);
 PETSC_EXTERN PetscErrorCode MeshSumFacetAreas(DM, IS facets, PetscReal sums[4]);
-/* The 8 vertices of a hexahedron in tensor order, x fastest */
+/* Gets the 8 vertices of a hexahedron in tensor order, where x varies fastest */
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 PETSC_EXTERN PetscErrorCode MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
-/* The nodes of a facet: its 4 vertices, or 9 with edge and facet nodes; of a triangle 3 or 6. The nodes of a
-   hexahedron, 8 or 27 in tensor order, or of a tetrahedron, 4 or 10 */
+/* Gets the nodes of a facet: 4 or 3 vertices, or for order 2 also the nodes on edges and facet, 9 or 6. Gets the
+   nodes of a hexahedron, 8 or 27 in tensor order, or of a tetrahedron, 4 or 10 */
 PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, PetscInt nodes[MESH_MAX_FACET_NODES]);
 /* Divides a facet at its nodes into bilinear facets: 1, or 4 if the order is 2. Each has 4 nodes, counterclockwise seen
    from outside; a triangle repeats its last node. */
@@ -99,7 +101,8 @@ PETSC_EXTERN PetscErrorCode MeshGetFacetNodes(DM, PetscInt facet, PetscInt *n, P
 PETSC_EXTERN PetscErrorCode MeshGetFacetPieces(DM, PetscInt facet, PetscInt *n,
   PetscInt pieces[MESH_MAX_FACET_PIECES][4]);
 PETSC_EXTERN PetscErrorCode MeshGetCellNodes(DM, PetscInt cell, PetscInt *n, PetscInt nodes[MESH_MAX_NODES]);
-/* End vertices of the edge on which each node of a tetrahedron lies; values and derivatives of its shape functions */
+/* The two end vertices of the edge on which each node of a tetrahedron lies; and the values and derivatives of its
+   shape functions */
 PETSC_EXTERN const PetscInt MeshTetrahedronEnds[10][2];
 PETSC_EXTERN void           MeshTetrahedronShape(PetscInt n, const PetscReal xi[3], PetscReal N[],
             PetscReal dN[3][MESH_MAX_NODES]);
@@ -113,7 +116,8 @@ PETSC_EXTERN PetscErrorCode MeshGetBodyNodes(DM, PetscInt nbodies, PetscInt nnod
 PETSC_EXTERN PetscErrorCode MeshGetNodeCoordinates(DM, Vec *);
 /* Reference coordinates of local vertices [length] */
 PETSC_EXTERN PetscErrorCode MeshGetVertexCoordinates(DM, PetscInt n, const PetscInt vertices[], PetscReal places[][3]);
-/* Position of a point in a mesh: a cell, and the values of its nodes' shape functions at the point */
+/* Position of a point in a mesh: the cell that contains it, and the values of the shape functions of the cell's
+   nodes there */
 typedef struct {
   PetscReal distance; /* distance of the point from the cell [length] */
   PetscReal size;     /* diagonal of the cell's bounding box [length] */
@@ -122,12 +126,12 @@ typedef struct {
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
-/* Evaluates fields (global vectors) at points of this rank: [nfields][3] values per point. missing: number of points on
-   all ranks that have no cell near */
+/* Evaluates fields, which are global vectors, at points of this rank: [nfields][3] values per point. *missing:
+   number of points on all ranks that have no cell near them */
 PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints,
   const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
 
-/* Finds the cells that contain points, in a DM or in any set of cells */
+/* Finds the cells that contain given points, among the cells of a DM or any other cells */
 typedef struct _n_MeshLocator *MeshLocator;
 PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[],
      MeshPlace places[]);

@@ -1,5 +1,5 @@
-/* The model: what is simulated, as plain structs. All other parts use them; they use none. Lengths, forces and
-   pressures are in any consistent set of units. */
+/* The model: what is simulated, as plain structs. Every other part of the program uses these structs; they use no
+   other part. Lengths, forces and pressures are in any consistent units. */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -7,7 +7,8 @@
 #include "material.h"
 #include "formulation.h"
 
-/* The shapes. A new one is a file in src/mesh/shapes and a line here: name in C, and name in scenes */
+/* The shapes. A new shape needs a file in src/mesh/shapes and a line here, with its name in C and its name in
+   scenes. */
 #define BODY_SHAPES(SHAPE) \
   SHAPE(BOX, Box, "box") \
   SHAPE(TUBE_ARC, TubeArc, "tube_arc") \
@@ -34,7 +35,7 @@ PETSC_EXTERN const char *const BodyShapes[];
 
 #define BODY_OWN 64
 
-/* Where a rigid surface has its parameters among a body's own: three numbers each of point and axis */
+/* Positions of a rigid surface's parameters in the array `own` of SceneBody. Point and axis have three numbers each. */
 #define SURFACE_MAX_PROFILE 40 /* numbers of a profile */
 
 enum {
@@ -45,13 +46,13 @@ enum {
   SURFACE_ANGLE   = 8,
   SURFACE_SIZE    = 9,
   SURFACE_ACROSS  = 10, /* three numbers: direction of a profile's first coordinate */
-  SURFACE_OUTSIDE = 13, /* how far the surface is outside of the profile */
-  SURFACE_PROFILE = 16  /* number of numbers, then two for each point of the profile */
+  SURFACE_OUTSIDE = 13, /* distance between the surface and its profile, on the outer side */
+  SURFACE_PROFILE = 16  /* number of coordinates, followed by the coordinates: two for each point of the profile */
 };
 
-/* Arc of a tube, or a whole one; of a cylinder axis, center, outer radius and extent; of a cone the radii at the start
-   and end of the extent. Angles are measured about the axis, from the next axis in the order x, y, z, x (for the axis
-   y: from z to x) */
+/* An arc of a tube, or a whole tube. A cylinder uses axis, center, outer radius and extent. A cone uses the radii at
+   the start and at the end of its extent. Angles are measured about the axis, from the next axis in the order x, y,
+   z, x; for the axis y from z to x. */
 typedef struct {
   PetscInt  axis;      /* 0, 1, 2: along x, y, z */
   PetscReal center[3]; /* a point on the axis [length] */
@@ -60,13 +61,13 @@ typedef struct {
   PetscReal extent[2]; /* first and last position along the axis [length] */
 } SceneTubeArc;
 
-/* Prism with the cross-section of half an ellipse, or of a quarter if it is cut at its plane of symmetry */
+/* Prism whose cross-section is half an ellipse, or a quarter of an ellipse that ends at its plane of symmetry */
 typedef struct {
-  PetscInt  axis;      /* axis of the prism: 0, 1, 2 */
-  PetscInt  depth;     /* direction from the flat side to the crown: 0, 1, 2: x, y, z; 3, 4, 5: -x, -y, -z */
-  PetscInt  half;      /* direction from the plane of symmetry to the half that is modelled; PETSC_DECIDE: both halves
-                          */
-  PetscReal center[3]; /* a point on the line where the flat side meets the plane of symmetry [length] */
+  PetscInt  axis;         /* axis of the prism: 0, 1, 2 */
+  PetscInt  depth;        /* direction from the flat side to the crown: 0, 1, 2 for x, y, z; 3, 4, 5 for -x, -y, -z */
+  PetscInt  half;         /* direction from the plane of symmetry to the modelled half; PETSC_DECIDE: both halves are
+                          modelled */
+  PetscReal center[3];    /* a point on the line where the flat side meets the plane of symmetry [length] */
   PetscReal semi_axes[2]; /* semi-axis along depth, and across [length] */
   PetscReal extent[2];    /* first and last position along the axis [length] */
 } SceneHalfEllipse;
@@ -77,15 +78,16 @@ typedef struct {
 
 #define OCTANT_BOTH 2 /* the octants on both sides of the plane are modelled */
 
-/* The octants of shells and balls: cut out by the three coordinate planes through a corner */
+/* Octants of shells and balls, which are bounded by the three coordinate planes through a corner */
 typedef struct {
   PetscReal   corner[3];     /* [length] */
-  PetscInt    signs[3];      /* +1 or -1 for the side of each plane, or OCTANT_BOTH; 0 stands for 1 */
-  SceneSphere inner, outer;  /* of sphere_shell; outer also of ball */
-  SceneSphere cap;           /* sphere_shell: cuts the outer sphere; radius 0: none */
+  PetscInt    signs[3];      /* +1 or -1: the side of each plane on which the octant lies; OCTANT_BOTH: both sides; 0
+                                stands for 1 */
+  SceneSphere inner, outer;  /* inner and outer sphere of a sphere_shell; a ball has only the outer one */
+  SceneSphere cap;           /* sphere_shell: sphere that cuts the outer surface; none if the radius is 0 */
   PetscReal   inner_axes[3]; /* spheroid_shell: semi-axes [length] */
   PetscReal   outer_axes[3];
-  PetscReal   layer_grading; /* thickness of the outermost layer / that of the innermost; 0: 1 */
+  PetscReal   layer_grading; /* thickness of the outermost layer divided by that of the innermost; 0 stands for 1 */
   PetscInt    layer_even;    /* number of equal layers at the fine end of the grading; 0 stands for 1 */
 } SceneOctant;
 
@@ -94,10 +96,12 @@ typedef struct {
   char     *file;       /* with its folder */
   char     *volume;     /* physical name */
   PetscReal scale;      /* factor of its coordinates; 0 stands for 1 */
-  char     *converted;  /* the temporary Gmsh file that a file of another format, or with a scale, became; else NULL */
-  PetscInt  nsurfaces;  /* number of its faces surface_1, surface_2, ..., which are the parts of the boundary between
-                           sharp edges; 0: it has none, until something needs them */
-  int       descriptor; /* of that file, for the first body that has it, on the first rank; 0: none */
+  char     *converted;  /* name of the temporary Gmsh file into which a file of another format, or with a scale, was
+                           converted; otherwise NULL */
+  PetscInt  nsurfaces;  /* number of its faces surface_1, surface_2, ..., the parts of the boundary between sharp
+                           edges; 0 until a scene refers to such a face */
+  int       descriptor; /* descriptor of the temporary file, stored on the first rank for the first body that uses
+                           it; 0: none */
 } SceneGmsh;
 
 /* A part of a face: its facets at refinement level 0 whose centroids lie in a box */
@@ -107,82 +111,93 @@ typedef struct {
   PetscReal lower[3], upper[3]; /* bounds of the box, may be infinite [length] */
 } SceneSubface;
 
-/* A body: shape and mesh at refinement level 0. The patches of an octant are its cells along x, y and z. Those of a
-   half ellipse are the cells of its core along depth and across half of it, and of the ring around the core. */
+/* A body: its shape, and its mesh at refinement level 0. For an octant, `cells` are the numbers of cells along x, y
+   and z. For a half ellipse they are the numbers of cells of the core along the depth and across half of it, and of
+   the ring around the core. */
 typedef struct {
-  char       *name;
-  BodyShape   shape;
-  PetscReal   lower[3], upper[3]; /* box: opposite corners [length] */
-  PetscInt    cells[3];           /* number of cells: box: along each axis; tube_arc: radially, around, along; other
-                                     shapes: in patches */
-  Material    material;
-  ElementType element;
-  PetscInt  order; /* order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra, 2 for tetrahedra */
-  PetscReal grading[3]; /* size of the last cell / size of the first: box, octants: along each axis; tube_arc: like
-                           cells; half_ellipse: core along depth, core across, ring; 0: 1 */
-  PetscInt  even[3];    /* number of equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt  layers;     /* number of cells: half_ellipse: along the axis; octants: through the shell */
-  PetscBool curved;     /* refined vertices follow the shape's curved surfaces; false: the facets of level 0 */
-  SceneTubeArc     tube;
+  char        *name;
+  BodyShape    shape;
+  PetscReal    lower[3], upper[3]; /* box: opposite corners [length] */
+  PetscInt     cells[3];           /* number of cells. box: along each axis; tube_arc: radially, around and along the
+                                     axis; other shapes: see above */
+  Material     material;
+  ElementType  element;
+  PetscInt     order; /* polynomial order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra and 2
+                      for tetrahedra */
+  PetscReal    grading[3]; /* size of the last cell divided by that of the first; 0 stands for 1. box, octants: along
+                           each axis; tube_arc: in the directions of `cells`; half_ellipse: core along the depth,
+                           core across, ring */
+  PetscInt     even[3];    /* number of equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt     layers;     /* number of cells along the axis (half_ellipse) or through the shell (octants) */
+  PetscBool    curved;     /* refinement puts new vertices on the shape's curved surfaces; false: on the facets of level
+                           0 */
+  SceneTubeArc tube;
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
   SceneGmsh        gmsh;
-  PetscReal        own[BODY_OWN]; /* parameters of shapes without a named member here */
+  PetscReal        own[BODY_OWN]; /* parameters of shapes that have no named members in this struct */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
-  PetscBool whole; /* its whole boundary is a face, "<body>" SCENE_WHOLE_BODY, which comes into contact with itself */
-  PetscReal velocity[3], spin[3]; /* at time 0 [length/time]; about the centre of mass [radians/time] */
+  PetscBool        whole; /* the whole boundary is a face with the name "<body>" SCENE_WHOLE_BODY, because it comes into
+                      contact with itself */
+  PetscReal        velocity[3], spin[3]; /* velocity [length/time], and angular velocity about the centre of mass
+                                     [radians/time], both at time 0 */
 } SceneBody;
 
-/* A load history (ramp): the factor at the end of each load step, linear in between */
+/* A load history (ramp): factors at the ends of the load steps; between them the factor is linear */
 typedef struct {
   char      *name;
-  PetscReal  start;  /* factor before the first load step: 0 but in dynamics */
+  PetscReal  start;  /* factor at the start, before the first load step; always 0 in a static analysis */
   PetscReal *factor; /* nsteps values */
 } SceneRamp;
 
-/* Inertia: a load step is a time step */
+/* Parameters of a dynamic analysis, in which each load step is a time step */
 typedef struct {
   PetscReal      time_step, end_time; /* [time]; time_step 0: a static analysis */
   DynamicsScheme scheme;
   MassType       mass;
-  PetscReal      spectral_radius; /* of generalized-alpha, at infinite frequency: 0 to 1, 1 dissipates nothing */
-  PetscReal      tolerance;       /* of the error of time steps, which are then controlled; 0: all are of one length */
-  PetscReal      damping_mass;    /* forces by mass times velocity [1/time] */
-  PetscReal      damping_stiffness; /* forces by stiffness times velocity [time] */
+  PetscReal      spectral_radius;   /* generalized_alpha: fraction of the highest frequencies that remains after a time
+                                     step, 0 to 1 */
+  PetscReal      tolerance;         /* tolerance of the error of controlled time steps; 0: all time steps have the same
+                                     length */
+  PetscReal      damping_mass;      /* mass-proportional damping: the force is this factor times mass times velocity
+                                     [1/time] */
+  PetscReal      damping_stiffness; /* stiffness-proportional damping: the force is this factor times stiffness times
+                                       velocity [time] */
 } SceneDynamics;
 
 typedef enum {
-  DISPLACEMENT_FACE, /* a face, or a whole rigid body */
+  DISPLACEMENT_FACE, /* a face of a body, or a whole rigid body */
   DISPLACEMENT_POINT,
   DISPLACEMENT_EDGE
 } DisplacementPlace;
 
-/* replaces the face's name for a whole rigid body, and for the whole boundary of another body */
+/* stands in place of a face's name for the whole of a rigid body, or for the whole boundary of another body */
 #define SCENE_WHOLE_BODY ".*"
 
 typedef struct {
   char     *name;
-  char     *face;     /* "<body>.<face>", the name of a facet label of the mesh; or "<body>" SCENE_WHOLE_BODY: a whole
+  char     *face;        /* "<body>.<face>", the name of a label of facets; or "<body>" SCENE_WHOLE_BODY for a whole
                          rigid body */
-  PetscBool fixed[3]; /* which components are prescribed */
-  PetscReal value[3]; /* prescribed displacement at factor 1 [length] */
-  PetscBool moves;    /* a rigid motion of a rigid body, or of a face with a rotation; motions of one face or body add
-                         up */
+  PetscBool fixed[3];    /* which components are prescribed */
+  PetscReal value[3];    /* prescribed displacement at factor 1 [length] */
+  PetscBool moves;       /* prescribes the rigid motion of a rigid body or a face, with a rotation; several motions of
+                         one face or body are added */
   PetscReal rotation[3]; /* rotation vector about an axis through `center`, at factor 1 [degrees] */
   PetscReal center[3];   /* center of rotation, which moves by `value` [length] */
-  PetscBool released[6]; /* rigid body: translations and rotations (about the center) that are free and driven by
+  PetscBool released[6]; /* rigid body: the translations, and rotations about the center, that are free and driven by
                             forces */
-  PetscBool inclined;    /* an inclined symmetry plane: the displacement along `normal` is 0, no component is
-                          prescribed */
-  PetscReal normal[3];   /* normal of the plane, any length */
+  PetscBool inclined;    /* an inclined symmetry plane: the displacement along `normal` is zero, and no single
+                            component is prescribed */
+  PetscReal normal[3];   /* normal of the plane; its length has no influence */
   DisplacementPlace at;
-  PetscInt          body;           /* of a point or an edge: body */
+  PetscInt          body;           /* body of the point or edge */
   PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
   PetscInt          ramp;
 } SceneDisplacement;
 
-/* A pressure: force -value x normal, on the reference face (dead load) or on the deformed face (follower load) */
+/* A pressure, whose force is -value times normal and area: of the undeformed face (dead load) or of the deformed
+   face (follower load) */
 typedef struct {
   char     *name;
   char     *face;
@@ -195,12 +210,12 @@ typedef struct {
    linearly over the face. */
 typedef struct {
   char     *name;
-  PetscInt  body;      /* rigid body on which the resultant acts; PETSC_DECIDE: it acts on a face */
-  char     *face;      /* with a resultant also a whole rigid body, "<body>" SCENE_WHOLE_BODY */
-  PetscBool resultant; /* value is a force [force], not a traction [force/length^2]; at factor 1 */
+  PetscInt  body;      /* rigid body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
+  char     *face;      /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body */
+  PetscBool resultant; /* `value` is a resultant force [force] and not a traction [force/length^2]; both at factor 1 */
   PetscReal value[3];
   PetscReal moment[3]; /* moment of the resultant about its point of action, at factor 1 [force length] */
-  PetscBool placed;    /* the point of action is given; otherwise it is the face's centroid */
+  PetscBool placed;    /* the point of action is given; otherwise the resultant acts at the face's centroid */
   PetscReal point[3];  /* [length] */
   PetscInt  ramp;
 } SceneTraction;
@@ -209,8 +224,10 @@ typedef struct {
 typedef struct {
   char     *name;
   char     *face;
-  char     *to;       /* NULL: the ground; else a face that covers the first one */
-  PetscReal distance; /* largest distance of facets that are joined [length]; 0: from their size */
+  char     *to;       /* NULL: the springs go to the ground; otherwise the face at their other end, which must cover
+                         the first one */
+  PetscReal distance; /* largest distance between facets that are joined [length]; 0: computed from the size of the
+                         facets */
   PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
@@ -218,35 +235,35 @@ typedef struct {
 typedef struct {
   char     *name;
   PetscInt  body, to;    /* to: PETSC_DECIDE: the ground */
-  PetscReal point[2][3]; /* of the body, and of the other one [length] */
+  PetscReal point[2][3]; /* point of the body; point of the other body or of the ground [length] */
   PetscBool axial;       /* the spring acts along the line between the points, not along the axes */
-  PetscReal stiffness;   /* then [force/length] */
-  PetscReal value[3];    /* else: along x, y, z [force/length] */
+  PetscReal stiffness;   /* stiffness along that line, if `axial` is true [force/length] */
+  PetscReal value[3];    /* stiffness along x, y and z, if `axial` is false [force/length] */
 } SceneConnector;
 
 /* Pretension of a bolt: a section through a body, with a force or a shortening */
 typedef struct {
   char     *name;
   PetscInt  body;
-  PetscReal point[3], axis[3]; /* of the plane of the section; axis: any length */
+  PetscReal point[3], axis[3]; /* a point of the section's plane; normal of the plane, of any length */
   PetscBool shortens;          /* the shortening is prescribed, not the force */
   PetscReal force;             /* tension at factor 1 [force] */
   PetscReal shortening;        /* at factor 1 [length] */
-  PetscInt  lock;              /* load step after which the shortening stays as it is; 0: never */
+  PetscInt  lock;              /* load step after which the shortening is kept constant; 0: never */
   PetscInt  ramp;
 } SceneBolt;
 
 typedef struct {
   char     *name;
-  PetscInt  body;     /* index, or PETSC_DECIDE: every body */
+  PetscInt  body;     /* number of the body; PETSC_DECIDE: every body */
   PetscReal value[3]; /* at factor 1, per reference volume [force/length^3] */
   PetscInt  ramp;
 } SceneBodyForce;
 
-/* A temperature rise above the stress-free temperature; several for one body add up */
+/* A temperature rise above the temperature without stress; the rises that apply to one body are added */
 typedef struct {
   char    *name;
-  PetscInt body;  /* index, or PETSC_DECIDE: every body that expands */
+  PetscInt body;  /* number of the body; PETSC_DECIDE: every body with thermal expansion */
   char    *value; /* an expression in the undeformed coordinates x, y, z [temperature], at factor 1 */
   PetscInt ramp;
 } SceneTemperature;
@@ -255,20 +272,24 @@ typedef struct {
   char       *name;
   char       *mortar;    /* "<body>.<face>" */
   char       *nonmortar; /* "<body>.<face>": the face that carries the constraints */
-  char       *self;      /* body or face in contact with itself, which mortar and nonmortar both name; of a rule "true":
-                            all bodies of finite strain; NULL: two faces */
+  char       *self;      /* the body or face that is in contact with itself, named by both mortar and nonmortar. In a
+                            rule "true": all bodies of finite strain. NULL: the pair has two faces */
   GapType     gap;
-  PetscReal   distance;          /* largest distance of facets that pair [length]; 0: from the size of the faces */
+  PetscReal   distance;          /* largest distance of facets that can come into contact [length]; 0: computed from
+                                    the size of the faces */
   PetscReal   interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
   PetscInt    interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
   PetscReal   friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
   PetscReal   shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
   PetscInt    friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
-  PetscReal   tie;               /* only of rules: surfaces that are nearer than this are tied [length]; 0: none */
-  char       *except;            /* only of rules: bodies and faces without contact, or two of them as "a/b" */
-  const char *why;               /* found by a rule: why the nonmortar side is that; NULL: the scene names both sides */
-  PetscReal   apart;  /* found by a rule: smallest distance along a normal in the undeformed state [length] */
-  PetscBool   smooth; /* measure the gap between smooth surfaces through the facets of curved faces */
+  PetscReal   tie;               /* only for rules: surfaces that are nearer to each other than this are tied
+                                    [length]; 0: none */
+  char       *except;            /* only for rules: names of bodies and faces without contact, or of two of them as
+                                    "a/b" */
+  const char *why;               /* if a rule found the pair: reason why this side is the nonmortar one; NULL: the
+                                    scene names both sides */
+  PetscReal   apart;  /* if a rule found the pair: smallest distance along a normal in the undeformed state [length] */
+  PetscBool   smooth; /* the gap is measured between smooth surfaces through the facets of curved faces */
 } SceneContactPair;
 
 static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair)
@@ -280,29 +301,30 @@ static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair
 typedef struct {
   char     *name;
   char     *mortar;
-  char     *nonmortar; /* the face whose displacements follow the other's */
-  PetscReal distance;  /* largest distance of facets that are joined [length]; 0: from their size */
+  char     *nonmortar; /* the face whose displacements follow those of the other face */
+  PetscReal distance;  /* largest distance between facets that are joined [length]; 0: computed from the size of the
+                          facets */
 } SceneTie;
 
-/* Cyclic symmetry: a body of which a sector is modelled ends on two faces; the second is the first one, turned about
-   the axis by the sector's angle */
+/* Cyclic symmetry: only a sector of the body is modelled. It ends on two faces. The second face is the first one,
+   turned about the axis by the angle of the sector. */
 typedef struct {
   char     *name;
   char     *from, *to;          /* "<body>.<face>" of one body */
   PetscReal axis[3], center[3]; /* direction of the axis, any length, and a point on it [length] */
 } SceneCyclic;
 
-/* A zone of finer cells: near a face, near both faces of a contact pair, or in a box */
+/* A zone in which cells are refined further: near a face, near both faces of a contact pair, or in a box */
 typedef struct {
   char     *name;
   char     *face[2];            /* "<body>.<face>"; NULL: none */
   PetscInt  body;               /* PETSC_DECIDE: any */
-  PetscReal lower[3], upper[3]; /* box, if there is no face [length] */
-  PetscReal distance;           /* the zone's distance from each face, or from the box [length] */
-  PetscInt  levels;             /* refinements beyond the uniform ones */
+  PetscReal lower[3], upper[3]; /* opposite corners of the box, used if no face is given [length] */
+  PetscReal distance;           /* cells within this distance of each face, or of the box, are refined [length] */
+  PetscInt  levels;             /* number of refinements in addition to the uniform ones */
 } SceneRefinement;
 
-/* A probe: a point, or equally spaced points along a line, of the undeformed bodies */
+/* A probe: a point, or equally spaced points along a line, in the undeformed bodies */
 typedef struct {
   char     *name;
   PetscInt  body; /* PETSC_DECIDE: any */
@@ -314,7 +336,8 @@ typedef struct {
 /* A PETSc option, without its leading dash */
 typedef struct {
   char     *name, *value;
-  PetscBool set; /* the scene's value is in use: neither the command line nor an options file set the option */
+  PetscBool set; /* whether the scene's value is used, because neither the command line nor an options file sets the
+                    option */
 } SceneOption;
 
 typedef struct _n_Scene {
@@ -330,40 +353,40 @@ typedef struct _n_Scene {
   SceneTraction     *tractions;
   PetscInt           nsprings;
   SceneSpring       *springs;
-  PetscReal       weak_springs; /* stiffness of the weak springs on bodies that move freely, relative to Young's modulus
-                             times the cube root of the volume; 0: none */
-  PetscInt        nconnectors;
-  SceneConnector *connectors;
-  PetscInt        nbolts;
-  SceneBolt      *bolts;
-  PetscInt        nforces;
-  SceneBodyForce *forces;
-  PetscInt        ntemperatures;
-  SceneTemperature *temperatures;
-  PetscInt          npairs;
-  SceneContactPair *pairs;
-  PetscInt          nrules; /* contact entries that name no faces; ContactDetect() turns them into pairs and ties */
-  SceneContactPair *rules;
-  PetscInt          nties;
-  SceneTie         *ties;
-  PetscInt          ncyclic;
-  SceneCyclic      *cyclic;
-  PetscInt          nrefinements;
-  SceneRefinement  *refinements;
-  PetscInt          nprobes;
-  SceneProbe       *probes;
-  SceneDynamics     dynamics;
-  PetscInt          nsteps; /* load steps, at least 1 */
-  PetscInt          nramps; /* at least 1: ramp 0 is the load, for everything that names no ramp */
-  SceneRamp        *ramps;
-  PetscInt          refine; /* uniform refinements of level 0 */
-  StepModel         model;
-  PetscInt contact_updates;     /* limit of contact updates per load step; 1: one update, and the gap is not required
-                                   to be consistent */
-  PetscInt displacement_bounds; /* first load step (from 1) whose displacements are bounded by the largest increment so
-                                   far; 0: none */
-  PetscInt noptions;            /* number of PETSc options */
-  SceneOption *options;
+  PetscReal          weak_springs; /* stiffness of the weak springs of bodies that can move freely, divided by Young's
+                                   modulus times the cube root of the volume; 0: no weak springs */
+  PetscInt           nconnectors;
+  SceneConnector    *connectors;
+  PetscInt           nbolts;
+  SceneBolt         *bolts;
+  PetscInt           nforces;
+  SceneBodyForce    *forces;
+  PetscInt           ntemperatures;
+  SceneTemperature  *temperatures;
+  PetscInt           npairs;
+  SceneContactPair  *pairs;
+  PetscInt           nrules; /* contact entries that name no faces; ContactDetect() turns them into pairs and ties */
+  SceneContactPair  *rules;
+  PetscInt           nties;
+  SceneTie          *ties;
+  PetscInt           ncyclic;
+  SceneCyclic       *cyclic;
+  PetscInt           nrefinements;
+  SceneRefinement   *refinements;
+  PetscInt           nprobes;
+  SceneProbe        *probes;
+  SceneDynamics      dynamics;
+  PetscInt           nsteps; /* load steps, at least 1 */
+  PetscInt           nramps; /* at least 1: ramp 0 is the load, for everything that names no ramp */
+  SceneRamp         *ramps;
+  PetscInt           refine; /* uniform refinements of level 0 */
+  StepModel          model;
+  PetscInt           contact_updates; /* largest number of contact updates per load step. If it is 1, the gap need not
+                                   agree with that of the deformed bodies. */
+  PetscInt           displacement_bounds; /* number (from 1) of the first load step in which displacement increments are
+                                   bounded by the largest earlier increment; 0: none */
+  PetscInt           noptions;            /* number of PETSc options */
+  SceneOption       *options;
 } * Scene;
 
 /* Returns whether the analysis is dynamic, so that bodies have inertia */
@@ -378,7 +401,7 @@ static inline PetscReal SceneTimeStep(Scene scene)
   return SceneIsDynamic(scene) ? scene->dynamics.time_step : 1.0;
 }
 
-/* Factor of a ramp at a time in load steps: load step k ends at time k, from 1 */
+/* Computes the factor of a ramp at a time; load step k, counted from 1, ends at time k */
 PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time, PetscReal *factor);
 /* Returns whether a body is a rigid surface, whose contact uses a formula instead of facets */
 static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
@@ -386,7 +409,8 @@ static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
   return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_REVOLVED);
 }
 
-/* The cube of one cell that moves a rigid surface: corner, unit vectors of its edges, length of the edges */
+/* The cube of one cell that represents a rigid surface in the mesh: corner, unit vectors of its edges, length of the
+   edges */
 typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;

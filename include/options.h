@@ -5,14 +5,15 @@
 
 #include <petscsys.h>
 
-/* Not collective. Number of letters by which two names differ */
+/* Not collective. Returns the number of letters to insert, delete or replace to change one name into the other */
 PETSC_EXTERN PetscErrorCode OptionsDistance(const char a[], const char b[], size_t *distance);
-/* Not collective. The known name with the fewest different letters; "" if there is none */
+/* Not collective. Finds the known name that is most similar to a misspelt one; "" if there are no names */
 PETSC_EXTERN PetscErrorCode OptionsNearest(PetscInt n, const char *const known[], const char name[],
   const char **nearest);
-/* Collective. Error if an option of ours that has not been read yet has a value of the wrong type */
+/* Collective. It is an error if an option of ours that has not been read yet has a value of the wrong type. */
 PETSC_EXTERN PetscErrorCode OptionsCheckValues(MPI_Comm);
-/* Collective. Error if an option that has not been read yet is neither ours nor has a prefix of PETSc's */
+/* Collective. It is an error if an option that has not been read yet is neither one of ours nor begins like an
+   option of PETSc. */
 PETSC_EXTERN PetscErrorCode OptionsCheck(MPI_Comm);
 
 #endif

@@ -10,7 +10,7 @@ typedef struct {
   char           message[1024]; /* the message of the first rank that failed */
 } RankError;
 
-/* From here on errors are stored in the RankError and not printed */
+/* From here on PETSc stores errors in the RankError instead of printing them */
 PETSC_EXTERN PetscErrorCode RankErrorBegin(RankError *);
 /* Collective. code: the return value of the work on this rank. Afterwards the RankError is the same on every rank */
 PETSC_EXTERN PetscErrorCode RankErrorEnd(MPI_Comm, PetscErrorCode code, RankError *);

@@ -1,5 +1,6 @@
-/* Load stepping with elasticity and contact. Each load step minimizes the energy subject to the linearized gap: by
-   TAO, or by one PCG solve if the energy is quadratic and there are neither contact pairs nor bounds. */
+/* Computes load steps with elasticity and contact. Each load step minimizes the energy, with the condition that the
+   linearized gap is not negative. This is done by TAO, or by one PCG solve if the energy is quadratic and there is
+   no contact and no bound. */
 #ifndef STEP_H
 #define STEP_H
 
@@ -11,23 +12,24 @@
 
 typedef struct _n_Simulation *Simulation;
 
-/* Tolerances of the solvers of a run; options override them */
+/* Tolerances of the solvers in a run. Options take precedence. */
 typedef struct {
   PetscReal optimizer;       /* KKT error at which TAO has converged; PETSC_DEFAULT: the optimizer's default */
   PetscReal linear;          /* relative residual of PCG for a load step without TAO */
-  PetscReal gap_change;      /* change of the gap that ends the contact updates, relative to the largest displacement */
-  PetscReal gap_unconverged; /* change of the gap above which a load step is not converged, relative to the largest
+  PetscReal gap_change;      /* contact updates end when the gap changes by less than this fraction of the largest
                                 displacement */
+  PetscReal gap_unconverged; /* a load step has not converged if the gap still changes by more than this fraction of
+                                the largest displacement */
 } StepTolerances;
 
-/* Solutions of all load steps on a mesh: displacement, and pressures of each contact pair. Initialize with zeros */
+/* Displacements and contact pressures at the ends of all load steps on a mesh. Initialize the struct with zeros. */
 typedef struct {
   DM       dm;
   PetscInt nsteps, nfields;
   Vec     *fields; /* nsteps x nfields */
 } StepForecast;
 
-/* Order of calls: create, set, SimulationSetFromOptions(), SimulationSetUp(), load steps */
+/* Functions must be called in this order: create, set, SimulationSetFromOptions(), SimulationSetUp(), load steps. */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
 PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *);
@@ -35,21 +37,22 @@ PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
-/* Sets the solutions, found on another mesh, from which load steps start; afterwards it holds those of this mesh */
+/* Sets the results on another mesh from which the load steps start. At the end of the run they are replaced by those
+   on this mesh. */
 PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
 PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);
-/* Propose: selects cells to refine by the errors of these load steps, and how much the mesh would grow. Mark: adds
-   them to the marks */
+/* SimulationPropose() selects the cells to be refined, by the errors of these load steps, and computes the growth of
+   the mesh. SimulationMark() adds the cells to the marks. */
 PETSC_EXTERN PetscErrorCode SimulationPropose(Simulation, PetscReal *growth);
 PETSC_EXTERN PetscErrorCode SimulationMark(Simulation, MeshMarks *);
-/* Gets the state for a checkpoint; sets the state from one before the first load step */
+/* Gets the state for a checkpoint, or sets it from a checkpoint before the first load step */
 PETSC_EXTERN PetscErrorCode SimulationGetCheckpoint(Simulation, Checkpoint *);
 PETSC_EXTERN PetscErrorCode SimulationSetCheckpoint(Simulation, Checkpoint, PetscInt *step);
-/* Describes the contact pairs before a run: gaps, overlaps, facet sizes */
+/* Prints gaps, overlaps and facet sizes of the contact pairs before a run */
 PETSC_EXTERN PetscErrorCode StepDescribeContact(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SimulationContactFree(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetReport(Simulation, RunReport *);

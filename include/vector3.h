@@ -21,7 +21,7 @@ static inline void VectorCross(const PetscReal a[3], const PetscReal b[3], Petsc
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Scales n to length 1 and returns its former length; a zero vector stays zero */
+/* Scales n to length 1 and returns its former length. A zero vector is not changed. */
 static inline PetscReal VectorScaleToUnit(PetscReal n[3])
 {
   const PetscReal length = VectorNorm(n);
@@ -46,7 +46,8 @@ static inline void MatrixSetTurn(const PetscReal r[3], PetscReal turn[3][3])
   }
 }
 
-/* Cofactors C of J; returns the determinant. The inverse of J is the transpose of C over it */
+/* Computes the cofactors C of J, and returns the determinant. The inverse of J is the transpose of C divided by the
+   determinant. */
 static inline PetscReal MatrixCofactors(PetscReal J[3][3], PetscReal C[3][3])
 {
   for (int i = 0; i < 3; ++i) {

@@ -6,8 +6,8 @@
 #include "src/loads/loadsimpl.h"
 #include "src/report/reportimpl.h"
 
-/* motions.c: rigid motions of faces and bodies, for given factors of the ramps. Several displacements of the scene may
-   belong to one face or body; the first of them is called its leader. */
+/* motions.c: rigid motions of faces and bodies for given factors of the ramps. If several displacements of the scene
+   apply to one face or body, the first of them represents all; it is called the leader. */
 typedef struct {
   PetscReal t[3], center[3]; /* translation, and centre of rotation [length] */
   PetscReal turn[3][3];      /* rotation matrix minus the identity */

@@ -1,12 +1,12 @@
 /*
-   Cyclic symmetry. A sector of a body that repeats itself about an axis ends on two faces. A node of the second face is
-   the image of one of the first, x2 = c + R (x1 - c) with the rotation R by the sector's angle, and so is its
-   displacement, u2 = R u1, at finite strain, too. A node on the axis is its own image: it moves along the axis only.
+   Cyclic symmetry. Only a sector of the body is modelled, which ends on two faces. Each node of the second face is the
+   image of a node of the first one: x2 = c + R (x1 - c), where the rotation R has the sector's angle. Its displacement
+   is u2 = R u1, also at finite strain. A node on the axis is its own image and can move along the axis only.
 */
 #include "constraintsimpl.h"
 #include <vector3.h>
 
-/* Sets the rows of one pair of faces in Y: u2 = R u1. Nodes on the axis are left out */
+/* Inserts the rows u2 = R u1 of one pair of faces into Y, except for nodes on the axis */
 static PetscErrorCode CyclicAdd(const Constraints *c, const SceneCyclic *cut, Mat Y, PetscInt first,
   const PetscBool kept[], PetscBool follows[])
 {
@@ -32,7 +32,8 @@ static PetscErrorCode CyclicAdd(const Constraints *c, const SceneCyclic *cut, Ma
   PetscFunctionReturn(0);
 }
 
-/* Creates u = Y x. kept: rows that stay as they are; NULL: none. images: marks the rows of the second faces */
+/* Creates the matrix Y of u = Y x. kept: rows that remain unit rows, or NULL; images: becomes true in the rows of
+   the second faces */
 static PetscErrorCode CyclicBuild(const Constraints *c, const PetscBool kept[], Mat *Y, PetscBool images[])
 {
   Scene    scene = c->bodies.scene;
@@ -53,11 +54,12 @@ static PetscErrorCode CyclicBuild(const Constraints *c, const PetscBool kept[], 
   PetscFunctionReturn(0);
 }
 
-/* Error if displacements are prescribed at nodes of the second face that are not those of their images */
+/* Raises an error if a displacement is prescribed at a node of the second face that does not agree with the
+   displacement of its image */
 static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const PetscBool prescribed[],
   const PetscBool images[])
 {
-  static const PetscReal weight[3] = {1.0, 1.618, 2.718}; /* no rotation makes their sums vanish */
+  static const PetscReal weight[3] = {1.0, 1.618, 2.718}; /* values that no rotation between the sectors maps to zero */
   Vec                    given, image, free, reach;
   const PetscScalar     *u, *v, *w;
   PetscScalar           *a;
@@ -101,7 +103,8 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   PetscFunctionReturn(0);
 }
 
-/* Creates Y, u = Y x, with the rows of the second faces; prescribed rows stay. NULL: no cyclic symmetry */
+/* Creates the matrix Y of u = Y x for all cyclic symmetries; NULL if there are none. Prescribed rows remain unit
+   rows. */
 PetscErrorCode CyclicCreate(const Constraints *c, const PetscBool prescribed[], Mat *Y, PetscBool follows[])
 {
   PetscInt   n;
@@ -122,7 +125,7 @@ PetscErrorCode CyclicCreate(const Constraints *c, const PetscBool prescribed[], 
   PetscFunctionReturn(0);
 }
 
-/* Collects the nodes on the axis: local numbers, and two normals of the axis */
+/* Collects the nodes on the axis by their local numbers, and computes two unit normals of the axis */
 PetscErrorCode CyclicGetAxisNodes(const Constraints *c, const SceneCyclic *cut, PetscInt *n, PetscInt **nodes,
   PetscReal normals[2][3])
 {

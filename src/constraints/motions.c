@@ -4,7 +4,7 @@
 #include <vector3.h>
 #include <string.h>
 
-/* Returns the first displacement of the scene for the face or body of displacement d. It represents all of them. */
+/* Returns the leader of displacement d: the first displacement of the scene for the same face or body */
 PetscInt MotionFindLeader(Scene scene, PetscInt d)
 {
   PetscInt leader = 0;

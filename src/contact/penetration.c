@@ -23,13 +23,13 @@ static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const Cont
   return height < 0.0 && 2.0 * height * height >= VectorDot(r, r) ? -height : 0.0;
 }
 
-/* A vertex of a facet of a surface in contact with itself */
+/* A vertex of a surface in contact with itself, given by a facet and the number of the corner */
 typedef struct {
   ContactSelfFacet facet;
   PetscInt         corner;
 } PenetrationVertex;
 
-/* Whether the vertex can be in contact with the point xi of a facet */
+/* Returns whether the vertex can be in contact with the point xi of a facet; context: a PenetrationVertex */
 static PetscBool PenetrationMayMeet(const void *context, const ContactCandidates *facets, PetscInt facet,
   const PetscReal xi[2])
 {

@@ -1,10 +1,7 @@
 /*
-   Inertia. In a time step the term
-
-     c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u - viscous)
-
-   is added to the energy of the bodies, where E is the elastic energy. Its gradient is the force of inertia and
-   damping. Each file uses only the files listed before it.
+   Inertia. In a time step the term c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u -
+   viscous) is added to the energy of the bodies, where E is the elastic energy. The gradient of this term is the sum of
+   the inertia and damping forces. Each file uses only the files listed before it.
 */
 #ifndef DYNAMICSIMPL_H
 #define DYNAMICSIMPL_H

@@ -46,8 +46,8 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Sets the share of the secant in the tangents of metal that flows, 0 to 1; 0: the tangent. This alone has almost no
-   stiffness along the flow, so that steps of Newton's method are too long far from the solution. */
+/* Sets the fraction of the secant stiffness in the tangents of yielding metal, from 0 to 1. The exact tangent (0)
+   has almost no stiffness in the direction of plastic flow, so that Newton steps far from the solution are too long. */
 void ElasticitySetSecant(Elasticity e, PetscReal share)
 {
   for (PetscInt b = 0; e->yields && b < e->nbodies; ++b)

@@ -132,8 +132,8 @@ static PetscErrorCode ForcesAddFace(Simulation sim, const char face[], Vec u, Ve
   PetscFunctionReturn(0);
 }
 
-/* Forces on both sides of a pair whose sides are the same face: those on the mortar side, and the others. own: mass x
-   pressure of its rows; force: on both sides, which the others replace */
+/* Computes the forces on the two sides of a pair whose sides are the same face. own: mass x pressure of the pair's
+   rows; force: on entry the contact forces on both sides together, on exit those on the nonmortar side */
 static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Vec own, Vec shear, Vec force,
   ForceSum sides[2])
 {

@@ -32,8 +32,8 @@ Mat PairCover(ContactLinearization lin)
   return lin->cover ? lin->cover : lin->J;
 }
 
-/* PairSpread() where bodies are cut to a sector: vectors of a row at vertices near the other face of the cut are
-   turned, so that their lengths are taken */
+/* Does what PairSpread() does if bodies are sectors of cyclic symmetry. The vectors of a row at vertices near the
+   other face of the cut are turned; therefore their lengths are used. */
 static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal value[], ContactLinearization lin,
   PetscInt to, Vec v)
 {
@@ -114,9 +114,9 @@ static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, 
 
 /*
    Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
-   is the integral of the rows' field times B's shape function; over a side these sum to the sum of w_A value_A. If both
-   sides are one face, the cover is the difference of their integrals, and twice the part of the mortar side less the
-   cover is the sum of their integrals.
+   is the integral of the rows' field times B's shape function. Over a side these integrals sum to the sum of w_A
+   value_A. If both sides are one face, `cover` holds the difference of the two sides' integrals. Their sum is then
+   computed as twice the part of the mortar side minus `cover`.
 */
 PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal value[], Vec sides, PetscInt to, Vec v)
 {
@@ -128,13 +128,13 @@ PetscErrorCode PairSpread(Simulation sim, const PairRows *rows, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Marks the vertices of a face in contact with itself by the side on which more of their area is */
+/* Marks each vertex of a face in contact with itself by the side to which most of its area belongs */
 static PetscErrorCode PairMarkSelf(Simulation sim, const PairRows *rows, Vec sides)
 {
   PetscScalar       *s;
   const PetscScalar *a;
   PetscInt           n;
-  Vec                areas; /* of both sides, of the mortar side */
+  Vec                areas; /* two areas per vertex: that of both sides, and that of the mortar side */
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(sides, &areas));
@@ -174,8 +174,8 @@ PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, const PairRows *rows
   PetscFunctionReturn(0);
 }
 
-/* along: v[from] at the mortar vertices (of a face in contact with itself at all of them), as component c of a vector;
-   0 elsewhere */
+/* Sets component c of `along` to v[from] at the mortar vertices, and to 0 elsewhere. If the face is in contact with
+   itself, all its vertices count as mortar vertices. */
 static PetscErrorCode PairPlaceAlong(const PairRows *rows, PetscInt c, Vec sides, Vec v, PetscInt from, Vec along)
 {
   const PetscScalar *side, *a;

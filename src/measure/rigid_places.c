@@ -26,8 +26,8 @@ static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
 }
 
 /*
-   Returns the point of a body whose position is reported: a point on the axis that the scene gives, or, without one,
-   the point of a rigid surface, or the centre of the body
+   Returns the point of a body whose position is reported: the centre of rotation that the scene gives; otherwise the
+   reference point of a rigid surface; otherwise the middle of the body
 */
 static const PetscReal *RigidPlacesFindPoint(Scene scene, PetscInt body, const BodyPose *pose)
 {

@@ -19,8 +19,8 @@ static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
   return any;
 }
 
-/* Collective. Whether a body that may be warned of can be beyond a limit: if no quadrature point is, no mean is.
-   values: work, two per body */
+/* Collective. Finds whether the strain or rotation of a body may exceed a limit for the first time. If no quadrature
+   point exceeds it, the mean does not either. values: work array, two values per body */
 static PetscErrorCode StrainMayExceed(Simulation sim, PetscReal values[][2], PetscBool *may)
 {
   PetscFunctionBegin;

@@ -2,8 +2,8 @@
 #include <model.h>
 #include <string.h>
 
-/* Sets both sides of a pair whose `self` is set: to that face, or to the whole boundary of that body, which is marked.
-   An unknown body is left to the checks of the scene */
+/* Sets both sides of a pair with the key `self`: to the face that it names, or to the whole boundary of the body
+   that it names. This body is marked. An unknown body is ignored here, because the scene is checked later. */
 PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *pair)
 {
   const PetscBool whole = (PetscBool)!strchr(pair->self, '.');

@@ -20,14 +20,14 @@ typedef struct {
   PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
 } StepObserver;
 
-/* Controlled time steps of a load step. */
+/* Data of controlled time steps within a load step */
 typedef struct {
-  PetscInt  closed;   /* vertices under pressure at the last state */
-  PetscInt  rejected; /* time steps that were taken back because of their error */
-  PetscBool too_long; /* the last attempt was such a one */
-  PetscReal error;    /* of the last attempt */
-  PetscReal largest;  /* of those that were kept */
-  PetscReal shortest; /* length of the shortest, in load steps */
+  PetscInt  closed;   /* number of vertices under pressure at the last state */
+  PetscInt  rejected; /* number of time steps that were repeated because of their error */
+  PetscBool too_long; /* whether the last attempt was such a time step */
+  PetscReal error;    /* error of the last attempt */
+  PetscReal largest;  /* largest error of the accepted time steps */
+  PetscReal shortest; /* length of the shortest accepted time step, as a fraction of the load step */
 } TimeStepControl;
 
 /* Settings for the solution of load steps, and the reasons for which load steps have failed. */

@@ -120,7 +120,8 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Estimates the error of a time step to u (SchemeEstimate()). smooth: contact neither closes nor opens */
+/* Estimates the error of a time step to u by SchemeEstimate(). smooth: true if contact neither closes nor opens in
+   this time step */
 PetscErrorCode InertiaEstimate(Simulation sim, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
 {
   const PetscReal before = (sim->path->time - sim->path->previous_time) * SceneTimeStep(sim->scene);

@@ -36,8 +36,8 @@ static PetscErrorCode AttemptGetGaps(Simulation sim, PetscReal time, Vec u, Cont
   PetscFunctionReturn(0);
 }
 
-/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied. anticipates:
-   with the derivative that ContactUpdateAnticipate() needs */
+/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied.
+   anticipates: whether the derivative that ContactUpdateAnticipate() needs is computed too */
 static PetscErrorCode AttemptLinearizeGap(Simulation sim, PetscReal time, Vec u, PetscBool anticipates,
   ContactLinearization *lin)
 {
@@ -695,9 +695,9 @@ static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport 
 }
 
 /*
-   Judges a controlled time step: takes it back, so that a shorter one is tried, if its error is above the tolerance.
-   Where contact closes or opens, or half of its vertices change, the error is that of a motion which is not smooth. The
-   shortest time steps are kept in any case.
+   Decides whether a controlled time step is accepted. If its error exceeds the tolerance, it is repeated with a shorter
+   time step. If contact closes or opens, or if half of the vertices in contact change, the error estimate for motions
+   that are not smooth is used. The shortest time steps are always accepted.
 */
 static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u, StepReport *report)
 {
@@ -780,7 +780,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(PathAdvance(sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
-    /* the gap alone is not enough for the next load step, which linearizes the gap itself */
+    /* if only the gap was computed, the next load step must linearize again */
     if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u));
     sim->solved->upcoming = at_u;
     if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->solved->upcoming));

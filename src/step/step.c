@@ -81,7 +81,7 @@ static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
 /* Halves the time increment after a failed attempt. *again: false if no further cut is allowed. */
 static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
 {
-  /* smaller increments would not help if the problem is linear */
+  /* if the problem is linear, smaller increments cannot help */
   const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact);
 
   PetscFunctionBegin;
@@ -96,7 +96,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Shortens a controlled time step that was taken back: its error falls by four with a step half as long */
+/* Shortens a controlled time step whose error was too large. A step of half the length has a quarter of the error. */
 static PetscErrorCode SimulationShorten(Simulation sim, const StepReport *report, PetscReal *increment)
 {
   TimeStepControl *c = &sim->control->time_step;
@@ -113,8 +113,8 @@ static PetscErrorCode SimulationShorten(Simulation sim, const StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* The increment after a success: doubled, unless this is a controlled time step with too large an error, or the longer
-   ones would not end where load steps do */
+/* Returns the time increment after a successful attempt: twice the last one. The increment is not doubled if a
+   controlled time step has too large an error, or if longer steps would not end at the ends of load steps. */
 static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
 {
   const PetscReal tolerance = sim->scene->dynamics.tolerance, safe = 0.125;

@@ -91,7 +91,7 @@ typedef struct {
   StepFriction friction;
 } StepProblem;
 
-/* Returns the fraction of the contact forces that the multipliers are. */
+/* Returns the ratio of the optimizer's multipliers to the contact forces */
 static inline PetscReal StepProblemShare(const StepProblem *p)
 {
   return SchemeShare(&p->sim->scene->dynamics);
@@ -199,7 +199,8 @@ PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolu
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
-/* attempt.c: attempts to reach a time; length of the shortest controlled time steps, in load steps */
+/* attempt.c: attempts to solve up to a given time. STEP_SHORTEST: length of the shortest controlled time steps, as a
+   fraction of a load step */
 #define STEP_SHORTEST (1.0 / 1024.0)
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 

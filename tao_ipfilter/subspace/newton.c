@@ -202,15 +202,16 @@ static PetscErrorCode NewtonModelSlack(Tao tao, Vec x, PetscReal sum, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* What the line search needs along d: the penalty weight, and the model's own violation and error in the laws of norm
-   terms at d, which are subtracted in proportion to the step */
+/* Data of a line search along d. nu: penalty weight; left, slack: the constraint violation and the error in the laws
+   of norm terms that the model's own solution has. Both are subtracted from the merit in proportion to the step
+   length, since no step can avoid them. */
 typedef struct {
   Vec       d, force;
   PetscReal nu, left, slack;
 } NewtonLine;
 
-/* The penalized objective after the step alpha d, with the norm terms for the model's multipliers; the trial point is
-   there. Infinite where the objective is undefined */
+/* Evaluates the penalized objective at the trial point, which is the step alpha d away. The norm terms have the
+   weights of the model's multipliers. *merit: infinite if the objective is not defined there */
 static PetscErrorCode NewtonTry(Tao tao, const NewtonLine *line, PetscReal alpha, PetscReal *merit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -229,8 +230,8 @@ static PetscErrorCode NewtonTry(Tao tao, const NewtonLine *line, PetscReal alpha
   PetscFunctionReturn(0);
 }
 
-/* The step at which a parabola has its minimum, through the merit's values before and after the step alpha and the
-   slope at its start; at most twice alpha */
+/* Returns the step length at which a parabola has its minimum, at most 2 alpha. The parabola has the given slope at
+   the start and changes by `change` over the step alpha. */
 static PetscReal NewtonInterpolate(PetscReal alpha, PetscReal slope, PetscReal change)
 {
   const PetscReal curved = change - alpha * slope;
@@ -239,8 +240,9 @@ static PetscReal NewtonInterpolate(PetscReal alpha, PetscReal slope, PetscReal c
 }
 
 /*
-   Shortens a step that goes well beyond the minimum along d, as it does where metal begins to yield: to the minimum of
-   a parabola, as long as the merit falls. merit, at the step alpha; before: at its start; slope: there
+   Shortens a step that leads far beyond the minimum along d, which happens where metal begins to yield. The new length
+   is that of the minimum of a parabola; this is repeated while the merit falls. merit: value at the full step; before,
+   slope: value and slope at the start
 */
 static PetscErrorCode NewtonShorten(Tao tao, const NewtonLine *line, PetscReal before, PetscReal slope, PetscReal merit)
 {
@@ -266,8 +268,8 @@ static PetscErrorCode NewtonShorten(Tao tao, const NewtonLine *line, PetscReal b
 }
 
 /*
-   Line search: shortens the step until the penalized objective falls, then further where it is lower before the end of
-   the step. *ok: false if the objective does not fall, or the model is not convex along d
+   Line search. Halves the step until the penalized objective falls, and shortens it further if the objective is lower
+   before the end of the step. *ok: false if the objective does not fall, or if the model is not convex along d
 */
 static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
 {
@@ -321,10 +323,10 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
 }
 
 /*
-   Tolerance for the model's residual: a fraction of the present residual. The fraction is smaller near the solution,
-   where Newton's method then converges fast. It is larger where the last model was far from the truth, as where metal
-   begins to yield (Eisenstat and Walker 1996): the error of its residual over the residual before. The tolerance is
-   never smaller than convergence requires.
+   Computes the tolerance for the model's residual, as a fraction of the present residual. Near the solution the
+   fraction is small, so that Newton's method converges fast. If the last model predicted the residual badly, as where
+   metal begins to yield, the fraction is the relative error of that prediction (Eisenstat and Walker 1996). The
+   tolerance is never smaller than convergence requires.
 */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip, const IPFiltered *f)
 {

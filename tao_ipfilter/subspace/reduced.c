@@ -643,7 +643,8 @@ static PetscErrorCode ReducedRecoverBySolve(IPReduced *r, PetscReal w[])
   PetscFunctionReturn(0);
 }
 
-/* w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y). r->x: K_WW^-1 g */
+/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y) without a solve, from columns that are known. r->x:
+   K_WW^-1 g */
 static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
 {
   const IPReducedSystem *s     = &r->system;

@@ -273,7 +273,7 @@ static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, Co
   PetscFunctionReturn(0);
 }
 
-/* The same for patches that bend with the normals */
+/* Collective. Computes the same derivatives as SlopesCreateRigid(), but with patches that bend with the normals */
 static PetscErrorCode SlopesCreateBending(Contact contact, ContactAssembly *as, Mat *bending)
 {
   PetscInt n;

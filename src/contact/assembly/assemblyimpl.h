@@ -153,7 +153,8 @@ PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const Pets
 PETSC_INTERN PetscErrorCode ContactSlipCreateMortar(Contact, Mat couplings, const PetscInt kept[],
   ContactLinearization);
 
-/* What is computed of smooth pairs: the gap; also J and lin->cover; also lin->derivative. Others always have all */
+/* What is computed for smooth pairs. CONTACT_GAPS: only the gap; CONTACT_FORCES: also J and lin->cover;
+   CONTACT_DERIVATIVE: also lin->derivative. For other pairs everything is always computed. */
 typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
 
 /* assemble.c: the data of one contact update while it is assembled */

@@ -6,7 +6,7 @@
 #include <mesh.h>
 #include "assemblyimpl.h"
 
-/* The vertices of the second faces that this rank owns, and their images */
+/* The vertices of the cut's second face that this rank owns, and their images on the first face */
 typedef struct {
   PetscInt  n, *nodes, *images;
   PetscReal turn[3][3]; /* rotation minus 1 */
@@ -62,7 +62,8 @@ PetscErrorCode ContactCyclicDestroy(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/* Rows of one pair as fields of the nodes: 1 + number of the row, and the tangents; 0 at nodes without a row */
+/* The rows of one pair as nodal fields: 1 + number of the row, and the two tangents of the row; 0 at nodes without a
+   row */
 typedef struct {
   Vec number, tangent[2];
 } CyclicFields;
@@ -78,7 +79,8 @@ static PetscErrorCode CyclicFieldsCreate(Contact contact, CyclicFields *fields)
   PetscFunctionReturn(0);
 }
 
-/* row[k]: number of row k, negative: none */
+/* Sets the fields for a pair. row[k]: number of row k of the linearization in the fields; negative: the row is left
+   out */
 static PetscErrorCode CyclicFieldsSet(Contact contact, const ContactLinearization lin, PetscInt pair,
   const PetscInt row[], CyclicFields *fields)
 {
@@ -113,7 +115,7 @@ static PetscErrorCode CyclicFieldsDestroy(CyclicFields *fields)
   PetscFunctionReturn(0);
 }
 
-/* Creates a sequential vector with the blocks of a field at the images */
+/* Creates a sequential vector with the values of a field at the image nodes, `width` values per node */
 static PetscErrorCode CyclicGatherImages(const CyclicCut *cut, PetscInt width, Vec field, Vec *gathered)
 {
   IS from;
@@ -125,14 +127,14 @@ static PetscErrorCode CyclicGatherImages(const CyclicCut *cut, PetscInt width, V
   PetscFunctionReturn(0);
 }
 
-/* Where the sums of a row go: the number of a new row, negative: not known yet; and the tangents there along its own */
+/* Where the sums of a row are added. row: number of the new row; negative: not known yet. along: see CyclicTurn() */
 typedef struct {
   PetscInt         row;
   PetscReal        along[2][2];
-  const CyclicCut *cut; /* NULL: the row stays where it is */
+  const CyclicCut *cut; /* the cut between the vertex and its image; NULL: the vertex has no image */
 } CyclicGoal;
 
-/* along[a][b]: tangent a of the image, turned by the sector's angle, times tangent b of the vertex */
+/* Computes along[a][b] = (tangent a of the image, turned by the sector's angle) . (tangent b of the vertex) */
 static void CyclicTurn(const CyclicCut *cut, const PetscScalar *const images[2], const PetscReal tangent[6],
   CyclicGoal *goal)
 {
@@ -145,7 +147,7 @@ static void CyclicTurn(const CyclicCut *cut, const PetscScalar *const images[2],
   }
 }
 
-/* Sets the goals of the rows of one pair whose vertices have images with rows. rows: as in CyclicFieldsSet() */
+/* Finds where the rows of one pair are added whose vertices have images with rows. rows: as in CyclicFieldsSet() */
 static PetscErrorCode CyclicFindGoals(Contact contact, const ContactLinearization lin, PetscInt pair,
   const PetscInt rows[], CyclicFields *fields, CyclicGoal goals[])
 {
@@ -193,7 +195,8 @@ static PetscErrorCode CyclicFindGoals(Contact contact, const ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* Finds the goals of all rows. nkept: number of the new rows of this rank; kept: the old ones that they are made of */
+/* Finds the goals of all rows. *nkept: number of new rows of this rank; kept[]: the old row from which each new row
+   takes its vertex */
 static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization lin, CyclicGoal goals[],
   PetscInt *nkept, PetscInt kept[])
 {
@@ -226,7 +229,7 @@ static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix from new rows to old ones; width 2: from the new rows of slip */
+/* Creates the matrix that maps values of the new rows to values of the old rows. width: 1, or 2 for the rows of slip */
 static PetscErrorCode CyclicCreateShare(Contact contact, PetscInt width, PetscInt n, const CyclicGoal goals[],
   PetscInt nkept, Mat *share)
 {
@@ -246,7 +249,8 @@ static PetscErrorCode CyclicCreateShare(Contact contact, PetscInt width, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* rows = diag(1/mass) share^T diag(old mass) rows; NULL stays */
+/* Computes rows = diag(1/mass) share^T diag(old_mass) rows, which adds rows that are divided by their masses. A
+   matrix that is NULL remains NULL. */
 static PetscErrorCode CyclicShareMatrix(Mat share, Vec old_mass, Vec mass, Mat *rows)
 {
   Mat sums;
@@ -263,7 +267,7 @@ static PetscErrorCode CyclicShareMatrix(Mat share, Vec old_mass, Vec mass, Mat *
   PetscFunctionReturn(0);
 }
 
-/* A vector with each value twice */
+/* Creates a vector in which each value of `mass` occurs twice */
 static PetscErrorCode CyclicDouble(Vec mass, Vec *twice)
 {
   const PetscScalar *m;
@@ -281,7 +285,7 @@ static PetscErrorCode CyclicDouble(Vec mass, Vec *twice)
   PetscFunctionReturn(0);
 }
 
-/* Sums of slip and of covered areas */
+/* Adds the slip rows, and the covered areas, of each vertex and its image */
 static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGoal goals[], PetscInt nkept,
   Vec old_mass, Vec mass, ContactLinearization lin)
 {
@@ -312,7 +316,8 @@ static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGo
   PetscFunctionReturn(0);
 }
 
-/* sums: of the vectors that a matrix has at the nodes of the mortar faces, for each row; first: which three of six */
+/* Computes for each row the sum of its vectors over the nodes of the mortar faces. rows: matrix whose entries are
+   the vectors; first: index, 0 or 3, at which the three components are stored in the six sums of a row */
 static PetscErrorCode CyclicSumMortar(Contact contact, const ContactLinearization lin, Mat rows, PetscInt first,
   PetscReal sums[])
 {
@@ -340,7 +345,8 @@ static PetscErrorCode CyclicSumMortar(Contact contact, const ContactLinearizatio
   PetscFunctionReturn(0);
 }
 
-/* Sets lin->mortar_sum of the new rows, whose vectors are turned back to the vertex that has the row */
+/* Computes lin->mortar_sum of the new rows. The vectors of an image's row are turned back to the vertex that has the
+   new row. */
 static PetscErrorCode CyclicSetSums(Contact contact, const CyclicGoal goals[], PetscInt nkept, Vec mass,
   ContactLinearization lin)
 {
@@ -370,7 +376,7 @@ static PetscErrorCode CyclicSetSums(Contact contact, const CyclicGoal goals[], P
   PetscCall(VecAssemblyBegin(sums));
   PetscCall(VecAssemblyEnd(sums));
   PetscCall(PetscFree(old));
-  PetscCall(PetscMalloc1(6 * nkept + 1, &lin->mortar_sum)); /* never NULL, on ranks without rows, too */
+  PetscCall(PetscMalloc1(6 * nkept + 1, &lin->mortar_sum)); /* must not be NULL on ranks without rows */
   PetscCall(VecGetArrayRead(mass, &m));
   PetscCall(VecGetArray(sums, &s));
   for (PetscInt e = 0; e < 6 * nkept; ++e) lin->mortar_sum[e] = PetscRealPart(s[e] / m[e / 6]);
@@ -380,7 +386,7 @@ static PetscErrorCode CyclicSetSums(Contact contact, const CyclicGoal goals[], P
   PetscFunctionReturn(0);
 }
 
-/* Moves the data of the rows that stay to the front */
+/* Moves the data of the remaining rows to the front of the arrays */
 static void CyclicMoveRows(PetscInt nkept, const PetscInt kept[], ContactLinearization lin)
 {
   for (PetscInt k = 0; k < nkept; ++k) {
@@ -392,7 +398,7 @@ static void CyclicMoveRows(PetscInt nkept, const PetscInt kept[], ContactLineari
   lin->nlocal = nkept;
 }
 
-/* Collective. Makes one row of those of a vertex and of its image */
+/* Collective. Replaces the rows of a vertex and of its image by one row */
 PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
 {
   PetscInt    nkept, *kept;

@@ -127,7 +127,7 @@ static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const 
   PetscFunctionReturn(0);
 }
 
-/* Adds a pair for each body of finite strain in contact with itself */
+/* Adds a pair for each body that a rule with the key `self` brings into contact with itself */
 static PetscErrorCode RuleAddSelf(Scene scene, const SceneContactPair *rule)
 {
   PetscFunctionBegin;

@@ -69,8 +69,8 @@ const SceneContactPair *DetectFindRule(const DetectModel *model, Scene scene, Pe
   return any && RuleExcepts(any->except, s->name[surface], s->name[other]) ? NULL : any;
 }
 
-/* Whether a rule with `self` adds the contact of a body with itself: it has finite strain, the rule does not except it,
-   and the scene lists no pair of its faces */
+/* Returns whether a rule with the key `self` adds a pair for this body in contact with itself. The body must have a
+   law of finite strain, the rule must not except it, and the scene must list no pair between its faces. */
 PetscBool DetectWantsSelf(Scene scene, const SceneContactPair *rule, const SceneBody *body)
 {
   if (!MaterialIsFinite(&body->material) || RuleExcepts(rule->except, body->name, body->name)) return PETSC_FALSE;

@@ -93,7 +93,7 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   PetscFunctionReturn(0);
 }
 
-/* The overlaps of one nonmortar facet, and the number of the mortar facet of each among the candidates */
+/* The overlaps of one nonmortar facet. mortar: for each overlap, the number of the mortar facet among the candidates */
 typedef struct {
   PetscInt        n, max, *mortar;
   ContactOverlap *overlap;
@@ -223,8 +223,9 @@ static PetscErrorCode ContactBox_Mortar(Contact contact, PetscInt p, PetscReal b
   PetscFunctionReturn(0);
 }
 
-/* Collective. Normals of a surface in contact with itself: means over the facets with overlaps. Other facets about a
-   vertex are beside an edge, or on the mortar side. meets: whether a facet has overlaps */
+/* Collective. Computes the vertex normals of a surface in contact with itself, as means over the facets with
+   overlaps. Other facets around a vertex are not used, because they lie beyond an edge or on the mortar side. meets:
+   whether a facet has overlaps */
 static PetscErrorCode MortarSelfNormals(Contact contact, PetscInt p, const ContactOverlapLimits *limits,
   const ContactCandidates *mortar, const ContactNear *near, MortarOverlaps *list, PetscBool meets[])
 {

@@ -46,7 +46,7 @@ typedef struct {
   /* coordinates of the closest point [length] */
   PetscReal y[3];
 } ContactNearest;
-/* Whether a point xi of a facet may be the nearest one; context: data of the function */
+/* Returns whether the point xi of a facet is accepted as the nearest point; context: data that the function needs */
 typedef PetscBool (
   *ContactNearestTest)(const void *context, const ContactCandidates *, PetscInt facet, const PetscReal xi[2]);
 PETSC_INTERN void ContactFindNearest(const ContactTree *, const ContactCandidates *, PetscReal cosine, PetscReal reach,

@@ -5,12 +5,12 @@
 */
 #include "selfimpl.h"
 
-/* What is known of an overlap of a facet with another one */
+/* Data of the overlap of a facet with another facet of the same surface */
 typedef struct {
-  PetscReal centre[2]; /* of its area, in the plane of the facet */
-  PetscBool wall;      /* the other facet is the far side of the facet's own wall */
-  PetscBool below;     /* the wall, or behind it */
-  PetscBool hidden;    /* that, or behind another layer */
+  PetscReal centre[2]; /* centroid of the overlap, in the plane of the facet */
+  PetscBool wall;      /* whether the other facet is the far side of the wall below the facet */
+  PetscBool below;     /* whether the other facet is that far side or lies behind it */
+  PetscBool hidden;    /* whether the other facet lies behind the wall or behind another layer */
 } SelfOverlap;
 
 static void LayerCentre(const ContactOverlap *o, PetscReal centre[2])
@@ -31,7 +31,7 @@ static void LayerCentre(const ContactOverlap *o, PetscReal centre[2])
   for (PetscInt d = 0; d < 2 && area > 0.0; ++d) centre[d] /= area;
 }
 
-/* Whether a point of the facet's plane lies in the overlap */
+/* Returns whether a point of the facet's plane is inside the overlap */
 static PetscBool LayerHolds(const ContactOverlap *o, const PetscReal y[2])
 {
   for (PetscInt t = 0; t < o->ntriangles; ++t) {
@@ -49,7 +49,7 @@ static PetscBool LayerHolds(const ContactOverlap *o, const PetscReal y[2])
   return PETSC_FALSE;
 }
 
-/* Mean undeformed place of the overlap's points on one of the facets */
+/* Computes the mean position of the overlap's quadrature points on one of the facets, in the undeformed state */
 static void LayerPlace(const ContactOverlap *o, const PetscReal xi[][2], const PetscReal reference[12], PetscReal x[3])
 {
   x[0] = x[1] = x[2] = 0.0;
@@ -61,8 +61,7 @@ static void LayerPlace(const ContactOverlap *o, const PetscReal xi[][2], const P
   }
 }
 
-/* Marks overlaps behind others: first what is below the facet's own wall, then all but the lowest of the layers above
-   it */
+/* Marks hidden overlaps: those below the far side of the facet's own wall, and above it all layers but the nearest */
 static void LayersHide(PetscInt n, const ContactOverlap overlap[], SelfOverlap known[])
 {
   for (PetscInt j = 0; j < n; ++j) {
@@ -79,8 +78,8 @@ static void LayersHide(PetscInt n, const ContactOverlap overlap[], SelfOverlap k
   }
 }
 
-/* Keeps those of the n overlaps of a facet that are in front of it, not hidden, and in which it is nonmortar. mortar:
-   numbers of the other facets among the candidates */
+/* Selects from the n overlaps of a facet those with a visible facet in front of it, for which the facet is the
+   nonmortar one. mortar: numbers of the other facets among the candidates */
 PetscErrorCode ContactSelfSelect(const ContactSelfFacet *facet, const ContactCandidates *facets, PetscInt *n,
   PetscInt mortar[], ContactOverlap overlap[])
 {

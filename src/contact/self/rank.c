@@ -2,11 +2,12 @@
 #include <mesh.h>
 #include "selfimpl.h"
 
-/* Direction in which facets are ordered. It is no likely normal of a face and no likely plane of symmetry. */
+/* Direction along which facets are ordered. It is irregular, so that no face is likely to be perpendicular to it. */
 static const PetscReal rank_direction[3] = {0.4359, 0.2719, 0.8579};
 
-/* Smallest distance of the cell's other vertices behind the plane of the undeformed facet; 0: one lies in the plane.
-   facet: a facet of the mesh; normal: its unit normal */
+/* Computes the distance by which the other vertices of the facet's cell lie behind the plane of the undeformed
+   facet: that of the nearest vertex; 0 if one of them lies in the plane. facet: a facet of the mesh; normal: its
+   unit normal */
 static PetscErrorCode RankDepthBelow(DM dm, PetscInt facet, PetscReal *below)
 {
   const PetscInt *cell;
@@ -32,8 +33,8 @@ static PetscErrorCode RankDepthBelow(DM dm, PetscInt facet, PetscReal *below)
   PetscFunctionReturn(0);
 }
 
-/* Place of a facet in the order: that of a point below the centre of the undeformed facet. So facets that face each
-   other across a gap differ by twice the depth of these points even if the gap is zero. */
+/* Returns the rank of a facet, by which facets are ordered: the coordinate, along rank_direction, of a point at this
+   depth below the centre of the undeformed facet. Facets that touch each other thus have different ranks. */
 static PetscReal RankFacet(const PetscReal x[12], PetscReal depth)
 {
   PetscReal normal[3] = {0.0, 0.0, 0.0}, rank = 0.0;
@@ -44,7 +45,8 @@ static PetscReal RankFacet(const PetscReal x[12], PetscReal depth)
   return rank;
 }
 
-/* Collective. Marks a surface as in contact with itself, and computes rank and depth of its facets */
+/* Collective. Prepares a surface for contact with itself: computes the rank of its facets, and the depth of the
+   cells below them */
 PetscErrorCode ContactSelfCreate(DM dm, ContactSurface *s)
 {
   IS              facets;

@@ -6,7 +6,7 @@
 
 #include "src/contact/search/searchimpl.h"
 
-/* A facet of a surface in contact with itself, on this rank or among the candidates */
+/* A facet of a surface in contact with itself: one of this rank, or one of the candidates that were received */
 typedef struct {
   const PetscInt  *node;      /* [4] */
   const PetscReal *reference; /* [12] undeformed vertices [length] */

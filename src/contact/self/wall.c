@@ -1,15 +1,19 @@
 /*
-   Tells the two sides of a wall from two parts of a surface in contact. Where a body is thin, its opposite sides face
-   away from each other, and the search along a normal finds the far side behind the near one, like a surface that has
-   penetrated. The undeformed body tells the difference: only the far side of the wall is straight behind the near one
-   there.
+   Finds whether two facets of a surface are the two sides of a wall, or two parts of the surface in contact. In both
+   cases the facets face opposite directions. The search along the normal of a facet finds the far side of a thin wall
+   behind the facet, like a part of the surface that penetrates it. The undeformed body shows the difference: there,
+   only the far side of the wall is straight behind the facet.
 */
 #include "selfimpl.h"
 
-#define WALL_DEPTH   0.5 /* a wall is at least this fraction of a cell deep; points less far behind touch */
-#define WALL_LATERAL 2.0 /* points of a wall's two sides are displaced along it by less than this times its thickness */
+#define WALL_DEPTH \
+  0.5 /* a wall has at least this thickness, as a fraction of the cell's depth; points closer than
+                            this are in contact */
+#define WALL_LATERAL \
+  2.0 /* opposite points of a wall's two sides are shifted along it by less than this times its
+                            thickness */
 
-/* Whether two facets have a common vertex */
+/* Returns whether two facets have a common vertex */
 static PetscBool WallSharesVertex(const ContactSelfFacet *one, const ContactSelfFacet *two)
 {
   for (PetscInt a = 0; a < 4; ++a) {
@@ -20,7 +24,7 @@ static PetscBool WallSharesVertex(const ContactSelfFacet *one, const ContactSelf
   return PETSC_FALSE;
 }
 
-/* Whether the body is between two points of the undeformed surface: x1 on facet one, x2 on facet two */
+/* Returns whether the body lies between two points of the undeformed surface: x1 on facet one, x2 on facet two */
 PetscBool ContactSelfIsWall(const ContactSelfFacet *one, const PetscReal x1[3], const ContactSelfFacet *two,
   const PetscReal x2[3])
 {

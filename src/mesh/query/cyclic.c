@@ -1,27 +1,28 @@
 /*
-   Cyclic symmetry: which nodes of the second face of a cut are the images of which nodes of the first one, when this
-   is turned about the axis by the sector's angle.
+   Cyclic symmetry: finds the image of each node of a cut's second face, that is the node of the first face at the same
+   position after a rotation about the axis by the sector's angle.
 */
 #include "queryimpl.h"
 #include <stdlib.h>
 #include <vector3.h>
 
-/* Nodes closer than this are the same, relative to the size of the faces */
+/* Two positions closer than this count as equal, relative to the size of the faces */
 static const PetscReal cyclic_same = 1e-6;
 
-/* A node of the first face, turned to the second */
+/* A node of the first face, at its position after the rotation */
 typedef struct {
   PetscReal x[3], node; /* node: global number */
 } CyclicNode;
 
 typedef struct {
   PetscInt    n;
-  CyclicNode *nodes; /* of all ranks, in the order of their sum of coordinates */
+  CyclicNode *nodes; /* nodes of all ranks, sorted by CyclicOrder() */
 } CyclicFace;
 
 static PetscReal CyclicOrder(const PetscReal x[3])
 {
-  return x[0] + 0.7548776662 * x[1] + 0.5698402910 * x[2]; /* few nodes of a lattice have the same sum */
+  return x[0] + 0.7548776662 * x[1] + 0.5698402910 * x[2]; /* the factors are irregular, so that few nodes of a
+                                                              regular mesh have equal sums */
 }
 
 static int CyclicCompare(const void *a, const void *b)
@@ -31,7 +32,7 @@ static int CyclicCompare(const void *a, const void *b)
   return (p > q) - (p < q);
 }
 
-/* Nodes of a face that this rank owns; places: their coordinates in global vectors */
+/* Gets the nodes of a face that this rank owns. places: coordinates of all nodes, as a global vector */
 static PetscErrorCode CyclicGetNodes(DM dm, Vec places, const char face[], PetscInt *n, CyclicNode **nodes)
 {
   IS                 is;
@@ -56,7 +57,7 @@ static PetscErrorCode CyclicGetNodes(DM dm, Vec places, const char face[], Petsc
   PetscFunctionReturn(0);
 }
 
-/* Gathers the nodes of all ranks on every rank, in order */
+/* Gathers the nodes of all ranks on every rank, and sorts them */
 static PetscErrorCode CyclicGather(MPI_Comm comm, PetscInt n, const CyclicNode nodes[], CyclicFace *face)
 {
   PetscMPIInt size, count, *counts, *first, total = 0;
@@ -78,7 +79,7 @@ static PetscErrorCode CyclicGather(MPI_Comm comm, PetscInt n, const CyclicNode n
   PetscFunctionReturn(0);
 }
 
-/* Position of a point relative to the axis; axis: unit vector */
+/* Computes the vector from the axis to a point, perpendicular to the axis. axis: unit vector */
 static void CyclicArm(const SceneCyclic *cut, const PetscReal axis[3], const PetscReal x[3], PetscReal arm[3])
 {
   PetscReal along = 0.0;
@@ -87,7 +88,7 @@ static void CyclicArm(const SceneCyclic *cut, const PetscReal axis[3], const Pet
   for (PetscInt d = 0; d < 3; ++d) arm[d] = x[d] - cut->center[d] - along * axis[d];
 }
 
-/* Mean position of a face's nodes relative to the axis, and the largest distance from it */
+/* Computes the mean of the nodes' vectors from the axis, and the largest distance of a node from the axis */
 static PetscErrorCode CyclicMean(MPI_Comm comm, const SceneCyclic *cut, const PetscReal axis[3], PetscInt n,
   const CyclicNode nodes[], PetscReal mean[3], PetscReal *size)
 {
@@ -106,8 +107,8 @@ static PetscErrorCode CyclicMean(MPI_Comm comm, const SceneCyclic *cut, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Finds the sector's angle from the mean positions of both faces; turn: R - 1. An error if a turn has no whole number
-   of such angles */
+/* Computes the rotation turn = R - 1 between the mean positions of both faces. It is an error if 360 degrees is not
+   a multiple of its angle. */
 static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, const PetscReal axis[3], PetscInt n,
   const CyclicNode from[], PetscInt m, const CyclicNode to[], PetscReal turn[3][3], PetscReal *size)
 {
@@ -133,7 +134,7 @@ static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, cons
   PetscFunctionReturn(0);
 }
 
-/* The node of the turned first face at a place; PETSC_DECIDE: none */
+/* Returns the number of the turned first face's node at the position x; PETSC_DECIDE if there is none */
 static PetscInt CyclicFind(const CyclicFace *face, const PetscReal x[3], PetscReal same)
 {
   PetscInt low = 0, high = face->n;
@@ -153,7 +154,7 @@ static PetscInt CyclicFind(const CyclicFace *face, const PetscReal x[3], PetscRe
   return PETSC_DECIDE;
 }
 
-/* Fills the list of images. lost: 1 if a node has none */
+/* Finds the images of all nodes. *lost: 1 if a node has no image, otherwise 0 */
 static PetscErrorCode CyclicMatch(const SceneCyclic *cut, const PetscReal axis[3], const CyclicFace *face,
   PetscReal same, PetscInt m, const CyclicNode to[], PetscInt nodes[], PetscInt images[], PetscReal *lost)
 {

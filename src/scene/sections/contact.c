@@ -122,7 +122,7 @@ static PetscBool PairIsRule(const SceneContactPair *pair)
     PetscBool)(!pair->mortar || !pair->nonmortar || (!strchr(pair->mortar, '.') && !strchr(pair->nonmortar, '.')));
 }
 
-/* The sides of a pair in contact with itself are not shown, as `self` names them */
+/* Hides the keys `mortar` and `nonmortar` of a pair in contact with itself, because `self` names the same face */
 PetscBool ScenePairHides(const void *entry, const char key[])
 {
   const SceneContactPair *pair = entry;
@@ -130,7 +130,8 @@ PetscBool ScenePairHides(const void *entry, const char key[])
   return (PetscBool)(pair->self && (!strcmp(key, "mortar") || !strcmp(key, "nonmortar")));
 }
 
-/* Finishes an entry with `self`: both sides are that face, or the whole boundary of that body */
+/* Finishes an entry with the key `self`. Both sides of the pair become that face, or the whole boundary of that
+   body. */
 static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[], SceneContactPair *pair)
 {
   PetscBool any, all = PETSC_FALSE;
@@ -147,7 +148,7 @@ static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionReturn(0);
 }
 
-/* Checks which sides are given, and that keys of rules are given only for rules. */
+/* Checks which sides of a pair are given, and that only rules have the keys of rules. */
 static PetscErrorCode FinishSides(SceneKeys keys, Scene scene, const char owner[], SceneContactPair *pair)
 {
   PetscBool any;
@@ -217,7 +218,7 @@ static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene sc
   PetscFunctionReturn(0);
 }
 
-/* Checks a pair in contact with itself */
+/* Checks an entry with the key `self`: a pair in contact with itself */
 PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, const SceneContactPair *pair)
 {
   const char     *face;

@@ -24,7 +24,7 @@ PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
   PetscFunctionReturn(0);
 }
 
-/* Reads at most n numbers after their number */
+/* Reads a list of at most n numbers. values[0] becomes their count; the numbers follow. */
 static PetscErrorCode SceneReadNumbers(SceneKeys keys, const char name[], const char text[], PetscInt n,
   PetscReal values[])
 {

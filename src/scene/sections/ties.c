@@ -1,4 +1,5 @@
-/* ties, cyclic: checks pairs of faces that are tied, or between which a sector is cut out. */
+/* ties and cyclic: checks the pairs of faces that are tied, and those at which a sector of cyclic symmetry is cut
+   out. */
 #include "sectionsimpl.h"
 #include <string.h>
 #include <vector3.h>
