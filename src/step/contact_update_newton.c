@@ -19,8 +19,11 @@
 #define NEWTON_TOLERANCE  0.1 /* largest relative tolerance of GMRES */
 #define NEWTON_ITERATIONS 8
 #define NEWTON_FORCES \
-  0.3                         /* the solve that gives the right-hand side may leave forces outside of the subspace
+  0.3 /* the solve that gives the right-hand side may leave forces outside of the subspace
                                    W up to this fraction of the tolerance */
+#define NEWTON_LONGEST \
+  10.0 /* longest step, as a multiple of the step that it corrects. Longer than 1 where contact updates alone move
+          away from the solution */
 #define NEWTON_APPLICATIONS 2 /* largest number of applications of the preconditioner of K in this solve */
 
 typedef struct {
@@ -301,8 +304,8 @@ static PetscErrorCode NewtonSetTolerance(GapNewton *s, const StepReport *report)
 }
 
 /*
-   Computes next = u + d. *found: false if d is longer than u - x, the step that d corrects; this happens if a motion is
-   resisted only by friction or springs.
+   Computes next = u + d. *found: false if d is much longer than u - x, the step that d corrects; this happens if a
+   motion is resisted only by friction or springs.
 */
 static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool *found)
 {
@@ -317,7 +320,7 @@ static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool
   else PetscCall(VecCopy(s->d, next));
   PetscCall(VecNorm(next, NORM_INFINITY, &length));
   PetscCall(VecAXPY(next, 1.0, s->u));
-  *found = (PetscBool)(length <= last);
+  *found = (PetscBool)(length <= NEWTON_LONGEST * last);
   PetscFunctionReturn(0);
 }
 

@@ -79,7 +79,7 @@ static PetscErrorCode ActiveSetFactorRows(IPActiveSet *set, IPCompliance *c, Pet
     else info = 0;
   }
   *factored = (PetscBool)!info;
-  set->k    = 0;
+  set->k = set->nfactored = 0;
   PetscFunctionReturn(0);
 }
 
@@ -92,6 +92,7 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
 
   PetscFunctionBegin;
   if (!set->k) {
+    set->nfactored = 0;
     PetscCall(PetscFree(set->V));
     PetscCall(PetscMalloc1((size_t)set->n * (size_t)s->kmax, &set->V));
   }
@@ -107,29 +108,75 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
 
 /*
    Factors H = T + V^T V, with a small addition to the diagonal for bodies that no active constraint holds. *factored:
-   false if H is indefinite.
+   false if H is indefinite. H has columns of length kmax.
 */
-static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
+static PetscErrorCode ActiveSetFactorAllDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
   const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
-  PetscBLASInt    n, k, info                      = 1;
+  PetscBLASInt    n, k, ld, info = 1;
 
   PetscFunctionBegin;
-  *factored = PETSC_TRUE;
-  if (!s->k) PetscFunctionReturn(0);
   PetscCall(PetscBLASIntCast(set->n, &n));
   PetscCall(PetscBLASIntCast(s->k, &k));
-  PetscCall(PetscFree(set->H));
-  PetscCall(PetscMalloc1(s->k * s->k, &set->H));
+  PetscCall(PetscBLASIntCast(s->kmax, &ld));
+  if (!set->H) PetscCall(PetscMalloc1((size_t)s->kmax * (size_t)s->kmax, &set->H));
   for (PetscReal shift = first; info && shift <= last; shift *= 10.0) {
     for (PetscInt j = 0; j < s->k; j++) {
-      for (PetscInt i = 0; i < s->k; i++) set->H[i + j * s->k] = s->T[i + j * s->kmax];
-      set->H[j + j * s->k] += shift * s->G[j];
+      PetscCall(PetscArraycpy(set->H + j * s->kmax, s->T + j * s->kmax, s->k));
+      set->H[j + j * s->kmax] += shift * s->G[j];
     }
-    if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &k));
-    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &k, &info));
+    if (n) PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "T", &k, &n, &one, set->V, &n, &one, set->H, &ld));
+    PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &k, set->H, &ld, &info));
+    set->shift = shift;
   }
   *factored = (PetscBool)!info;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Adds direction j to the factor of H, which has the j directions before it. *factored: false if its pivot is not
+   positive.
+*/
+static PetscErrorCode ActiveSetFactorDirection(IPActiveSet *set, const IPReducedSystem *s, PetscInt j,
+  PetscBool *factored)
+{
+  const PetscReal one = 1.0;
+  PetscReal      *h   = set->H + j * s->kmax; /* column j of H lies above the diagonal, where the factor has nothing */
+  PetscReal       pivot;
+  PetscBLASInt    n, before, all, ld, inc = 1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(set->n, &n));
+  PetscCall(PetscBLASIntCast(j, &before));
+  PetscCall(PetscBLASIntCast(j + 1, &all));
+  PetscCall(PetscBLASIntCast(s->kmax, &ld));
+  PetscCall(PetscArraycpy(h, s->T + j * s->kmax, j + 1));
+  if (n)
+    PetscCallBLAS("BLASgemv",
+      BLASgemv_("T", &n, &all, &one, set->V, &n, set->V + (size_t)j * (size_t)set->n, &inc, &one, h, &inc));
+  if (j) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "N", "N", &before, &inc, &one, set->H, &ld, h, &ld));
+  pivot = h[j] + set->shift * s->G[j];
+  for (PetscInt i = 0; i < j; i++) {
+    pivot -= h[i] * h[i];
+    set->H[j + i * s->kmax] = h[i];
+  }
+  *factored = (PetscBool)(pivot > set->shift * s->G[j]);
+  if (*factored) h[j] = PetscSqrtReal(pivot);
+  PetscFunctionReturn(0);
+}
+
+/* Factors H. If only a few directions are new, they are added to the factor. *factored: false if H is indefinite. */
+static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
+{
+  const PetscInt few = 4;
+
+  PetscFunctionBegin;
+  *factored = (PetscBool)(set->nfactored && s->k - set->nfactored <= few);
+  for (PetscInt j = set->nfactored; j < s->k && *factored; j++)
+    PetscCall(ActiveSetFactorDirection(set, s, j, factored));
+  if (s->k && !*factored) PetscCall(ActiveSetFactorAllDirections(set, s, factored));
+  if (!s->k) *factored = PETSC_TRUE;
+  set->nfactored = *factored ? s->k : 0;
   PetscFunctionReturn(0);
 }
 
@@ -137,17 +184,18 @@ static PetscErrorCode ActiveSetFactorDirections(IPActiveSet *set, const IPReduce
 static PetscErrorCode ActiveSetBackSubstitute(IPActiveSet *set, const IPReducedSystem *s)
 {
   const PetscReal one = 1.0, minus = -1.0;
-  PetscBLASInt    n, k, inc = 1, info;
+  PetscBLASInt    n, k, ld, inc = 1, info;
 
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(set->n, &n));
   PetscCall(PetscBLASIntCast(s->k, &k));
+  PetscCall(PetscBLASIntCast(s->kmax, &ld));
   for (PetscInt i = 0; i < set->n; i++) set->r[i] = s->h[set->rows[i]];
   if (n) PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "N", "N", &n, &inc, &one, set->L, &n, set->r, &n));
   PetscCall(PetscArraycpy(s->y, s->t, s->k));
   if (n && k) PetscCallBLAS("BLASgemv", BLASgemv_("T", &n, &k, &minus, set->V, &n, set->r, &inc, &one, s->y, &inc));
   if (k) {
-    PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &k, &inc, set->H, &k, s->y, &k, &info));
+    PetscCallBLAS("LAPACKpotrs", LAPACKpotrs_("L", &k, &inc, set->H, &ld, s->y, &k, &info));
     PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's potrs returned %d for %d directions", (int)info,
       (int)k);
   }

@@ -302,23 +302,27 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 /*
    Estimates, every eight applications of the preconditioner, how many more are needed, and lets
    IPSubspaceStateReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
-   KKT error that are still to be gained by the digits gained per application so far. Before the first digit is gained,
-   the active set changes and this rate is meaningless; the estimate is then twice the number of applications so far.
+   KKT error that are still to be gained by the digits gained per application: since the begin, or in the last eight
+   applications if that was faster, because the first applications are slow until the active set settles. Before the
+   first digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered     *f  = IPFilteredOf(tao);
   const PetscInt  n = ip->rec->napplications, every = 8;
   const PetscReal error = IPBothErrors(ip), least = 1.0;
-  PetscReal       gained, left;
+  PetscReal       gained, rate, left;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
-  if (n == 0) IPFilteredOf(tao)->begin = error;
+  if (n == 0) f->begin = f->considered = error;
   if (n == 0 || n % every) PetscFunctionReturn(0);
-  gained = PetscLog10Real(IPFilteredOf(tao)->begin / error);
-  left   = PetscLog10Real(PetscMax(error / ip->tol, 1.0));
-  PetscCall(IPSubspaceStateReconsider(tao, kept, gained < least ? 2.0 * n : n * left / gained, possible));
+  gained        = PetscLog10Real(f->begin / error);
+  rate          = PetscMax(gained / n, PetscLog10Real(f->considered / error) / every);
+  left          = gained < least ? 2.0 * n : PetscLog10Real(PetscMax(error / ip->tol, 1.0)) / rate;
+  f->considered = error;
+  PetscCall(IPSubspaceStateReconsider(tao, kept, left, possible));
   PetscFunctionReturn(0);
 }
 

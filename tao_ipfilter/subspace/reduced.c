@@ -300,7 +300,7 @@ static PetscErrorCode ReducedAppendColumns(IPReduced *r, PetscInt n, const Petsc
   const PetscReal  minus = -1.0, one = 1.0;
   const PetscInt   k = s->k;
   PetscReal       *Z = &r->Z[(size_t)k * (size_t)r->n], *T = &s->T[k * s->kmax];
-  PetscBLASInt     all, nb, nw, ld;
+  PetscBLASInt     all, nb, nw, ld, inc = 1;
 
   PetscFunctionBegin;
   for (PetscInt j = 0; j < n; j++) s->G[k + j] = T[k + j + j * s->kmax];
@@ -310,7 +310,9 @@ static PetscErrorCode ReducedAppendColumns(IPReduced *r, PetscInt n, const Petsc
   PetscCall(PetscBLASIntCast(n, &nb));
   PetscCall(PetscBLASIntCast(r->n, &nw));
   PetscCall(PetscBLASIntCast(s->kmax, &ld));
-  PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &all, &nb, &nw, &minus, r->Z, &nw, Q, &nw, &one, T, &ld));
+  /* gemm would copy all of Z for a single column */
+  if (n == 1) PetscCallBLAS("BLASgemv", BLASgemv_("T", &nw, &all, &minus, r->Z, &nw, Q, &inc, &one, T, &inc));
+  else PetscCallBLAS("BLASgemm", BLASgemm_("T", "N", &all, &nb, &nw, &minus, r->Z, &nw, Q, &nw, &one, T, &ld));
   for (PetscInt j = k; j < k + n; j++) {
     for (PetscInt i = 0; i < j; i++) s->T[j + i * s->kmax] = s->T[i + j * s->kmax];
   }

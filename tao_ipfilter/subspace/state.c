@@ -19,7 +19,9 @@ PetscErrorCode IPSubspaceStateReset(IPSubspaceState *kept)
   PetscCall(PCDestroy(&kept->pc));
   PetscCall(IPBasisDestroy(&kept->basis));
   PetscCall(IPReducedDestroy(&kept->reduced));
-  kept->K_id = 0;
+  kept->K_id     = 0;
+  kept->ncurrent = 0;
+  kept->expected = 0.0;
   kept->held = kept->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -156,15 +158,38 @@ static PetscErrorCode KeptSetUpPC(Tao tao, IPSubspaceState *kept, Mat A, Mat K, 
   PetscFunctionReturn(0);
 }
 
+/*
+   Estimates how many applications of the AMG a new K needs. Models of Newton's method need fewer than a quadratic
+   program, since they are solved to a larger tolerance. After the first model the number is the mean of the last
+   estimate and of the last model's applications. A factorization says nothing about the AMG.
+*/
+static PetscErrorCode KeptForesee(Tao tao, IPSubspaceState *kept, PetscReal *n)
+{
+  const PetscReal usual = 35.0, model = 12.0, share = 0.5;
+  PetscBool       amgf, factored = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  if (kept->expected == 0.0) kept->expected = IPFilteredOf(tao)->newton ? model : usual;
+  else if (kept->changing) {
+    PetscCall(PetscObjectTypeCompare((PetscObject)kept->pc, PCAMGF, &amgf));
+    if (amgf) PetscCall(PCAMGFGetFactored(kept->pc, &factored, NULL));
+    if (!factored) kept->expected = (1.0 - share) * kept->expected + share * kept->ncurrent;
+  }
+  kept->ncurrent = 0;
+  *n             = kept->expected;
+  PetscFunctionReturn(0);
+}
+
 /* Sets up the preconditioner B for the Hessian K without constraints */
 static PetscErrorCode KeptSetUpFree(Tao tao, IPSubspaceState *kept, Mat K, PetscBool *possible)
 {
-  const PetscReal usual = 35.0;
-  Mat             whole;
+  PetscReal n = 0.0;
+  Mat       whole;
 
   PetscFunctionBegin;
+  PetscCall(KeptForesee(tao, kept, &n));
   PetscCall(PCSetOperators(kept->pc, K, K));
-  PetscCall(KeptExpect(tao, kept, usual));
+  PetscCall(KeptExpect(tao, kept, n));
   PetscCall(KeptGetWhole(kept->pc, K, &whole));
   PetscCall(KeptSetUpPC(tao, kept, whole, K, possible));
   PetscCall(MatDestroy(&whole));

@@ -227,6 +227,7 @@ static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r
 
   PetscFunctionBegin;
   PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  kept->ncurrent++;
   if (kept->held || (*definite && ip->rec->napplications > 1)) PetscFunctionReturn(0);
   PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
   if (!singular) PetscFunctionReturn(0);

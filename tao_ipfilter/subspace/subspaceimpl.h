@@ -74,11 +74,13 @@ static inline PetscReal IPReducedForce(const IPReducedSystem *s, PetscInt row)
 
 /* The active constraints, and the factors for them */
 typedef struct {
-  PetscInt   m, n, k; /* number of constraints; number of active constraints with nonzero compliance; number of
-                         directions in V */
+  PetscInt   m, n, k;   /* number of constraints; number of active constraints with nonzero compliance; number of
+                           directions in V */
+  PetscInt   nfactored; /* number of directions in H */
   PetscBool *active, factored;
   PetscInt  *rows;
   PetscReal *L, *V, *H, *r;
+  PetscReal  shift; /* addition to the diagonal of H, relative to the directions' energies */
 } IPActiveSet;
 
 /* Data that the laws of constraints and norm terms receive, on the first rank */
@@ -142,6 +144,9 @@ typedef struct {
   PetscBool        changing;      /* K has changed since the first solve with it */
   PetscBool        whole;         /* W contains all unknowns, since norm terms needed that */
   PetscInt         napplications; /* number of applications of the preconditioner in the last solve */
+  PetscInt         ncurrent;      /* number of applications of the preconditioner of the present K */
+  PetscReal        expected;      /* number of applications of the AMG that another K is expected to need; 0: not
+                                     known yet */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
@@ -160,7 +165,8 @@ typedef struct {
   PetscInt       ncentred;            /* number of consecutive steps without a new direction */
   PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
   PetscReal      halved;              /* KKT error when it was last halved */
-  PetscReal      begin;               /* KKT error after the first reduced problem */
+  PetscReal      begin, considered;   /* KKT error after the first reduced problem, and when the preconditioner was
+                                         last reconsidered */
   PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
