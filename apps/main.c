@@ -617,8 +617,8 @@ static PetscErrorCode AppCrash(int sig, void *ctx)
 
   if (!fault || ((AppError *)ctx)->traceback) return PetscSignalHandlerDefault(sig, NULL);
   dprintf(((AppError *)ctx)->said,
-    "contact: error: the program crashed (signal %d), which is a fault of its own or of a library: please report it "
-    "with the scene; -traceback says more\n",
+    "contact: error: the program crashed (signal %d), because of an error in the program or in a library: please "
+    "report it with the scene; -traceback prints details\n",
     sig);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   if (size > 1) MPI_Abort(PETSC_COMM_WORLD, RUN_BROKEN);

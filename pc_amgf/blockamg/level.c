@@ -238,8 +238,8 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
 
   PetscFunctionBegin;
   PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "PCBLOCKAMG takes at most %" PetscInt_FMT " unknowns a rank, not %" PetscInt_FMT ": use more ranks", largest / 8,
-    rows->n);
+    "PCBLOCKAMG supports at most %" PetscInt_FMT " unknowns per rank, not %" PetscInt_FMT ": use more ranks",
+    largest / 8, rows->n);
   level->n = (int)rows->n;
   level->B = bs % 3 == 0 ? 3 : 4;
   PetscCall(PetscMalloc1(level->n, &level->position));

@@ -332,15 +332,15 @@ def page(cases, records):
         explanations = json.load(file)
     where = machine.describe()
     yield "# The published results, reproduced\n"
-    yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows ours / theirs. A star marks a deviation above 10 %."
-    yield "`make published` makes this page, `make published-quick` that of mesh 1 alone.\n"
+    yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows our value / the published value. A star marks a deviation of more than 10 %."
+    yield "`make published` creates this page, `make published-quick` a page for mesh 1 alone.\n"
     yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". {datetime.date.today()}, commit {', '.join(sorted({record['commit'] for record in records.values()}))}.\n"
-    yield "Times: processor seconds of one core (`cpuclock.c`), on a machine that other work shared, which slows memory down; ratios are of runs under like load.\n"
+    yield "Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which slows memory down. Ratios are those of runs under similar load.\n"
     yield "## Iterations and sizes\n"
     yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
-    yield "The bound is that of the condition number, from the contact-free problem: PCG iterations of AMG on K times sqrt(2 (beta + 3) / beta)."
-    yield "V-cycle: BoomerAMG's is that of the publication; own is `-tao_ipfilter_amgf_amg_pc_type blockamg`, see [below](#the-programs-own-v-cycle)."
-    yield "Of a load step that was not finished, the systems that were solved count where no load step was finished. A higher mesh has `-refine` one higher.\n"
+    yield "\"Bound\" is the bound of the PCG iterations that follows from the condition number beta of the problem without contact: sqrt(2 (beta + 3) / beta) times the PCG iterations with AMG for K."
+    yield "The V-cycle \"BoomerAMG's\" is that of the publication. The V-cycle \"own\" is that of this program, `-tao_ipfilter_amgf_amg_pc_type blockamg`, see [below](#the-programs-own-v-cycle)."
+    yield "If no load step was finished, the figures are those of the systems that were solved. Each mesh has `-refine` increased by one compared with the previous mesh.\n"
     yield from iteration_tables(records, reference, explanations)
     if any(way == "own" for _, _, way in records):
         yield "## The program's own V-cycle\n"
@@ -348,10 +348,10 @@ def page(cases, records):
         yield from own_table(records)
         yield ""
     yield "## PCG iterations and the barrier\n"
-    yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published, and has the program's own V-cycle where the table below has no other. Its curve ends where the time limit ended the run.\n"
+    yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published, and uses the program's own V-cycle if the table below has no other. Its curve ends where the time limit ended the run.\n"
     yield "![PCG iterations and ratio of the weights against the Newton system](curves.png)\n"
     yield "## Speed-up of AMGF over AMG\n"
-    yield "Published: 4 to more than 10. PCG iterations are those of the last ten systems of a load step.\n"
+    yield "Published: 4 to more than 10. The PCG iterations are summed over the last ten systems of each load step.\n"
     yield from speed_table(records)
     if "speed" in explanations:
         yield "\n" + explanations["speed"]
@@ -364,8 +364,8 @@ def page(cases, records):
         if "growth" in explanations:
             yield "\n" + explanations["growth"]
     yield "\n## What the defaults take\n"
-    yield "The defaults linearize the gap again until it is exact, unless the scene asks for one linearization. They minimize the true energy of neo-Hookean bodies."
-    yield "Energies therefore differ where the published configuration leaves an error: see explanations.\n"
+    yield "With the default settings the linearization of the gap is updated until the gap is consistent, unless the scene requests one linearization. The energy of neo-Hookean bodies is minimized without a quadratic model."
+    yield "The energies therefore differ where the published configuration has an error, as explained below the table.\n"
     yield from defaults_table(cases, records)
     if "defaults" in explanations:
         yield "\n" + explanations["defaults"]

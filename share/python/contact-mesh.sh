@@ -7,5 +7,5 @@ for folder in share/amgf share; do
   script=$here/../$folder/python/contact_mesh.py
   [ ! -f "$script" ] || exec $python -B "$script" "$@"
 done
-echo "contact-mesh: error: share/python/contact_mesh.py is missing; it belongs beside the program" >&2
+echo "contact-mesh: error: share/python/contact_mesh.py is missing: it must be installed next to the program" >&2
 exit 1

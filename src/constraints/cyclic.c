@@ -94,8 +94,8 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   differ = (PetscBool)(differ || worst > 1e-9 * largest);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_PETSCBOOL, MPI_LOR, c->bodies.comm));
   PetscCheck(!differ, c->bodies.comm, PETSC_ERR_USER_INPUT,
-    "cyclic symmetry: displacements are prescribed on a face of the cut that do not repeat themselves from sector to "
-    "sector, such as one component across the axis: prescribe all three components, or that along the axis");
+    "cyclic symmetry: the displacements that are prescribed on a face of the cut are not the same in every sector: "
+    "prescribe all three components, or only the one along the axis");
   PetscCall(VecDestroy(&reach));
   PetscCall(VecDestroy(&free));
   PetscCall(VecDestroy(&image));

@@ -31,8 +31,8 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
 
     PetscCall(PetscStrcmp(pairs[p].mortar, pairs[p].nonmortar, &same));
     PetscCheck(same == (PetscBool)(pairs[p].self != NULL), comm, PETSC_ERR_ARG_WRONG,
-      "Contact pair \"%s\" names face \"%s\" twice, which only a pair in contact with itself does", name,
-      pairs[p].mortar);
+      "Contact pair \"%s\" names face \"%s\" as both sides, which is allowed only for a pair in contact with itself",
+      name, pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
     PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);

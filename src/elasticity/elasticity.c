@@ -152,7 +152,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     for (int i = 0; i < 9; ++i)
       e->bodies[b].expands = (PetscBool)(e->bodies[b].expands || e->bodies[b].expansion[i] != 0);
     PetscCheck(!m->law->finite || !e->bodies[b].expands, PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
-      "Body %" PetscInt_FMT ": only laws of small strain expand with temperature", b);
+      "Body %" PetscInt_FMT ": only laws of small strain support thermal expansion", b);
     e->bodies[b].rigid = (PetscBool)(materials[b].type == MATERIAL_RIGID);
     e->bodies[b].type  = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
@@ -162,7 +162,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       b);
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
       PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
-      "Body %" PetscInt_FMT ": bbar is not for Saint Venant-Kirchhoff: its dilatation tr E is not the change of volume",
+      "Body %" PetscInt_FMT ": the element bbar cannot be used with Saint Venant-Kirchhoff, whose dilatation tr E is "
+                            "not the change of volume",
       b);
   }
   PetscCall(ElasticityReadOptions(e));

@@ -19,7 +19,7 @@ PetscBool ScriptFind(const char name[], char script[], size_t length, char sente
   char                     program[PETSC_MAX_PATH_LEN];
   const ssize_t            n = readlink("/proc/self/exe", program, sizeof(program) - 1);
 
-  (void)snprintf(sentence, room, "share/%s is missing; it belongs beside the program", name);
+  (void)snprintf(sentence, room, "share/%s is missing: it must be installed next to the program", name);
   if (n <= 0) return PETSC_FALSE;
   program[n] = '\0';
   if (strrchr(program, '/')) *strrchr(program, '/') = '\0';

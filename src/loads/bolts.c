@@ -32,8 +32,8 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
       bolt->name, (double)bolt->point[0], (double)bolt->point[1], (double)bolt->point[2], (double)bolt->axis[0],
       (double)bolt->axis[1], (double)bolt->axis[2], scene->bodies[bolt->body].name);
     PetscCheck(ncells > 0, bodies->comm, PETSC_ERR_USER_INPUT,
-      "bolt \"%s\": its section cuts cells of its body \"%s\" that the section of another bolt cuts; move its point or "
-      "refine the mesh",
+      "bolt \"%s\": its section and that of another bolt cut the same cells of body \"%s\"; move its point or refine "
+      "the mesh",
       bolt->name, scene->bodies[bolt->body].name);
   }
   PetscFunctionReturn(0);

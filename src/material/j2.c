@@ -250,7 +250,7 @@ static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char
     }
     if (!(h->stresses.value[i] >= h->stresses.value[i - 1])) {
       *key = "yield_stresses";
-      (void)snprintf(why, length, "must not fall: %g follows %g, and a law that softens has no unique answer",
+      (void)snprintf(why, length, "must not decrease: %g follows %g, and a law with softening has no unique solution",
         (double)h->stresses.value[i], (double)h->stresses.value[i - 1]);
       return PETSC_FALSE;
     }
@@ -277,15 +277,15 @@ PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, c
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(positive); ++i) {
     *key = positive[i].key;
     (void)snprintf(why, length, "= %g, which must not be below 0%s", (double)positive[i].value,
-      i < 2 ? ": a law that softens has no unique answer" : "");
+      i < 2 ? ": a law with softening has no unique solution" : "");
     if (!(positive[i].value >= 0)) return PETSC_FALSE;
   }
   (void)snprintf(why, length, "= %g, which needs a saturation", (double)h->rate);
   if (h->rate > 0 && h->saturation == 0) return PETSC_FALSE;
   *key = "saturation";
   (void)snprintf(why, length,
-    "= %g, which must not be below the yield stress %g: a law that softens has no unique answer", (double)h->saturation,
-    (double)h->yield);
+    "= %g, which must not be below the yield stress %g: a law with softening has no unique solution",
+    (double)h->saturation, (double)h->yield);
   if (h->rate > 0 && !(h->saturation >= h->yield)) return PETSC_FALSE;
   (void)snprintf(why, length, "= %g, which needs a saturation_rate", (double)h->saturation);
   return (PetscBool) !(h->saturation != 0 && h->rate == 0);

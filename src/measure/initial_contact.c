@@ -143,7 +143,8 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
   PetscFunctionBegin;
   if (pair->self) {
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  %s: %" PetscInt_FMT " vertices of %s have another part of it within reach", pair->name, start->n, pair->self));
+      "  %s: %" PetscInt_FMT " vertices of %s have another part of it within the search distance", pair->name, start->n,
+      pair->self));
     if (start->n)
       PetscCall(PetscViewerASCIIPrintf(viewer, "; gap %.5g to %.5g", (double)start->least, (double)start->largest));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
@@ -151,13 +152,16 @@ static PetscErrorCode StartDescribePair(const SceneContactPair *pair, const Pair
   }
   if (!start->n) {
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  %s: no vertex of %s has %s within reach; WARNING: the pair does nothing unless the faces come closer\n",
+      "  %s: no vertex of %s has %s within the search distance; WARNING: the pair has no effect unless the faces come "
+      "closer\n",
       pair->name, pair->nonmortar, pair->mortar));
     PetscFunctionReturn(0);
   }
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "  %s: %" PetscInt_FMT " vertices of %s, over an area of %.5g, have %s within reach; gap %.5g to %.5g", pair->name,
-    start->n, pair->nonmortar, (double)start->area, pair->mortar, (double)start->least, (double)start->largest));
+    "  %s: %" PetscInt_FMT
+    " vertices of %s, over an area of %.5g, have %s within the search distance; gap %.5g to %.5g",
+    pair->name, start->n, pair->nonmortar, (double)start->area, pair->mortar, (double)start->least,
+    (double)start->largest));
   if (start->overlap > 0.0)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", overlap over an area of %.5g", (double)start->overlap));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));

@@ -77,7 +77,7 @@ static PetscErrorCode ViewPlasticity(const RunReport *report, PetscViewer viewer
   PetscFunctionReturn(0);
 }
 
-/* Prints the number of controlled time steps, the shortest one, the largest error, and how many were taken back. */
+/* Prints the number of controlled time steps, the shortest one, the largest error, and how many were repeated. */
 static PetscErrorCode ViewTimeSteps(const RunReport *report, PetscViewer viewer)
 {
   PetscInt  n = 0, rejected = 0;
@@ -95,7 +95,7 @@ static PetscErrorCode ViewTimeSteps(const RunReport *report, PetscViewer viewer)
   }
   if (error > 0.0)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "time steps: %" PetscInt_FMT ", the shortest %.4g, the largest error %.3g; %" PetscInt_FMT " were taken back\n\n",
+      "time steps: %" PetscInt_FMT ", the shortest %.4g, the largest error %.3g; %" PetscInt_FMT " were repeated\n\n",
       n, (double)shortest, (double)error, rejected));
   PetscFunctionReturn(0);
 }
@@ -144,7 +144,7 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   if (n)
     PetscCall(PetscViewerASCIIPrintf(viewer,
       "MUMPS instead of AMG, from load step %" PetscInt_FMT
-      " on: a factorization of the stiffness matrix is a set-up, a solve with it an application\n",
+      " on: factorizations of the stiffness matrix count as set-ups, solves with the factors as applications\n",
       first));
   PetscFunctionReturn(0);
 }
@@ -198,7 +198,7 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
     report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "With contact: at most %" PetscInt_FMT
-    " PCG iterations per Newton system, bound %.0f; a load step costs %.2f solves without contact\n",
+    " PCG iterations per Newton system, bound %.0f; a load step takes as long as %.2f solves without contact\n",
     largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
   PetscFunctionReturn(0);
 }

@@ -111,7 +111,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscFunctionBegin;
   PetscCall(ProgressIsDue(sim, &now, &due));
   if (!due) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e, %.0e ends it",
+  PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e (ends at %.0e)",
     iteration, (double)error, (double)goal));
   PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);

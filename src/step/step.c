@@ -107,7 +107,7 @@ static PetscErrorCode SimulationShorten(Simulation sim, const StepReport *report
   for (left = c->error; left > sim->scene->dynamics.tolerance && *increment > STEP_SHORTEST; left *= 0.25)
     *increment *= 0.5;
   if (sim->control->monitor)
-    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " taken back to time %g, time steps of %g: %s\n",
+    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " repeated from time %g with time steps of %g: %s\n",
       report->step, (double)(sim->path->time * SceneTimeStep(sim->scene)),
       (double)(*increment * SceneTimeStep(sim->scene)), report->reason));
   PetscFunctionReturn(0);

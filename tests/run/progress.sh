@@ -15,7 +15,7 @@ for scene in press linear; do
     "$PYTHON" - <<'PY'
 import re
 said = [line.rstrip("\n") for line in open("log") if line.startswith("Progress")]
-form = re.compile(r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+, 1e-\d\d ends it)?, (\d+) s so far(|, about \d+ s left)")
+form = re.compile(r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+ \(ends at 1e-\d\d\))?, (\d+) s so far(|, about \d+ s left)")
 words = [form.fullmatch(line) for line in said]
 print("each line says it:", all(words) or said)
 print("load steps:", sorted({int(word[1]) for word in words}))

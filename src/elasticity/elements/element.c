@@ -12,7 +12,7 @@ PetscErrorCode ElementGet(ElementType type, PetscInt nnodes, const Element **ele
   *element = elements[type];
   PetscCheck(!(*element)->nnodes || nnodes == (*element)->nnodes, PETSC_COMM_SELF, PETSC_ERR_SUP,
     "element %s is for hexahedra of %" PetscInt_FMT " nodes, and not for cells of %" PetscInt_FMT
-    ": take full or bbar for their body",
+    ": use full or bbar for their body",
     ElementTypes[type], (*element)->nnodes, nnodes);
   PetscFunctionReturn(0);
 }

@@ -119,14 +119,15 @@ static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, cons
   PetscCall(CyclicMean(comm, cut, axis, n, from, mean[0], size));
   PetscCall(CyclicMean(comm, cut, axis, m, to, mean[1], &other));
   PetscCheck(PetscMin(VectorNorm(mean[0]), VectorNorm(mean[1])) > cyclic_same * *size, comm, PETSC_ERR_USER_INPUT,
-    "cyclic symmetry \"%s\": the axis goes through the middle of %s or %s, which must be on one side of it", cut->name,
-    cut->from, cut->to);
+    "cyclic symmetry \"%s\": the axis goes through the middle of %s or %s, but each face must be on one side of the "
+    "axis",
+    cut->name, cut->from, cut->to);
   VectorCross(mean[0], mean[1], cross);
   angle   = PetscAtan2Real(VectorDot(cross, axis), VectorDot(mean[0], mean[1]));
   sectors = whole / (PetscAbsReal(angle) * 180.0 / PETSC_PI);
   PetscCheck(PetscAbsReal(sectors - PetscFloorReal(sectors + 0.5)) < 1e-4 * sectors, comm, PETSC_ERR_USER_INPUT,
-    "cyclic symmetry \"%s\": the faces %s and %s are %g degrees apart about the axis, and a turn has no whole number "
-    "of such sectors",
+    "cyclic symmetry \"%s\": the faces %s and %s are %g degrees apart about the axis, and 360 degrees is not a "
+    "multiple of this angle",
     cut->name, cut->from, cut->to, (double)(PetscAbsReal(angle) * 180.0 / PETSC_PI));
   angle = (angle < 0.0 ? -2.0 : 2.0) * PETSC_PI / PetscFloorReal(sectors + 0.5);
   for (PetscInt d = 0; d < 3; ++d) rotation[d] = angle * axis[d];
@@ -226,7 +227,7 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscCheck(lost == 0.0 && total == face.n, comm, PETSC_ERR_USER_INPUT,
     "cyclic symmetry \"%s\": the face %s, turned about the axis, is not the face %s node by node (%" PetscInt_FMT
-    " and %" PetscInt_FMT " nodes): their meshes must be alike",
+    " and %" PetscInt_FMT " nodes): both faces must have the same mesh",
     cut->name, cut->from, cut->to, face.n, total);
   PetscCall(PetscFree(face.nodes));
   PetscCall(PetscFree(from));

@@ -18,7 +18,7 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
   PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT,
     "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body,
     advice);
-  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s, but %g outside%s", probe->name,
+  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s; it is %g outside%s", probe->name,
     what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
 }
 

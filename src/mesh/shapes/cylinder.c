@@ -31,9 +31,9 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
   PetscCheck(tube->radii[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the radius of the %s must be positive, but is %g%s", body->name,
     body->shape == SHAPE_CONE ? "cone" : "cylinder", (double)tube->radii[1],
-    body->shape == SHAPE_CONE ? ": cut the tip off" : "");
+    body->shape == SHAPE_CONE ? ": use a cone without its tip" : "");
   PetscCheck(tube->radii[0] > 0 || body->shape != SHAPE_CONE, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the radius of the cone must be positive, but is %g: cut the tip off", body->name,
+    "Body \"%s\": the radius of the cone must be positive, but is %g: use a cone without its tip", body->name,
     (double)tube->radii[0]);
   PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
@@ -43,7 +43,7 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   PetscCheck(body->grading[0] == 0 || body->grading[0] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the cells of the core are equal, so its grading is 1, but it is %g", body->name,
+    "Body \"%s\": the cells of the core are equal, so its grading must be 1, but is %g", body->name,
     (double)body->grading[0]);
   PetscCall(ShapeCheckTotal(comm, body,
     ((PetscReal)CylinderCore(n) + 4 * (PetscReal)n[0] * (PetscReal)n[1]) * ((PetscReal)n[2] + 1)));

@@ -127,7 +127,8 @@ PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal
 {
   PetscFunctionBegin;
   PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the even cells of a grading must be between 0 and all %" PetscInt_FMT ", but are %" PetscInt_FMT,
+    "Body \"%s\": the number of even cells of a grading must be between 0 and the number of cells, %" PetscInt_FMT
+    ", but is %" PetscInt_FMT,
     body->name, n, even);
   PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, "

@@ -89,7 +89,7 @@ static PetscErrorCode ShapeSize_HoledBox(MPI_Comm comm, const SceneBody *body, P
   PetscCall(ShapeCheckCount(comm, body, "along the hole", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   PetscCheck(body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the cells around the hole are equal, so their grading is 1, but it is %g", body->name,
+    "Body \"%s\": the cells around the hole are equal, so their grading must be 1, but is %g", body->name,
     (double)body->grading[1]);
   PetscCall(ShapeCheckTotal(comm, body, (8 * (PetscReal)n[1] + 1) * ((PetscReal)n[0] + 1) * ((PetscReal)n[2] + 1)));
   h          = HoledSetUp(body);

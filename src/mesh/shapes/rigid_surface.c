@@ -26,12 +26,13 @@ static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *b
     PetscCheck(k + 2 >= n || p[k] != p[k + 2] || p[k + 1] != p[k + 3], comm, PETSC_ERR_ARG_OUTOFRANGE,
       "Body \"%s\" has the point (%g, %g) twice in its points", body->name, (double)p[k], (double)p[k + 1]);
     PetscCheck(body->shape != SHAPE_RIGID_REVOLVED || p[k] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "Body \"%s\" has the point (%g, %g) in its points, whose first number is a distance from the axis", body->name,
-      (double)p[k], (double)p[k + 1]);
+      "Body \"%s\" has the point (%g, %g) in its points, whose first number is a distance from the axis and must not "
+      "be negative",
+      body->name, (double)p[k], (double)p[k + 1]);
   }
   for (PetscInt c = 0; c < 3; ++c) cross += PetscSqr(a[c] * b[(c + 1) % 3] - a[(c + 1) % 3] * b[c]);
   PetscCheck(body->shape != SHAPE_RIGID_EXTRUDED || cross > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" has across along its direction, to which it must be normal", body->name);
+    "Body \"%s\" has across parallel to its direction, but must have it perpendicular", body->name);
   PetscCheck(body->own[SURFACE_OUTSIDE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has outside %g, which must be 0 or positive", body->name, (double)body->own[SURFACE_OUTSIDE]);
   PetscFunctionReturn(0);

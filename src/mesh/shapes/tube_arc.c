@@ -41,7 +41,7 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
   PetscCheck(angle < 360 || body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the cells around a whole tube are equal, so its grading around the axis is 1, but it is %g",
+    "Body \"%s\": the cells around a whole tube are equal, so its grading around the axis must be 1, but is %g",
     body->name, (double)body->grading[1]);
   PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of "

@@ -115,7 +115,7 @@ static PetscErrorCode RepeatedCheckEntry(const RepeatedKeys *keys)
   RepeatedStrip(list);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
     "line %zu: this entry of %s has %" PetscInt_FMT
-    " keys where it has one, its name, with the others below it: - name: {key: value, ...}",
+    " keys on one level, but must have one, its name, with the other keys below it: - name: {key: value, ...}",
     level->line, list, level->n / 2);
 }
 

@@ -232,8 +232,9 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
     "%s: contact pair \"%s\" has self = %s, but the body \"%s\" is rigid and cannot come into contact with itself",
     file, pair->name, pair->self, scene->bodies[body].name);
   PetscCheck(pair->gap != GAP_NODE, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" has self = %s and gap node, which is between two faces: take gap mortar or dual", file,
-    pair->name, pair->self);
+    "%s: contact pair \"%s\" has self = %s and gap node, but gap node needs two different faces: use gap mortar or "
+    "dual",
+    file, pair->name, pair->self);
   PetscCheck(pair->interference == 0.0, comm, PETSC_ERR_USER_INPUT,
     "%s: contact pair \"%s\" has self = %s and an interference, but a surface that is to come into contact with itself "
     "must not overlap itself at the start: name the two faces that overlap as mortar and nonmortar",

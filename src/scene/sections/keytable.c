@@ -56,7 +56,8 @@ static const SceneKey top_rows[] = {
   SECTION("body_forces", "none", "list of forces per undeformed volume, with fixed direction"),
   SECTION("contact", "none: no search, no optimizer", "list of contact pairs, or `auto`"),
   SECTION("ties", "none", "list of pairs of faces joined without sliding or opening"),
-  SECTION("cyclic", "none", "list of pairs of faces between which a sector of a body with cyclic symmetry is cut out"),
+  SECTION("cyclic", "none",
+    "list of cyclic symmetries: for each, the two faces at which a sector of a body is cut out"),
   SECTION("refinements", "none", "list of zones in which cells are refined further than by `refine`"),
   SECTION("probes", "none", "list of points and lines at which results are written"),
   SECTION("load", "one step", "the load program, see [load program](#load-program)"),
@@ -203,8 +204,8 @@ static const SceneKey contact_rows[] = {
   TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required, except in `auto`",
     "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
   TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
-    "instead of `mortar` and `nonmortar`: a face, or a body with its whole surface, that comes into contact with "
-    "itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
+    "in place of `mortar` and `nonmortar`: name of a face, or of a body (its whole surface), that comes into contact "
+    "with itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
     "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices (see"
@@ -276,35 +277,35 @@ static const SceneKey load_rows[] = {
   SECTION("expression", "",
     "load factor as an expression of the time `t` and of `s` = t / number of steps; requires `steps`"),
   SECTION("times", "", "ascending times of a table (load step k ends at time k); requires `steps`"),
-  SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
+  SECTION("values", "", "factors at these times; between them the factor is linear"), {NULL}};
 
 static const SceneKey ramp_rows[] = {
-  SECTION("factors", "", "factor at the end of each load step; 0 at the start, linear in between"),
+  SECTION("factors", "", "factor at the end of each load step. It is 0 at the start and linear within a load step"),
   SECTION("expression", "", "factor as an expression of the time `t` and of `s` = t / number of load steps"),
   SECTION("times", "", "ascending times of a table (load step k ends at time k)"),
-  SECTION("values", "", "the factors at these times, linear in between"), {NULL}};
+  SECTION("values", "", "factors at these times; between them the factor is linear"), {NULL}};
 
-static const SceneKey dynamics_rows[] = {REALS("time_step", NULL, 1, SceneDynamics, time_step, REQUIRED, ANY, "T", "",
-                                           "above 0; it is made smaller where `end_time` is not a multiple of it"),
+static const SceneKey dynamics_rows[] = {
+  REALS("time_step", NULL, 1, SceneDynamics, time_step, REQUIRED, ANY, "T", "",
+    "length of the time steps, above 0. It is reduced if `end_time` is not a multiple of it"),
   REALS("end_time", NULL, 1, SceneDynamics, end_time, REQUIRED, ANY, "T", "", "at least `time_step`"),
   REALS("tolerance", NULL, 1, SceneDynamics, tolerance, OPTIONAL, ANY, "", "",
-    "controls time steps: the error of one step over its length and the largest speed so far, e.g. 1e-3. `time_step` "
-    "is "
-    "then the longest one, and results are at its multiples. Without it all have the length `time_step`"),
+    "allowed error of a time step, divided by the length of the step and the largest speed so far, for example 1e-3. "
+    "The program then chooses the lengths of the time steps. `time_step` is the length of the longest one, and results "
+    "are written at its multiples. Without `tolerance` all time steps have the length `time_step`"),
   NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
     "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
-    "high frequencies by choice"),
+    "high frequencies, as much as `spectral_radius` says"),
   REALS("spectral_radius", NULL, 1, SceneDynamics, spectral_radius, SHOWN, ANY, "", "0.8",
-    "of `generalized_alpha`, from 0 to 1: what is left of the highest frequencies after a time step; 1: nothing is "
-    "lost"),
+    "for `generalized_alpha`: fraction of the highest frequencies that remains after a time step, from 0 to 1; 1: "
+    "nothing is dissipated"),
   NAMED("mass", NULL, CHOICE, SceneDynamics, mass, SHOWN, MassTypes, "`redistributed`",
-    "mass matrix. `redistributed`: lumped, without mass at the nodes of contact faces without friction, which the "
-    "other nodes of their "
-    "cells have; `lumped`; `consistent`"),
+    "mass matrix. `redistributed`: lumped, but the mass of nodes on contact faces without friction is moved to the "
+    "other nodes of their cells; `lumped`; `consistent`"),
   REALS("damping_mass", NULL, 1, SceneDynamics, damping_mass, OPTIONAL, ANY, "1/T", "0",
-    "Rayleigh damping: forces of this times mass times velocity"),
+    "Rayleigh damping: the force is this factor times mass times velocity"),
   REALS("damping_stiffness", NULL, 1, SceneDynamics, damping_stiffness, OPTIONAL, ANY, "T", "0",
-    "Rayleigh damping: forces of this times stiffness times velocity, of bodies of linear laws"),
+    "Rayleigh damping: the force is this factor times stiffness times velocity; only for bodies with linear laws"),
   {NULL}};
 
 static const SceneBody         body_initial         = {.element = ELEMENT_AUTO};
