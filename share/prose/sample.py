@@ -9,6 +9,7 @@ TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 SOURCES = ("apps", "include", "pc_amgf", "tao_ipfilter", "src")
 NUMBER = 20
 WORDS = 5  # fewer make no sentence
+ABBREVIATIONS = r"(?<!\b[A-Z])(?<!e\.g)(?<!i\.e)(?<!\bal)"  # a dot after one of these ends no sentence
 
 
 def text(path):
@@ -27,8 +28,8 @@ def place(path, content, offset):
 
 
 def sentences_of(prose):
-    """Sentences, each with where it begins"""
-    for match in re.finditer(r"\S.*?(?:[.:?!](?=\s|$)|\n\s*\n|$)", prose, flags=re.S):
+    """Sentences, each with where it begins. A colon ends none, since what follows it cannot be read alone"""
+    for match in re.finditer(r"\S.*?(?:" + ABBREVIATIONS + r"[.?!](?=\s|$)|\n\s*\n|$)", prose, flags=re.S):
         sentence = " ".join(match[0].split())
         if len(sentence.split()) >= WORDS:
             yield match.start(), sentence
@@ -45,14 +46,19 @@ def pages():
         path, content = os.path.relpath(name, TOP), text(name)
         if "changelog" in path or path.startswith("share/bench"):
             continue
-        prose = re.sub(r"^(    |\||#|!\[|- \[).*$", blank, content, flags=re.M)
+        prose = re.sub(r"^## (?:References|Relatives)$.*?(?=^## |\Z)", blank, content, flags=re.S | re.M)
+        prose = re.sub(r"^(    |\||#|!\[|- \[|<!--).*$", blank, prose, flags=re.M)
         prose = re.sub(r"^```.*?^```", blank, prose, flags=re.S | re.M)
+        prose = re.sub(r"\n(?=\s*(?:[-*]|\d+\.) )", "\n\n", prose)  # an item of a list ends the one before it
         for offset, sentence in sentences_of(prose):
-            yield place(path, content, offset), sentence
+            yield place(path, prose, offset), sentence
+        heads = ""
         for row in re.finditer(r"^\|(.*)\|$", content, flags=re.M):
-            cells = [cell.strip() for cell in row[1].split("|")]
-            if max(len(cell.split()) for cell in cells) >= 2 * WORDS:
-                yield place(path, content, row.start()), " | ".join(cells)
+            cells = [cell.strip() for cell in row[1].split(" | ")]
+            if content.startswith("\n| ---", row.end()):
+                heads = " | ".join(cells)
+            elif max(len(cell.split()) for cell in cells) >= 2 * WORDS:
+                yield place(path, content, row.start()), " | ".join(cells) + f"\n      (columns: {heads})"
 
 
 def comments():
@@ -61,17 +67,21 @@ def comments():
             if match[1].startswith("@"):
                 continue  # manual pages have their own form
             prose = re.sub(r"^\s*\*? ?", "", match[1], flags=re.M)
+            code = content[content.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
             if len(prose.split()) >= WORDS:
-                yield place(path, content, match.start()), " ".join(prose.split())
+                yield place(path, content, match.start()), " ".join(prose.split()) + (f"\n      (beside: {code})" if code else "")
 
 
 def messages():
     calls = r"(?:PetscCheck|SETERRQ|PetscInfo|\w*[Pp]rintf|\w*Warn\w*|\w*Fail\w*|\w*Say\w*|\w*Reason\w*|PetscOptions\w+)"
     for path, content in sources():
         for match in re.finditer(calls + r"\s*\((.*?)\);", content, flags=re.S):
-            call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt_FMT\s*"', "d", match[1]))
+            if re.search(r"@\w+{", match[1]):  # a citation
+                continue
+            call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt_FMT\s*"?', "d", match[1]))
             for piece in re.findall(r'"((?:[^"\\]|\\.)*)"', call):
-                if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and not piece.startswith("-"):
+                # neither XML nor the headings of columns
+                if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and piece[:1] not in "-<" and not re.search(r"<\w+ |  .*  .*  ", piece):
                     yield place(path, content, match.start()), piece
 
 

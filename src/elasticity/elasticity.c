@@ -163,7 +163,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
       PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,
       "Body %" PetscInt_FMT ": the element bbar cannot be used with Saint Venant-Kirchhoff, whose dilatation tr E is "
-                            "not the change of volume",
+      "not the change of volume",
       b);
   }
   PetscCall(ElasticityReadOptions(e));
@@ -186,7 +186,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Level: beginner
 
   Notes:
-  The tangent has zero rows and columns there, apart from the diagonal. Energy and force do not know of it. The next
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force are not affected. The next
   tangent is assembled completely.
 
 .seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`

@@ -63,7 +63,7 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 
   Notes:
   Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
-  `PETSC_INFINITY` or more, and so the norm of the vector is infinite on every rank.
+  `PETSC_INFINITY` or more. The norm of the vector is therefore infinite on every rank.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/

@@ -77,7 +77,7 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
 }
 
 /*@
-  ElasticitySetMass - Sets what the bodies' mass is made of
+  ElasticitySetMass - Sets the density and the type of the bodies' mass
 
   Collective
 
@@ -92,7 +92,7 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
   Level: intermediate
 
   Notes:
-  A cell of light nodes alone keeps its mass where it is. The mass of a body is the same in all cases.
+  In a cell all of whose nodes are light, no mass is moved. The mass of a body is the same in all cases.
 
   References:
   Khenous, Laborde and Renard, Mass redistribution method for finite element contact problems in elastodynamics, 2008.
@@ -199,17 +199,17 @@ PetscErrorCode ElasticityCreateMass(Elasticity e, Mat *mass)
 }
 
 /*@
-  ElasticitySetInertia - Has tangents hold the mass matrix, too, as time steps need it
+  ElasticitySetInertia - Adds the mass matrix to later tangents, as time steps require
 
   Collective
 
   Input Parameters:
 + elasticity - the context, after `ElasticitySetMass()`
 . inertia    - factor of the mass matrix [1/time^2]
-- viscosity  - the stiffness of cells is multiplied by 1 plus this
+- viscosity  - relative increase of the cells' stiffness, for damping
 
   Output Parameter:
-. changed - whether tangents differ from those before; the next one is assembled completely then
+. changed - whether the factors have changed; the next tangent is then assembled completely
 
   Level: intermediate
 

@@ -142,8 +142,8 @@ static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
 }
 
 /*@
-  ElasticityExcess - Computes by how much the mean force of a step, which keeps energy and momentum, exceeds the mean of
-  the forces at its ends
+  ElasticityExcess - Computes the mean force of a step, which conserves energy and momentum, minus the mean of the
+  forces at both ends
 
   Collective
 
@@ -153,14 +153,14 @@ static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
 - to         - displacement at the end [length]
 
   Output Parameters:
-+ excess - on all rows; zero if a cell is turned inside out [force]
-- valid  - whether none is
++ excess - the difference, on all rows; zero if a cell is inverted [force]
+- valid  - whether no cell is inverted
 
   Level: intermediate
 
   Notes:
-  The work of mean force is the change of the energy, `ElasticityEnergy()`, which has the plastic work in it. It has
-  neither resultant nor moment about the mean of the places. For bodies with a constant tangent the excess is zero.
+  The work of mean force is the change of the energy, `ElasticityEnergy()`, including plastic work. It has neither a
+  resultant nor a moment about the mean positions. For bodies with a constant tangent the excess is zero.
 
   References:
 . * - Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000.

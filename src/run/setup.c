@@ -105,7 +105,7 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 }
 
 /*@C
-   SimulationSetUp - Builds the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
+   SimulationSetUp - Creates the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
    at time 0 with zero displacement
 
    Collective

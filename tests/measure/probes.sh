@@ -68,6 +68,6 @@ sed 's/point: .*/point: [7, 7, 7]}/' ball.yaml > far.yaml
 for scene in outside far; do
   for check in '' -scene_check; do
     mpiexec --oversubscribe -n 2 "$contact" $scene.yaml $check > out 2> err
-    echo "$scene $check: exit $?, $(sed 's/but 0.[0-9]* /but ... /;q' err)"
+    echo "$scene $check: exit $?, $(sed 's/it is 0.[0-9]* /it is ... /;q' err)"
   done
 done

@@ -201,7 +201,7 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
 }
 
 /*@
-  ElasticityAddForce - Adds the load of a dead traction on a face that has given resultants
+  ElasticityAddForce - Adds a dead load on a face: the linear traction with a given resultant force and moment
 
   Collective
 

@@ -144,7 +144,8 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
 
   Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
   body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
-  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not seen. In bodies
+  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not included. In
+  bodies
   of one layer of cells the estimate is rough.
 
   If a cell is inverted the estimate is infinite.

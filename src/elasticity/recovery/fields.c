@@ -58,7 +58,7 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   Notes:
   Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
   body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first
-  order. Where bodies share a node it has the mean of theirs. A node at which the material is turned inside out has
+  order. A node that several bodies share has the mean of their values. A node at which the material is inverted has
   `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`

@@ -24,7 +24,7 @@ static PetscReal StressVonMises(const PetscReal s[6])
 
   Notes:
   The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
-  dilatation. A cell turned inside out has the value `PETSC_INFINITY`.
+  dilatation. An inverted cell has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`
 @*/

@@ -189,7 +189,8 @@ static PetscErrorCode CyclicMatch(const SceneCyclic *cut, const PetscReal axis[3
   Level: developer
 
   Note:
-  It is an error if a turn has no whole number of such sectors, or if the meshes of the faces are not alike. The caller
+  It is an error if 360 degrees is not a multiple of the angle between the faces, or if the faces have different
+  meshes. The caller
   frees both lists.
 
 .seealso: `MeshGetFaceDofs()`

@@ -32,7 +32,7 @@ static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *b
   }
   for (PetscInt c = 0; c < 3; ++c) cross += PetscSqr(a[c] * b[(c + 1) % 3] - a[(c + 1) % 3] * b[c]);
   PetscCheck(body->shape != SHAPE_RIGID_EXTRUDED || cross > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\" has across parallel to its direction, but must have it perpendicular", body->name);
+    "Body \"%s\" has across parallel to its direction, but the two must be perpendicular", body->name);
   PetscCheck(body->own[SURFACE_OUTSIDE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has outside %g, which must be 0 or positive", body->name, (double)body->own[SURFACE_OUTSIDE]);
   PetscFunctionReturn(0);
