@@ -1,12 +1,13 @@
 /* Reports bodies that overlap initially by more than the search depth. Such bodies would get no contact rows. */
 #include "contactimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 /* A row that only a search with a larger depth finds. All fields are real, so that rows can be sent as one array. */
 typedef struct {
   PetscReal pair, depth, x[3], y[3]; /* number of the pair, penetration [length], coordinates of the nonmortar vertex
                                         and of its point on the mortar face [length] */
 } InitialOverlapRow;
-#define OVERLAP_REALS ((PetscMPIInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+#define OVERLAP_REALS ((PetscInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
 
 /* Returns whether the point x is inside a box */
 static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal x[3])
@@ -83,27 +84,6 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
   PetscFunctionReturn(0);
 }
 
-/* Collective. Collects the rows of all ranks on every rank; replaces *deep */
-static PetscErrorCode InitialOverlapGatherRows(MPI_Comm comm, PetscInt *n, InitialOverlapRow **deep)
-{
-  PetscMPIInt        size, mine = OVERLAP_REALS * (PetscMPIInt)*n, *count, *start;
-  InitialOverlapRow *all;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
-  start[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  PetscCall(PetscMalloc1(start[size] / OVERLAP_REALS, &all));
-  PetscCallMPI(MPI_Allgatherv(*deep, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
-  PetscCall(PetscFree(*deep));
-  *n    = start[size] / OVERLAP_REALS;
-  *deep = all;
-  PetscCall(PetscFree2(count, start));
-  PetscFunctionReturn(0);
-}
-
 /* Collective. Selects the deepest row whose vertex or point is inside the other body, not only behind its face.
    deepest->depth stays 0 if there is none. */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
@@ -146,7 +126,7 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   PetscCall(DMRestoreGlobalVector(contact->dm, &zero));
   PetscCall(InitialOverlapFindRows(contact, box, usual, wide, &n, &deep));
   PetscCall(ContactLinearizationDestroy(&wide));
-  PetscCall(InitialOverlapGatherRows(contact->comm, &n, &deep));
+  PetscCall(RecordsGather(contact->comm, OVERLAP_REALS, &n, &deep));
   PetscCall(InitialOverlapPickDeepest(contact, boundary, n, deep, deepest));
   PetscCall(PetscFree(deep));
   PetscFunctionReturn(0);

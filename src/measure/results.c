@@ -1,20 +1,15 @@
 /* Computes fields for probes and files: stress at the nodes and at the quadrature points, strain energy */
 #include "measureimpl.h"
+#include "src/elasticity/recovery/recoveryimpl.h"
 #include "src/state/path.h"
 #include "src/state/results.h"
-
-static PetscReal ResultsVonMises(const PetscReal s[6])
-{
-  return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) +
-                       3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
 
 /* Completes a stress: stress, von Mises stress, principal values */
 PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES])
 {
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(values, stress, 6));
-  values[6] = ResultsVonMises(stress);
+  values[6] = StressVonMises(stress);
   PetscCall(ElasticityPrincipal(stress, values + 7));
   PetscFunctionReturn(0);
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "assemblyimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
                                                 face */
@@ -55,25 +56,8 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 /* Collective. Collects the places of all ranks on every rank */
 static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 {
-  PetscMPIInt size, n, *counts, *first;
-  HeldPlace  *all;
-  PetscInt    total = 0;
-
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &counts, size, &first));
-  PetscCall(PetscMPIIntCast(2 * face->n, &n));
-  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, counts, 1, MPI_INT, comm));
-  for (PetscMPIInt r = 0; r < size; ++r) {
-    PetscCall(PetscMPIIntCast(total, &first[r]));
-    total += counts[r];
-  }
-  PetscCall(PetscMalloc1(total / 2, &all));
-  PetscCallMPI(MPI_Allgatherv(face->places, n, MPIU_REAL, all, counts, first, MPIU_REAL, comm));
-  PetscCall(PetscFree(face->places));
-  PetscCall(PetscFree2(counts, first));
-  face->places = all;
-  face->n      = total / 2;
+  PetscCall(RecordsGather(comm, 2, &face->n, &face->places));
   HeldPlacesUnite(face->rounding, &face->n, face->places);
   PetscFunctionReturn(0);
 }

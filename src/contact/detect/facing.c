@@ -1,5 +1,6 @@
 /* Finds the pairs of surfaces that face each other at some time of the load program */
 #include "detectimpl.h"
+#include "src/mesh/query/queryimpl.h"
 #include <stdlib.h>
 
 #define FACING_STATES   32   /* largest number of times at which the bodies are tested */
@@ -12,7 +13,7 @@ typedef struct {
      and number of tied facets, for each surface */
   PetscReal surface[2], apart, area[2], count[2], tied[2];
 } FacingRecord;
-#define FACING_REALS ((PetscMPIInt)(sizeof(FacingRecord) / sizeof(PetscReal)))
+#define FACING_REALS ((PetscInt)(sizeof(FacingRecord) / sizeof(PetscReal)))
 
 typedef struct {
   PetscInt      n, max;
@@ -235,24 +236,10 @@ static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
 /* Collective. Collects the records of all ranks on every rank */
 static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
 {
-  PetscMPIInt   size, mine, *count, *start;
-  FacingRecord *all;
-
   PetscFunctionBegin;
   FacingMerge(list);
-  mine = FACING_REALS * (PetscMPIInt)list->n;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
-  start[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  PetscCall(PetscMalloc1(start[size] / FACING_REALS, &all));
-  PetscCallMPI(MPI_Allgatherv(list->record, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
-  PetscCall(PetscFree(list->record));
-  list->n      = start[size] / FACING_REALS;
-  list->record = all;
+  PetscCall(RecordsGather(comm, FACING_REALS, &list->n, &list->record));
   FacingMerge(list);
-  PetscCall(PetscFree2(count, start));
   PetscFunctionReturn(0);
 }
 

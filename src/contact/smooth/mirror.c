@@ -4,6 +4,7 @@
    facets on both sides.
 */
 #include "smoothimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 /* A surface counts as perpendicular to the plane if the component of the vertex normal along the plane's normal is at
    most this fraction of the facet normal's component, */
@@ -18,7 +19,7 @@ typedef struct {
   PetscReal axis, place;
   PetscReal oblique; /* 1 if the surface is not perpendicular to the plane, on any rank; else 0 */
 } MirrorPlane;
-#define MIRROR_REALS ((PetscMPIInt)(sizeof(MirrorPlane) / sizeof(PetscReal)))
+#define MIRROR_REALS ((PetscInt)(sizeof(MirrorPlane) / sizeof(PetscReal)))
 
 /* Returns whether a node is held along the axis */
 static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt axis)
@@ -74,25 +75,14 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
 static PetscErrorCode MirrorFindPlanes(MPI_Comm comm, const ContactRing *ring, PetscInt nown, PetscReal tolerance,
   PetscInt *n, MirrorPlane **planes)
 {
-  PetscMPIInt  size, mine, *count, *start;
-  MirrorPlane *own, *all;
+  PetscInt nall;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(12 * nown, &own));
-  PetscCall(MirrorFindOwn(ring, nown, tolerance, n, own));
-  mine = MIRROR_REALS * (PetscMPIInt)*n;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
-  start[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  PetscCall(PetscMalloc1(start[size] / MIRROR_REALS, &all));
-  PetscCallMPI(MPI_Allgatherv(own, mine, MPIU_REAL, all, count, start, MPIU_REAL, comm));
-  *n      = 0;
-  *planes = all; /* The planes that remain are stored at the beginning of the same array. */
-  for (PetscInt k = 0; k < start[size] / MIRROR_REALS; ++k) MirrorAddPlane(all[k], tolerance, n, all);
-  PetscCall(PetscFree2(count, start));
-  PetscCall(PetscFree(own));
+  PetscCall(PetscMalloc1(12 * nown, planes));
+  PetscCall(MirrorFindOwn(ring, nown, tolerance, &nall, *planes));
+  PetscCall(RecordsGather(comm, MIRROR_REALS, &nall, planes));
+  *n = 0; /* The planes that remain are stored at the beginning of the same array. */
+  for (PetscInt k = 0; k < nall; ++k) MirrorAddPlane((*planes)[k], tolerance, n, *planes);
   PetscFunctionReturn(0);
 }
 
@@ -187,7 +177,7 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
 PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
 {
   const PetscReal tolerance = MIRROR_ROUNDING * length;
-  PetscInt        n, *flips;
+  PetscInt        n         = 0, *flips;
   MirrorPlane    *planes;
 
   PetscFunctionBegin;

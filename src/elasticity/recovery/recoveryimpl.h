@@ -21,7 +21,10 @@ PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *v
 PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[]);
 
-/* order2.c */
+/* stress.c: von Mises stress of xx yy zz xy yz zx */
+PETSC_INTERN PetscReal StressVonMises(const PetscReal stress[6]);
+
+/* order2.c: recovers gradients at the nodes of cells of order 2 */
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 

@@ -1,7 +1,7 @@
 /* Computes the stress of the cells */
 #include "recoveryimpl.h"
 
-static PetscReal StressVonMises(const PetscReal s[6])
+PetscReal StressVonMises(const PetscReal s[6])
 {
   return PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[1]) + PetscSqr(s[1] - s[2]) + PetscSqr(s[2] - s[0])) +
                        3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));

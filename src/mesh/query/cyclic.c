@@ -57,28 +57,6 @@ static PetscErrorCode CyclicGetNodes(DM dm, Vec places, const char face[], Petsc
   PetscFunctionReturn(0);
 }
 
-/* Gathers the nodes of all ranks on every rank, and sorts them */
-static PetscErrorCode CyclicGather(MPI_Comm comm, PetscInt n, const CyclicNode nodes[], CyclicFace *face)
-{
-  PetscMPIInt size, count, *counts, *first, total = 0;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &counts, size, &first));
-  PetscCall(PetscMPIIntCast(4 * n, &count));
-  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, comm));
-  for (PetscMPIInt r = 0; r < size; ++r) {
-    first[r] = total;
-    total += counts[r];
-  }
-  face->n = total / 4;
-  PetscCall(PetscMalloc1(face->n, &face->nodes));
-  PetscCallMPI(MPI_Allgatherv(nodes, count, MPIU_REAL, face->nodes, counts, first, MPIU_REAL, comm));
-  qsort(face->nodes, (size_t)face->n, sizeof(CyclicNode), CyclicCompare);
-  PetscCall(PetscFree2(counts, first));
-  PetscFunctionReturn(0);
-}
-
 /* Computes the vector from the axis to a point, perpendicular to the axis. axis: unit vector */
 static void CyclicArm(const SceneCyclic *cut, const PetscReal axis[3], const PetscReal x[3], PetscReal arm[3])
 {
@@ -199,8 +177,8 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
   PetscInt *images[])
 {
   MPI_Comm    comm = PetscObjectComm((PetscObject)dm);
-  PetscInt    nfrom, total;
-  CyclicNode *from, *to;
+  PetscInt    total;
+  CyclicNode *to;
   CyclicFace  face;
   PetscReal   axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]}, size, lost = 0.0;
   Vec         coordinates, places;
@@ -210,17 +188,18 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
   PetscCall(DMCreateGlobalVector(dm, &places));
   PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
   PetscCall(DMLocalToGlobal(dm, coordinates, INSERT_VALUES, places));
-  PetscCall(CyclicGetNodes(dm, places, cut->from, &nfrom, &from));
+  PetscCall(CyclicGetNodes(dm, places, cut->from, &face.n, &face.nodes));
   PetscCall(CyclicGetNodes(dm, places, cut->to, n, &to));
   PetscCall(VecDestroy(&places));
-  PetscCall(CyclicFindTurn(comm, cut, axis, nfrom, from, *n, to, turn, &size));
-  for (PetscInt k = 0; k < nfrom; ++k) {
-    PetscReal r[3];
+  PetscCall(CyclicFindTurn(comm, cut, axis, face.n, face.nodes, *n, to, turn, &size));
+  for (PetscInt k = 0; k < face.n; ++k) {
+    PetscReal *x = face.nodes[k].x, r[3];
 
-    for (PetscInt d = 0; d < 3; ++d) r[d] = from[k].x[d] - cut->center[d];
-    for (PetscInt d = 0; d < 3; ++d) from[k].x[d] += VectorDot(turn[d], r);
+    for (PetscInt d = 0; d < 3; ++d) r[d] = x[d] - cut->center[d];
+    for (PetscInt d = 0; d < 3; ++d) x[d] += VectorDot(turn[d], r);
   }
-  PetscCall(CyclicGather(comm, nfrom, from, &face));
+  PetscCall(RecordsGather(comm, 4, &face.n, &face.nodes));
+  qsort(face.nodes, (size_t)face.n, sizeof(CyclicNode), CyclicCompare);
   PetscCall(PetscMalloc1(*n, nodes));
   PetscCall(PetscMalloc1(*n, images));
   PetscCall(CyclicMatch(cut, axis, &face, cyclic_same * size, *n, to, *nodes, *images, &lost));
@@ -231,7 +210,6 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
     " and %" PetscInt_FMT " nodes): both faces must have the same mesh",
     cut->name, cut->from, cut->to, face.n, total);
   PetscCall(PetscFree(face.nodes));
-  PetscCall(PetscFree(from));
   PetscCall(PetscFree(to));
   PetscFunctionReturn(0);
 }

@@ -13,6 +13,9 @@
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
+/* gather.c: the lists of all ranks on every rank */
+PETSC_INTERN PetscErrorCode RecordsGather(MPI_Comm, PetscInt reals, PetscInt *n, void *records);
+
 /* tetrahedron.c: position of a node in the reference tetrahedron */
 PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);
 
