@@ -24,8 +24,8 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   PetscCall(VecGetOwnershipRange(u, &m->first, &last));
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
-  PetscCall(
-    PetscCalloc3(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open));
+  PetscCall(PetscCalloc4(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open,
+    npairs * m->nowned, &m->released));
   for (PetscInt p = 0; p < npairs; ++p)
     frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&scene->pairs[p]));
   if (frictional)
@@ -238,7 +238,7 @@ PetscErrorCode ContactHistoryLeastGap(const ContactHistory *m, const PetscBool l
 PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(m->pressure, m->slack, m->open));
+  PetscCall(PetscFree4(m->pressure, m->slack, m->open, m->released));
   PetscCall(PetscFree5(m->shear, m->settled, m->friction, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

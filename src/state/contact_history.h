@@ -13,6 +13,8 @@ struct _n_ContactHistory {
                                     if there was no row */
   PetscBool   *open;             /* [npairs x nowned] true if the gap is open, so that the pressure comes from the
                                     barrier term only */
+  PetscBool   *released;         /* [npairs x nowned] true if a vertex that must stick has opened in this load step, so
+                                    that it is free until the end of the step */
   PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
                                     friction */
   PetscReal   *settled;          /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL

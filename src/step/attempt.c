@@ -620,6 +620,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   report->contact_updates = 0;
   report->gap_unconverged = PETSC_FALSE;
   p->by_newton            = PETSC_FALSE;
+  PetscCall(PetscArrayzero(sim->history->released, sim->history->npairs * sim->history->nowned));
   PetscCall(AttemptBegin(p, foreseen, u, report, &u_linearized));
   PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
   while (!end) {

@@ -12,7 +12,8 @@
 
 /*
    Sets limit and coefficient of each row. A pair with `stick: true` has the coefficient 1,000, because with an infinite
-   coefficient the force bound of a vertex with zero pressure would be undetermined.
+   coefficient the force bound of a vertex with zero pressure would be undetermined. Vertices that have opened in this
+   load step are free; those that have closed again stick from the next load step on.
 */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
@@ -32,6 +33,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r] = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) / share : PETSC_INFINITY;
     coefficient[r] = mu >= PETSC_INFINITY && limit[r] >= PETSC_INFINITY ? sticks : mu;
+    if (p->sim->history->released[ContactHistoryIndex(p->sim->history, lin, r)]) coefficient[r] = 0.0;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));
@@ -110,6 +112,25 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscFunctionReturn(0);
 }
 
+/* Stores which vertices that must stick have opened: the optimizer has set their coefficients to zero */
+static PetscErrorCode FrictionKeepReleased(StepProblem *p)
+{
+  ContactLinearization lin = p->sim->solved->linearization;
+  ContactHistory      *m   = p->sim->history;
+  const PetscScalar   *coefficient;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(p->friction.coefficient, &coefficient));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    PetscReal mu = 0.0;
+
+    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, lin->pair[r], &mu));
+    if (mu > 0.0 && PetscRealPart(coefficient[r]) == 0.0) m->released[ContactHistoryIndex(m, lin, r)] = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(p->friction.coefficient, &coefficient));
+  PetscFunctionReturn(0);
+}
+
 /* Stores friction forces and slips of the solution u in sol, and the forces in the contact history. */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
@@ -125,6 +146,7 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(VecDuplicate(force, &sol->slip));
   PetscCall(VecAXPBY(sol->shear, StepProblemShare(p), 0.0, force));
   PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
+  PetscCall(FrictionKeepReleased(p));
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {

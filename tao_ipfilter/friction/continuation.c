@@ -1,5 +1,6 @@
 /*
-   Solves the laws of laws.c by Newton's method (set.c). If that fails, the coefficients of friction are first limited
+   Solves the laws of laws.c by Newton's method (set.c), or by exchanges (stick.c, pivot.c) and Newton's method. If that
+   fails, the coefficients of friction are first limited
    to a small value, for which the path of smoothed laws (path.c) is reliable. The limit is then raised in steps that
    Newton's method can follow, up to the given values. If that fails as well, the convex problem with fixed bounds is
    solved (convex.c).
@@ -137,6 +138,28 @@ static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem
 }
 
 /*
+   Solves by pivoting, and by Newton's method from its end. The frames of terms that slip are those of the last end, so
+   that the laws of their components approach the law of the term.
+*/
+static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscInt limit = 30, tries = 4;
+  PetscBool      found = PETSC_FALSE, open = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(IPTermStickSolve(set, s, steps, &found));
+  if (found) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  for (PetscInt k = 0; k < tries && !*solved; k++) {
+    PetscCall(IPTermPivotFollow(set, s, open, steps, &found));
+    if (!found && open) break;
+    open = (PetscBool)!found;
+    if (found) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
    Solves after Newton's method has failed: by Newton's method with computed compliances, by continuation, or by the
    convex problem. begin: forces, motions and y at the start.
 */
@@ -145,6 +168,7 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
 {
   PetscFunctionBegin;
   PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
+  if (!*solved) PetscCall(ContinuationPivot(set, s, first, steps, solved));
   if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationSolve(set, s, first, steps, solved));
   set->met = *solved;

@@ -53,6 +53,40 @@ typedef struct {
   IPTermSystem system;
 } IPTermSet;
 
+/* coefficient from which a term whose constraint is closed is taken to stick always */
+#define IP_TERM_STICKS 100.0
+
+/* The tableau of tableau.c */
+typedef struct {
+  PetscInt   m, n, rows;      /* number of constraints; number of terms; number of rows, m + 2 n */
+  PetscReal *A, *q;           /* basic variables = A (nonbasic variables) + q; A has rows + 1 columns */
+  PetscInt  *basic, *others;  /* the basic variable of each row; the nonbasic variable of each column */
+  PetscInt  *place;           /* of each variable: its row, or -1 - its column */
+  PetscReal *scale;           /* per row: the force is scale times the variable, the motion the variable over scale */
+  PetscReal *axis;            /* two entries per term: the first axis of its frame */
+  PetscReal *mu, *limit;      /* per term: b = mu lambda + limit */
+  PetscReal *sign;            /* two entries per term: s */
+  PetscBool *sticks;          /* two entries per term: whether the component sticks */
+  PetscBool *closed;          /* whether each constraint is closed */
+  PetscBool *dropped;         /* whether a row never carries a force */
+  PetscReal  length;          /* size of the motions, for tolerances [length] */
+  PetscInt   driving;         /* the nonbasic variable that moves; -1: none does */
+  PetscReal  direction, last; /* its direction, 1 or -1; its value at the end of the path */
+  PetscInt64 seed;            /* of the numbers that separate rows */
+} IPTableau;
+
+static inline PetscReal *IPTableauColumn(const IPTableau *p, PetscInt column)
+{
+  return p->A + (size_t)column * (size_t)p->rows;
+}
+
+/* Returns the term of a row, -1 for a constraint, and its component a */
+static inline PetscInt IPTableauTerm(const IPTableau *p, PetscInt row, PetscInt *a)
+{
+  *a = row < p->m ? 0 : (row - p->m) % 2;
+  return row < p->m ? -1 : (row - p->m) / 2;
+}
+
 /* system.c */
 PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors,
   Mat R, PetscBool *definite);
@@ -106,6 +140,22 @@ PETSC_INTERN PetscErrorCode IPTermConvexSolve(IPTermSet *, const IPReducedSystem
 PETSC_INTERN PetscErrorCode IPTermSetOff(IPTermSet *, const IPReducedSystem *, PetscReal *off);
 PETSC_INTERN PetscErrorCode IPTermSetIterate(IPTermSet *, const IPReducedSystem *, PetscInt limit, PetscReal first,
   PetscInt *steps, PetscBool *solved);
+
+/* tableau.c */
+PETSC_INTERN PetscErrorCode IPTableauCreate(const IPTermSet *, IPTableau *);
+PETSC_INTERN PetscErrorCode IPTableauDestroy(IPTableau *);
+PETSC_INTERN PetscErrorCode IPTableauExchange(IPTableau *, PetscInt row, PetscInt column);
+PETSC_INTERN void           IPTableauChoose(const IPTermSet *, const IPReducedSystem *, IPTableau *);
+PETSC_INTERN PetscErrorCode IPTableauSetUp(const IPTermSet *, const IPReducedSystem *, IPTableau *, PetscBool *made);
+PETSC_INTERN PetscErrorCode IPTableauEnter(IPTableau *);
+PETSC_INTERN PetscErrorCode IPTableauTake(IPTermSet *, const IPReducedSystem *, const IPTableau *);
+
+/* stick.c */
+PETSC_INTERN PetscErrorCode IPTermStickSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *found);
+
+/* pivot.c */
+PETSC_INTERN PetscErrorCode IPTermPivotFollow(IPTermSet *, const IPReducedSystem *, PetscBool open, PetscInt *steps,
+  PetscBool *found);
 
 /* continuation.c */
 PETSC_INTERN PetscErrorCode IPTermSetSolve(IPTermSet *, const IPReducedSystem *, PetscBool simply, PetscInt *steps,

@@ -119,6 +119,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms->n ? ip->terms->force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
+  if (ip->terms->n) PetscCall(IPReducedReleaseTerms(f->reduced, ip->terms->coefficient));
   ip->rec->nreduced++;
   ip->rec->npivots += f->reduced->nsteps;
   PetscCall(IPBasisAdd(basis, f->y, v));

@@ -104,7 +104,7 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*restart)(IPLaws); /* called after the initially closed rows were changed */
   PetscErrorCode (*forget)(IPLaws);  /* called after the directions were replaced */
   PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscBool simply, PetscInt *steps, PetscInt *nactive,
-    PetscBool *met, PetscBool *solved);
+    PetscBool *met, PetscBool *solved); /* sets the coefficients of terms that it releases to zero */
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
@@ -226,6 +226,7 @@ PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const 
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPReducedReleaseTerms(const IPReduced *, Vec coefficient);
 PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved);
 

@@ -1,0 +1,88 @@
+"""Faces that stick while they touch: leaves that bend and part, a shaft pushed out of its hub along one edge, a belt around a drum.
+
+python3 friction_stick.py scenes writes the scenes; python3 friction_stick.py judges the runs that friction_stick.sh has made.
+
+Some nodes of these can neither stick, since they would be pulled, nor be open, since they would penetrate. They open within the load step, and close again at another place.
+"""
+import sys
+
+from summaries import load, say
+
+TUBE = "{{shape: tube_arc, axis: z, radii: [{}, {}], angles: [0, 90], extent: [0, 20], cells: [{}, {}, 5], young: 200000, poisson: 0}}"
+HELD = f"""problem: held
+bodies:
+  - hub: {TUBE.format(25, 40, 4, 12)}
+  - shaft: {TUBE.format(15, 25.002, 3, 10)}
+displacements:
+  - push: {{face: shaft.lmin, value: [free, free, 0.02], ramp: push}}
+symmetry: [hub.amin, hub.amax, shaft.amin, shaft.amax, hub.lmin]
+contact:
+  - fit: {{mortar: shaft.outer, nonmortar: hub.inner, stick: true, interference: true}}
+load: {{steps: 3}}
+ramps:
+  - push: {{factors: [0, 0.1, 1]}}
+"""
+
+
+def leaves(n, law, steps=1):
+    """Leaves clamped at one end, and bent at the tip of the last. law: of their faces; empty: tied"""
+    bodies = displacements = pairs = ""
+    for i in range(n):
+        bodies += f"  - leaf{i}: {{lower: [0, 0, {0.3 * i:.6g}], upper: [10, 1, {0.3 * (i + 1):.6g}], cells: [20, 2, 1], young: 1000, poisson: 0.3, element: incompatible}}\n"
+        displacements += f"  - clamp{i}: {{face: leaf{i}.xmin, value: [0, 0, 0]}}\n"
+        pairs += f"  - j{i}: {{mortar: leaf{i - 1}.zmax, nonmortar: leaf{i}.zmin{law}}}\n" if i else ""
+    tip = f"  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\n"
+    return f"problem: leaves\nbodies:\n{bodies}displacements:\n{displacements}{tip}{'contact' if law else 'ties'}:\n{pairs}load: {{steps: {steps}}}\n"
+
+
+def belt(law):
+    """A thin belt around half of a drum, pulled at one end more than at the other"""
+    return f"""problem: belt
+bodies:
+  - drum: {{shape: tube_arc, axis: y, radii: [0.6, 1], angles: [0, 180], extent: [0, 0.5], cells: [2, 24, 2], young: 1e5, poisson: 0.3}}
+  - belt: {{shape: tube_arc, axis: y, radii: [1, 1.05], angles: [0, 180], extent: [0.05, 0.45], cells: [1, 36, 2], young: 1000, poisson: 0.3}}
+displacements:
+  - hold: {{face: drum.inner, value: [0, 0, 0]}}
+  - pull: {{face: belt.amin, value: [0, free, -0.02]}}
+  - slack: {{face: belt.amax, value: [0, free, -0.002]}}
+contact:
+  - wrap: {{mortar: drum.outer, nonmortar: belt.inner, {law}}}
+"""
+
+
+STICK = ", stick: true"
+SCENES = {
+    "leaves_free": leaves(3, ", friction: 0"),
+    "leaves": leaves(3, STICK),
+    "leaves_tied": leaves(3, ""),
+    "leaves_steps": leaves(3, STICK, 3),
+    "five_leaves": leaves(5, STICK),
+    "held": HELD,
+    "belt": belt("stick: true"),
+    "belt_rubs": belt("friction: 2"),
+}
+SCENES["leaves_free"] = SCENES["leaves_free"].replace(", friction: 0", "")
+
+if sys.argv[1:] == ["scenes"]:
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+    last = {}
+    for name in (*SCENES, "leaves_2"):
+        run = load(name)
+        last[name] = run["steps"][-1]
+        cuts = sum(step["cuts"] for step in run["steps"])
+        say(f"{name}: solved with at most one cut", run["converged"] and cuts <= 1, (run["reason"], cuts))
+    energies = [last[name]["energy"] for name in ("leaves_free", "leaves", "leaves_tied")]
+    say("leaves: stiffer than without friction, softer than tied", energies == sorted(energies), energies)
+    off = last["leaves_2"]["energy"] / last["leaves"]["energy"] - 1
+    say("leaves: 2 ranks as 1 to 2 %: which nodes open first may depend on their order", abs(off) < 0.02, off)
+    for name in "leaves", "five_leaves", "held", "belt":
+        step = last[name]
+        say(f"{name}: in equilibrium, and pressed", step["balance"] < 1e-6 and all(0 < pair["normal_force"] for pair in step["pairs"]), (step["balance"], step["pairs"]))
+    for name in "leaves", "five_leaves", "belt":
+        off = [pair["dissipated"] / last[name]["energy"] for pair in last[name]["pairs"]]
+        say(f"{name}: nothing is dissipated where nothing rubs", max(map(abs, off)) < 0.01, off)
+    pair = last["belt_rubs"]["pairs"][0]
+    say("belt_rubs: friction within its law", 0 < pair["shear_force"] <= 2 * pair["normal_force"] * (1 + 1e-6), pair)
