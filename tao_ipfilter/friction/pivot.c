@@ -271,7 +271,8 @@ static PetscBool PivotIsEndless(const IPTermSet *set)
 /*
    Moves to a solution of the laws by components. open: starts with all constraints open and with forces of zero, which
    is the only solution of the changed data; otherwise starts with the present state, which may be one of several.
-   *found: false if the path does not reach a solution, or C is not computed. *steps: increased by the number of exchanges.
+   *found: false if the path does not reach a solution, or C is not computed. *steps: increased by the number of
+   exchanges.
 */
 PetscErrorCode IPTermPivotFollow(IPTermSet *set, const IPReducedSystem *s, PetscBool open, PetscInt *steps,
   PetscBool *found)

@@ -155,10 +155,10 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
 
 /*
    Solves a problem whose closed contacts stick: by opening and closing contacts one at a time and, if that has no end
-   or a force is too large for its constraint, by releasing terms. If a term is released, the coefficients of all that do
-   not stick are set to zero: later problems of the same load step then have the same sticking contacts or fewer.
-   *found: false if terms may slip, C is not computed, or there is no solution. *steps: increased by the number of terms
-   released.
+   or a force is too large for its constraint, by releasing terms. If a term is released, the coefficients of all that
+   do not stick are set to zero: later problems of the same load step then have the same sticking contacts or fewer.
+   *found: false if terms may slip, C is not computed, or there is no solution. *steps: increased by the number of
+   terms released.
 */
 PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *found)
 {
