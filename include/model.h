@@ -26,7 +26,8 @@
   SHAPE(RIGID_CONE, RigidCone, "rigid_cone") \
   SHAPE(RIGID_TORUS, RigidTorus, "rigid_torus") \
   SHAPE(RIGID_EXTRUDED, RigidExtruded, "rigid_extruded") \
-  SHAPE(RIGID_REVOLVED, RigidRevolved, "rigid_revolved")
+  SHAPE(RIGID_REVOLVED, RigidRevolved, "rigid_revolved") \
+  SHAPE(RIGID_STL, RigidStl, "rigid_stl")
 
 #define BODY_SHAPE(name, shape, text) SHAPE_##name,
 typedef enum { BODY_SHAPES(BODY_SHAPE) SHAPE_GMSH } BodyShape;
@@ -47,6 +48,7 @@ enum {
   SURFACE_SIZE    = 9,
   SURFACE_ACROSS  = 10, /* three numbers: direction of a profile's first coordinate */
   SURFACE_OUTSIDE = 13, /* distance between the surface and its profile, on the outer side */
+  SURFACE_MASS    = 14,
   SURFACE_PROFILE = 16  /* number of coordinates, followed by the coordinates: two for each point of the profile */
 };
 
@@ -104,6 +106,9 @@ typedef struct {
                            it; 0: none */
 } SceneGmsh;
 
+/* The facets of an STL file (src/model/stl.c) */
+typedef struct _n_SceneStl *SceneStl;
+
 /* A part of a face: its facets at refinement level 0 whose centroids lie in a box */
 typedef struct {
   char     *name;               /* "<body>.<name>" is a face */
@@ -135,6 +140,7 @@ typedef struct {
   SceneHalfEllipse ellipse;
   SceneOctant      octant;
   SceneGmsh        gmsh;
+  SceneStl         stl;           /* of the shape rigid_stl, whose file and scale are those of `gmsh` */
   PetscReal        own[BODY_OWN]; /* parameters of shapes that have no named members in this struct */
   PetscInt         nsubfaces;
   SceneSubface    *subfaces;
@@ -406,7 +412,7 @@ PETSC_EXTERN PetscErrorCode SceneGetFactor(Scene, PetscInt ramp, PetscReal time,
 /* Returns whether a body is a rigid surface, whose contact uses a formula instead of facets */
 static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
 {
-  return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_REVOLVED);
+  return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_STL);
 }
 
 /* The cube of one cell that represents a rigid surface in the mesh: corner, unit vectors of its edges, length of the
@@ -414,7 +420,10 @@ static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
 typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
-PETSC_EXTERN void SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+PETSC_EXTERN void           SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char file[], PetscReal scale, SceneStl *,
+  PetscReal centre[3], PetscReal *edge);
+PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
 /* Sets both sides of a pair whose `self` is set, and marks the body if they are its whole boundary */

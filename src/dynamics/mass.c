@@ -48,6 +48,16 @@ static PetscErrorCode MassMarkInert(const Constraints *c, Dynamics *d)
   PetscFunctionReturn(0);
 }
 
+/* Returns the density of a body. That of a rigid surface gives the cube in the mesh the mass of the surface. */
+static PetscReal MassGetDensity(const SceneBody *body)
+{
+  SceneSurfaceCube cube;
+
+  if (!SceneBodyIsSurface(body)) return body->material.density;
+  SceneSurfaceGetCube(body, &cube);
+  return body->own[SURFACE_MASS] / (cube.size * cube.size * cube.size);
+}
+
 PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
 {
   Scene          scene = c->bodies.scene;
@@ -57,7 +67,7 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &density));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) density[b] = scene->bodies[b].material.density;
+  for (PetscInt b = 0; b < scene->nbodies; ++b) density[b] = MassGetDensity(&scene->bodies[b]);
   if (type == MASS_REDISTRIBUTED && scene->npairs) {
     PetscCall(VecDuplicate(c->bodies.mass, &light));
     PetscCall(MassMarkLight(c, light));

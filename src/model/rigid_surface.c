@@ -1,5 +1,4 @@
-/* Rigid surfaces that are given by a formula: the distance of a point, and the cube that represents the surface in the
-   mesh */
+/* Rigid surfaces without cells: the distance of a point, and the cube that represents the surface in the mesh */
 #include "modelimpl.h"
 #include <vector3.h>
 
@@ -61,7 +60,7 @@ static void SurfaceFrame(const SceneBody *body, PetscReal frame[3][3])
   VectorCross(frame[2], frame[0], frame[1]);
 }
 
-/* Computes the cube that represents the surface in the mesh */
+/* Computes the cube that represents the surface in the mesh. That of a ball has its moments of inertia, 2/5 m r^2. */
 void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
 {
   const PetscReal radius = body->own[SURFACE_RADIUS], given = body->own[SURFACE_SIZE];
@@ -69,7 +68,7 @@ void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
 
   SurfaceFrame(body, cube->edge);
   cube->size = given > 0.0 ? given : 1.0;
-  if (body->shape == SHAPE_RIGID_SPHERE) cube->size = 2.0 * radius / PetscSqrtReal(3.0);
+  if (body->shape == SHAPE_RIGID_SPHERE) cube->size = radius * PetscSqrtReal(2.4);
   if (body->shape == SHAPE_RIGID_CYLINDER) cube->size = PetscSqrtReal(2.0) * radius;
   if (body->shape == SHAPE_RIGID_TORUS) cube->size = body->own[SURFACE_SECTION];
   if (body->shape == SHAPE_RIGID_PLANE) middle = -0.5 * cube->size;
@@ -120,6 +119,7 @@ PetscReal SceneSurfaceDistance(const SceneBody *body, const PetscReal x[3], Pets
 {
   PetscReal frame[3][3], r[3], slope[2], distance, across, along;
 
+  if (body->shape == SHAPE_RIGID_STL) return StlDistance(body->stl, x, gradient);
   SurfaceFrame(body, frame);
   for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - body->own[SURFACE_POINT + c];
   if (body->shape == SHAPE_RIGID_EXTRUDED) {

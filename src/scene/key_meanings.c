@@ -49,7 +49,11 @@ static const KeyMeaning shape_meanings[] = {
     ""},
   {"length_cells", "", "number of cells along the axis", ""},
   {"lower", " [L]", "lower corner", ""},
-  {"mesh", "", "the mesh file, relative to the folder of the scene", ""},
+  {"mass", " [M]",
+    "mass of a rigid surface, with the moments of inertia of a uniform ball, or of the cube that shows its position; "
+    "required in `dynamics` if some of its motions are free",
+    "0"},
+  {"mesh", "", "the mesh or STL file, relative to the folder of the scene", ""},
   {"normal", "", "direction away from the rigid side", ""},
   {"octant", "",
     "signs of x, y, z in the octant, for example [1, 1, -1]; 2 means both signs, so that [2, 2, 2] is a whole ball and "

@@ -194,6 +194,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
     PetscCall(PetscFree(s->bodies[b].subfaces));
     PetscCall(GmshRemoveConverted(&s->bodies[b]));
     PetscCall(PetscFree(s->bodies[b].gmsh.file));
+    PetscCall(SceneStlDestroy(&s->bodies[b].stl));
     PetscCall(PetscFree(s->bodies[b].gmsh.volume));
   }
   for (const SceneList *list = SceneLists; list->name; ++list) {

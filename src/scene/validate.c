@@ -55,12 +55,11 @@ static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, const char file[], S
   for (PetscInt i = 0; i < 6; ++i) released = (PetscBool)(released || d->released[i]);
   if (!SceneIsDynamic(scene) || !released) PetscFunctionReturn(0);
   b = SceneFindBody(scene, d->face, &face);
-  SceneRequire(!SceneBodyIsSurface(&scene->bodies[b]),
-    "%s: displacement \"%s\" leaves motions of the body \"%s\" free, which is a rigid surface without mass; in "
-    "dynamics "
-    "all its motions are prescribed",
+  SceneRequire(!SceneBodyIsSurface(&scene->bodies[b]) || scene->bodies[b].own[SURFACE_MASS] > 0,
+    "%s: displacement \"%s\" leaves motions of the body \"%s\" free, which is a rigid surface and needs the key mass "
+    "in dynamics",
     file, d->name, scene->bodies[b].name);
-  SceneRequire(scene->bodies[b].material.density > 0,
+  SceneRequire(SceneBodyIsSurface(&scene->bodies[b]) || scene->bodies[b].material.density > 0,
     "%s: displacement \"%s\" leaves motions of the rigid body \"%s\" free, which needs a density in dynamics", file,
     d->name, scene->bodies[b].name);
   PetscFunctionReturn(0);

@@ -84,7 +84,7 @@ int main(int argc, char **argv)
   Vec          u, v, d;
   SceneBody    bodies[2];
   Material     materials[2];
-  MaterialType type        = MATERIAL_LINEAR, yields = MATERIAL_J2;
+  MaterialType type = MATERIAL_LINEAR, yields = MATERIAL_J2;
   ElementType  elements[2] = {ELEMENT_FULL, ELEMENT_FULL};
 
   PetscFunctionBeginUser;

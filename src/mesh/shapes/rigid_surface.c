@@ -1,7 +1,7 @@
 /*
-   Rigid surfaces: plane, sphere, cylinder, cone, torus, and profiles that are extruded or revolved. Contact uses the
-   formula of the surface. The mesh of the body is a cube of one cell, which carries the rigid body motion. The only
-   face of the cube represents the surface.
+   Rigid surfaces: plane, sphere, cylinder, cone, torus, profiles that are extruded or revolved, and STL files. Contact
+   uses the formula of the surface, or the facets of the file. The mesh of the body is a cube of one cell, which carries
+   the rigid body motion. The only face of the cube represents the surface.
 */
 #include "shapesimpl.h"
 
@@ -41,17 +41,19 @@ static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *b
 static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells,
   PetscInt64 *nvertices)
 {
-  const PetscReal *own    = body->own;
-  const PetscBool  line   = (PetscBool)(body->shape >= SHAPE_RIGID_EXTRUDED);
-  const PetscBool  round  = (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE && !line);
-  PetscReal        square = 0.0;
+  const PetscReal *own  = body->own;
+  const PetscBool  line = (PetscBool)(body->shape == SHAPE_RIGID_EXTRUDED || body->shape == SHAPE_RIGID_REVOLVED);
+  const PetscBool  stl  = (PetscBool)(body->shape == SHAPE_RIGID_STL);
+  const PetscBool  round =
+    (PetscBool)(body->shape != SHAPE_RIGID_PLANE && body->shape != SHAPE_RIGID_CONE && !line && !stl);
+  PetscReal square = 0.0;
 
   PetscFunctionBegin;
   PetscCheck(body->material.type == MATERIAL_RIGID, comm, PETSC_ERR_ARG_WRONG,
     "Body \"%s\" has the shape of a rigid surface, which is only for material rigid, but its material is %s",
     body->name, MaterialTypes[body->material.type]);
   for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(own[SURFACE_AXIS + c]);
-  PetscCheck(body->shape == SHAPE_RIGID_SPHERE || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(body->shape == SHAPE_RIGID_SPHERE || stl || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has a direction of length 0", body->name);
   PetscCheck(!round || own[SURFACE_RADIUS] > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has radius %g, which must be positive", body->name, (double)own[SURFACE_RADIUS]);
@@ -64,6 +66,8 @@ static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *bod
     (double)own[SURFACE_ANGLE]);
   PetscCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\" has size %g, which must be positive", body->name, (double)own[SURFACE_SIZE]);
+  PetscCheck(own[SURFACE_MASS] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\" has mass %g, which must be 0 or positive", body->name, (double)own[SURFACE_MASS]);
   if (line) PetscCall(RigidSurfaceCheckProfile(comm, body));
   *ncells    = 1;
   *nvertices = 8;
@@ -99,21 +103,26 @@ static PetscErrorCode ShapeCreate_RigidSurface(const SceneBody *body, ShapeGrid 
     NULL, KEY_REALS, 0, 0, PETSC_FALSE \
   }
 
+#define SURFACE_MASS_KEY SURFACE_KEY("mass", 1, SURFACE_MASS, PETSC_FALSE)
+
 static const ShapeKey plane_keys[] = {
   SURFACE_KEY("point", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("normal", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey sphere_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey cylinder_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey cone_keys[] = {
@@ -121,6 +130,7 @@ static const ShapeKey cone_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("half_angle", 1, SURFACE_ANGLE, PETSC_TRUE),
   SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey torus_keys[] = {
@@ -128,6 +138,7 @@ static const ShapeKey torus_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
   SURFACE_KEY("section_radius", 1, SURFACE_SECTION, PETSC_TRUE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 
@@ -139,12 +150,21 @@ static const ShapeKey extruded_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("across", 3, SURFACE_ACROSS, PETSC_TRUE),
   PROFILE_KEYS,
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey revolved_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   PROFILE_KEYS,
+  SURFACE_MASS_KEY,
+  SURFACE_END,
+};
+
+static const ShapeKey stl_keys[] = {
+  SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
+  SHAPE_KEY("scale", KEY_REALS, 1, gmsh.scale, PETSC_FALSE),
+  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 
@@ -159,3 +179,4 @@ const Shape ShapeRigidCone     = SURFACE_SHAPE(cone_keys);
 const Shape ShapeRigidTorus    = SURFACE_SHAPE(torus_keys);
 const Shape ShapeRigidExtruded = SURFACE_SHAPE(extruded_keys);
 const Shape ShapeRigidRevolved = SURFACE_SHAPE(revolved_keys);
+const Shape ShapeRigidStl      = SURFACE_SHAPE(stl_keys);

@@ -85,6 +85,20 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
   PetscFunctionReturn(0);
 }
 
+/* Reads the file of a rigid surface, and sets its point and the size of its cube from the facets */
+static PetscErrorCode SceneReadStl(SceneKeys keys, SceneBody *body)
+{
+  const PetscReal scale = body->gmsh.scale != 0 ? body->gmsh.scale : 1.0;
+
+  PetscFunctionBegin;
+  if (scale <= 0 || PetscIsInfOrNanReal(scale))
+    PetscCall(SceneKeysErrorOf(keys, body->name, "scale", " must be positive"));
+  else
+    PetscCall(SceneStlCreate(keys->comm, body->gmsh.file, scale, &body->stl, &body->own[SURFACE_POINT],
+      &body->own[SURFACE_SIZE]));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
 {
   char            key[SCENE_KEY_LENGTH];
@@ -108,7 +122,8 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
       for (PetscInt s = 0; s < 3; ++s) PetscCall(PetscArraycpy(spheres[s]->center, octant->corner, 3));
     }
   }
-  if (body->shape == SHAPE_GMSH) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
+  if (body->gmsh.file) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
+  if (body->shape == SHAPE_RIGID_STL && body->gmsh.file) PetscCall(SceneReadStl(keys, body));
   if (body->shape != SHAPE_BOX) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
