@@ -49,7 +49,7 @@ enum {
   SURFACE_ACROSS  = 10, /* three numbers: direction of a profile's first coordinate */
   SURFACE_OUTSIDE = 13, /* distance between the surface and its profile, on the outer side */
   SURFACE_MASS    = 14,
-  SURFACE_PROFILE = 16  /* number of coordinates, followed by the coordinates: two for each point of the profile */
+  SURFACE_PROFILE = 16 /* number of coordinates, followed by the coordinates: two for each point of the profile */
 };
 
 /* An arc of a tube, or a whole tube. A cylinder uses axis, center, outer radius and extent. A cone uses the radii at

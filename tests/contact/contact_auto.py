@@ -69,6 +69,20 @@ def write():
     scenes["wrong_key"] = base + "contact:\n  - own: {mortar: slab.zmax, nonmortar: block.zmin, tie: 1}\n"
     scenes["no_side"] = base + "contact:\n  - own: {mortar: slab.zmax}\n"
     scenes["far"] = base.replace("head: {face: block.zmax, value: [0.01, 0, -0.05]}", "head: {face: block.zmax, value: [0, 0, 0]}").replace("lower: [-1, -1, 0]", "lower: [-1, -1, 0.9]") + "contact:\n  - auto: {distance: 0.5}\n"
+    # facets of a bush and of its bore that are turned against each other, and a bush with a clearance
+    bush = """bodies:
+  - plate: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 360], extent: [0, 1], cells: [2, 18, 2], young: 1, poisson: 0.3}}
+  - bush: {{shape: tube_arc, axis: z, radii: [0.7, {radius}], angles: [10, 370], extent: [0, 1], cells: [1, 18, 2], young: 1, poisson: 0.3}}
+  - other: {{lower: [5, 5, 5], upper: [6, 6, 6], cells: [1, 1, 1], young: 1, poisson: 0.3}}
+displacements:
+  - hold: {{face: plate.outer, value: [0, 0, 0]}}
+  - keep: {{face: other.zmin, value: [0, 0, 0]}}
+  - pin: {{face: bush.lmin, value: [0, 0, 0]}}
+contact:
+"""
+    scenes["bush"] = bush.format(radius=1) + "  - seat: {mortar: plate, nonmortar: bush, tie: 0.001}\n"
+    scenes["loose_bush"] = bush.format(radius=0.99) + "  - auto: {tie: 0.001}\n"
+    scenes["untied"] = bush.format(radius=1) + "  - seat: {mortar: plate, nonmortar: other, tie: 0.001}\n  - auto: {friction: 0}\n"
     scenes["partly_tied"] = base.replace("lower: [-1, -1, 0]", "lower: [-1, -3, 0]") + "contact:\n  - auto: {tie: 0.001}\n"
     for name, text in scenes.items():
         with open(name + ".yaml", "w") as out:

@@ -34,15 +34,18 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
   m->comm   = comm;
   m->bodies = scene->bodies;
   PetscCall(MeshSurfacesCreate(comm, scene->nbodies, scene->bodies, s));
-  PetscCall(PetscCalloc2(s->nsurfaces, &m->area, s->nsurfaces, &m->nfacets));
+  PetscCall(PetscCalloc3(s->nsurfaces, &m->area, s->nsurfaces, &m->nfacets, s->nsurfaces, &m->bulge));
+  PetscCall(PetscMalloc1(12 * s->n, &m->normal));
+  PetscCall(DetectNormals(s, m->normal));
   PetscCall(PetscCalloc3(scene->nbodies, &m->thickness, 6 * scene->nbodies, &m->box, scene->nbodies, &m->fine));
   PetscCall(PetscCalloc1(scene->nbodies, &volume));
   for (PetscInt i = 0; i < 6 * scene->nbodies; ++i) m->box[i] = i % 6 < 3 ? PETSC_MAX_REAL : PETSC_MIN_REAL;
   for (PetscInt f = 0; f < s->n; ++f) {
     const PetscReal *x    = &s->x[12 * f];
     const PetscInt   body = s->body[s->surface[f]], order = scene->bodies[body].order;
-    const PetscReal  origin[3] = {s->x[0], s->x[1], s->x[2]};
-    PetscReal        n[3], mass[4], box[6];
+    const PetscReal  origin[3] = {s->x[0], s->x[1], s->x[2]}, middle[2] = {0.0, 0.0},
+                    height = PetscAbsReal(DetectBulge(x, &m->normal[12 * f], middle));
+    PetscReal n[3], mass[4], box[6];
 
     ContactFacetAreaVector(x, n);
     for (PetscInt c = 0; c < 3; ++c)
@@ -50,7 +53,8 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
     m->thickness[body] += ContactFacetMass(x, mass); /* the sum of the areas, converted to a thickness below */
     m->area[s->surface[f]] += ContactFacetMass(x, mass);
     ++m->nfacets[s->surface[f]];
-    m->fine[body] = order == 2 || (!order && ContactFacetIsTriangle(x)) ? 0.25 : 1.0;
+    m->bulge[s->surface[f]] = PetscMax(m->bulge[s->surface[f]], height);
+    m->fine[body]           = order == 2 || (!order && ContactFacetIsTriangle(x)) ? 0.25 : 1.0;
     ContactFacetBox(x, box);
     for (PetscInt c = 0; c < 3; ++c) {
       m->box[6 * body + c]     = PetscMin(m->box[6 * body + c], box[c]);
@@ -67,7 +71,8 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
 {
   PetscFunctionBegin;
   PetscCall(MeshSurfacesDestroy(&m->surfaces));
-  PetscCall(PetscFree2(m->area, m->nfacets));
+  PetscCall(PetscFree3(m->area, m->nfacets, m->bulge));
+  PetscCall(PetscFree(m->normal));
   PetscCall(PetscFree3(m->thickness, m->box, m->fine));
   PetscCall(PetscFree(m->tool));
   PetscFunctionReturn(0);
@@ -95,17 +100,17 @@ static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const ch
   PetscFunctionReturn(0);
 }
 
-/* Appends a contact pair, or a tie if `tied` is true, to the scene */
+/* Appends to the scene a contact pair or, if `tied` is positive, a tie of facets up to this distance [length] */
 static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const char mortar[], const char nonmortar[],
-  const char name[], PetscBool tied, const char why[], PetscReal apart)
+  const char name[], PetscReal tied, const char why[], PetscReal apart)
 {
   PetscFunctionBegin;
-  if (tied) {
+  if (tied > 0.0) {
     SceneTie *tie;
 
     PetscCall(PetscRealloc(sizeof(*tie) * (scene->nties + 1), &scene->ties));
     tie  = &scene->ties[scene->nties++];
-    *tie = (SceneTie){.distance = rule->tie};
+    *tie = (SceneTie){.distance = tied};
     PetscCall(PetscStrallocpy(name, &tie->name));
     PetscCall(PetscStrallocpy(mortar, &tie->mortar));
     PetscCall(PetscStrallocpy(nonmortar, &tie->nonmortar));
@@ -151,10 +156,11 @@ static PetscErrorCode RuleAddSelf(Scene scene, const SceneContactPair *rule)
   PetscFunctionReturn(0);
 }
 
-/* Decides which side of a pair is nonmortar, and whether the surfaces are tied. They are tied if all facets of one
+/* Decides which side of a pair is nonmortar, and whether the surfaces are tied: *tied is then positive, the distance up
+   to which their facets are joined [length]. They are tied if all facets of one
    surface are within the rule's distance for ties of the other surface. */
 static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const SceneContactPair *rule,
-  const DetectPair *found, SceneContactPair *pair, PetscBool *tied)
+  const DetectPair *found, SceneContactPair *pair, PetscReal *tied)
 {
   const MeshSurfaces *s    = &model->surfaces;
   PetscInt            side = DetectNonmortar(model, scene, found, &pair->why);
@@ -164,15 +170,16 @@ static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const Sce
     side      = strcmp(rule->nonmortar, scene->bodies[s->body[found->surface[0]]].name) ? 1 : 0;
     pair->why = "the scene says so";
   }
-  *tied = PETSC_FALSE;
-  for (PetscInt turn = 0; turn < 2 && !*tied; ++turn) {
+  *tied = 0.0;
+  for (PetscInt turn = 0; turn < 2 && *tied == 0.0; ++turn) {
     const PetscInt  k     = turn ? 1 - side : side;
     const PetscBool rigid = (PetscBool)(scene->bodies[s->body[found->surface[k]]].material.type == MATERIAL_RIGID);
 
-    *tied = (PetscBool)(!rigid && found->tied[k] == model->nfacets[found->surface[k]]);
-    if (*tied) side = k;
+    if (rigid || found->tied[k] != model->nfacets[found->surface[k]]) continue;
+    *tied = rule->tie + model->bulge[found->surface[0]] + model->bulge[found->surface[1]];
+    side  = k;
   }
-  PetscCheck(*tied || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
+  PetscCheck(*tied > 0.0 || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
     "contact rule \"%s\": only parts of the faces %s and %s are within the distance tie = %g of each other: define "
     "faces "
     "that consist of these parts, and list the tie of these faces",
@@ -181,6 +188,24 @@ static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const Sce
   pair->mortar    = s->name[found->surface[1 - side]];
   PetscCall(RuleMakeName(scene, scene->bodies[s->body[found->surface[side]]].name,
     scene->bodies[s->body[found->surface[1 - side]]].name, &pair->name));
+  PetscFunctionReturn(0);
+}
+
+/* Raises an error if a rule that names two bodies and a distance for ties has tied no surfaces of them */
+static PetscErrorCode RulesCheckTies(const DetectModel *model, Scene scene, PetscInt n,
+  const SceneContactPair *const rules[], const PetscReal tied[])
+{
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nrules; ++r) {
+    const SceneContactPair *rule = &scene->rules[r];
+    PetscBool               any  = PETSC_FALSE;
+
+    for (PetscInt i = 0; i < n; ++i) any = (PetscBool)(any || (rules[i] == rule && tied[i] > 0.0));
+    PetscCheck(any || !rule->mortar || rule->tie == 0.0, model->comm, PETSC_ERR_USER_INPUT,
+      "contact rule \"%s\": no surface of %s or %s is within the distance tie = %g of the other body: increase tie, or "
+      "list the tie of two faces under ties",
+      rule->name, rule->nonmortar, rule->mortar, (double)rule->tie);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -233,7 +258,8 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
   DetectPair              *found;
   const SceneContactPair **rules;
   SceneContactPair        *pairs;
-  PetscBool               *tied, self = PETSC_FALSE;
+  PetscReal               *tied;
+  PetscBool                self = PETSC_FALSE;
   PetscInt                 n;
 
   PetscFunctionBegin;
@@ -254,6 +280,7 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
       found[i].apart));
     PetscCall(PetscFree(pairs[i].name));
   }
+  PetscCall(RulesCheckTies(&model, scene, n, rules, tied));
   for (PetscInt r = 0; r < scene->nrules; ++r) {
     if (scene->rules[r].self) PetscCall(RuleAddSelf(scene, &scene->rules[r]));
   }

@@ -22,6 +22,8 @@ typedef struct {
   MeshSurfaces surfaces;
   PetscReal   *area; /* [surfaces] area of each surface [length^2]; PETSC_MAX_REAL for a rigid surface without facets */
   PetscInt    *nfacets;   /* [surfaces] number of facets of each surface */
+  PetscReal   *normal;    /* [12 facets] normals of the curved surfaces at the corners of the facets */
+  PetscReal   *bulge;     /* [surfaces] largest distance between the curved surface and its facets [length] */
   PetscReal   *thickness; /* [bodies] mean thickness of each body: 2 volume / area [length] */
   PetscReal   *box;       /* [6 bodies] bounding box of each undeformed body */
   PetscReal   *fine; /* [bodies] area of a facet's parts in the contact search relative to the facet: 1/4 if the body
@@ -56,6 +58,7 @@ typedef struct {
 } DetectState;
 PETSC_INTERN PetscErrorCode DetectStateCreate(const DetectModel *, const DetectMove[], DetectState *);
 PETSC_INTERN PetscErrorCode DetectStateDestroy(DetectState *);
+PETSC_INTERN void           DetectGetStart(PetscInt ray, PetscReal xi[2]);
 #define DETECT_RAYS 5  /* number of rays of a facet */
 #define DETECT_HITS 16 /* largest number of hits of a ray */
 PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt ray, PetscReal reach,
@@ -67,6 +70,10 @@ PETSC_INTERN PetscBool DetectFacesRigidSurface(const DetectState *, PetscInt too
   const PetscReal normal[3], PetscReal *distance);
 /* the largest cosine of the angle between the normals of facing surfaces; equal to that of the contact search */
 #define DETECT_COSINE -0.174
+
+/* bulge.c: the height of a curved surface above its plane facets */
+PETSC_INTERN PetscErrorCode DetectNormals(const MeshSurfaces *, PetscReal normal[]);
+PETSC_INTERN PetscReal      DetectBulge(const PetscReal x[12], const PetscReal normal[12], const PetscReal xi[2]);
 
 /* facing.c: two surfaces that face each other. surface[0] is the smaller number. */
 typedef struct {

@@ -87,6 +87,27 @@ static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limit
          (limits->prescribed[body[i]] && limits->prescribed[body[j]] ? 0.0 : limits->extent);
 }
 
+/* Returns whether the curved surfaces at a hit are within the distance for ties, with a margin for their heights above
+   the facets, which are estimates */
+static PetscBool FacingIsTied(const DetectState *state, PetscReal tie, PetscInt ray, const DetectHit *hit)
+{
+  const DetectModel *model = state->model;
+  const PetscReal   *x = &state->facets.x[12 * hit->from], *other = &state->facets.x[12 * hit->to], estimate = 0.1;
+  PetscReal          xi[2], phi[4], place[3] = {0, 0, 0}, nearest[3], normal[3], height[2];
+
+  if (PetscAbsReal(hit->distance) <= tie) return PETSC_TRUE;
+  if (!ContactFacetNormal(x, normal)) return PETSC_FALSE;
+  DetectGetStart(ray, xi);
+  ContactShape(xi, phi);
+  for (PetscInt i = 0; i < 12; ++i) place[i % 3] += phi[i / 3] * (x[i] + hit->distance * normal[i % 3]);
+  height[0] = DetectBulge(x, &model->normal[12 * hit->from], xi);
+  xi[0] = xi[1] = 0.0;
+  (void)ContactClosestPoint(other, place, xi, nearest);
+  height[1] = DetectBulge(other, &model->normal[12 * hit->to], xi);
+  return (PetscBool)(PetscAbsReal(hit->distance - height[0] - height[1]) <=
+                     tie + estimate * (PetscAbsReal(height[0]) + PetscAbsReal(height[1])));
+}
+
 /* Sends the rays of facet f, and appends a record for each surface that it faces. start: whether the bodies are
    undeformed; only then distances and ties are measured */
 static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLimits *limits, PetscInt f,
@@ -119,7 +140,7 @@ static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLim
         found[n++].count[side]     = 1.0;
       }
       if (start) found[k].apart = PetscMin(found[k].apart, hits[h].distance);
-      if (start && rule->tie > 0.0 && PetscAbsReal(hits[h].distance) <= rule->tie) found[k].tied[side] += 1.0;
+      if (start && rule->tie > 0.0 && FacingIsTied(state, rule->tie, ray, &hits[h])) found[k].tied[side] += 1.0;
     }
   }
   for (PetscInt k = 0; k < n; ++k) {

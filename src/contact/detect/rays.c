@@ -106,6 +106,14 @@ static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const 
   }
 }
 
+/* Gets the parameters of the point of a facet at which a ray starts */
+void DetectGetStart(PetscInt ray, PetscReal xi[2])
+{
+  static const PetscReal parameter[DETECT_RAYS][2] = {{0, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+  for (PetscInt d = 0; d < 2; ++d) xi[d] = RAY_INSIDE * parameter[ray][d];
+}
+
 /*
    Sends one ray and returns the number of its hits. Ray 0 starts at the centre of the facet, the others start near its
    corners. A body, also the facet's own body, hides what is behind it. A body that touches or overlaps the facet hides
@@ -114,15 +122,14 @@ static void RayAddRigidSurfaces(const DetectState *state, PetscInt facet, const 
 PetscInt DetectShoot(const DetectState *state, PetscInt facet, PetscInt ray, PetscReal reach,
   DetectHit hits[DETECT_HITS])
 {
-  static const PetscReal parameter[DETECT_RAYS][2] = {{0, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  const MeshSurfaces    *s                         = &state->model->surfaces;
-  const PetscReal       *x = &state->facets.x[12 * facet], *thickness = state->model->thickness;
-  const PetscInt         body  = s->body[s->surface[facet]];
-  const PetscReal        xi[2] = {RAY_INSIDE * parameter[ray][0], RAY_INSIDE * parameter[ray][1]};
-  PetscReal              phi[4], origin[3] = {0, 0, 0}, normal[3], limit = reach, touching;
-  PetscInt               stack[CONTACT_TREE_DEPTH], depth = 0, n = 0, front = -1, kept = 0;
+  const MeshSurfaces *s = &state->model->surfaces;
+  const PetscReal    *x = &state->facets.x[12 * facet], *thickness = state->model->thickness;
+  const PetscInt      body = s->body[s->surface[facet]];
+  PetscReal           xi[2], phi[4], origin[3] = {0, 0, 0}, normal[3], limit = reach, touching;
+  PetscInt            stack[CONTACT_TREE_DEPTH], depth = 0, n = 0, front = -1, kept = 0;
 
   if (!ContactFacetNormal(x, normal)) return 0;
+  DetectGetStart(ray, xi);
   ContactShape(xi, phi);
   for (PetscInt i = 0; i < 12; ++i) origin[i % 3] += phi[i / 3] * x[i];
   touching = 1e-6 * thickness[body];
