@@ -143,13 +143,14 @@ def page(rows, bars):
         "# Comparison with CalculiX", "",
         "`make bench-calculix` makes this page. CalculiX uses the solver SPOOLES. Times are user seconds of the whole run on one core, memory is the peak.", "",
         "## An exact solution", "",
-        f"Two bars of the same section, Young's moduli 1 and 1,000, lengths 1, pushed together by 0.2: the force is 0.2/(1 + 1/1000) = {BAR_FORCE:.6g}.", "",
+        f"Two bars of the same section, Young's moduli 1 and 1,000, lengths 1, are pushed together by 0.2. The force is 0.2/(1 + 1/1000) = {BAR_FORCE:.6g}.", "",
         "| CalculiX | force | error |", "| --- | --- | --- |", *bars, "",
-        "With hard contact CalculiX takes a contact stiffness of 50 times the smaller Young's modulus, in its mortar method too: the faces penetrate. That is why its",
-        "forces on the two blocks were 12 to 24 % lower than ours. With a stiffness of 1e6 it has the exact force, and so has `contact`, to rounding.", "",
+        "With hard contact CalculiX uses a contact stiffness of 50 times the smaller Young's modulus, in its mortar method too, so that the faces penetrate. This is",
+        "why its forces on the two blocks were 12 to 24 % lower than ours. With a contact stiffness of 1e6 CalculiX computes the exact force. `contact` computes the",
+        "exact force up to rounding.", "",
         "## Two blocks", "",
-        "The same hexahedra with full integration, small displacements. `contact` linearizes the gap once per load step, as the scene specifies, or updates it until it is",
-        "consistent. At the edges of the block stresses are singular, and full integration locks, so that forces decrease with the mesh size in both programs.", "",
+        "Both programs use the same mesh of hexahedra with full integration, and small displacements. `contact` linearizes the gap once per load step, as the scene",
+        "specifies, or updates it until it is consistent. At the edges of the block stresses are singular, and full integration locks, so that forces decrease with the mesh size in both programs.", "",
         "| mesh | program | time [s] | memory [MB] | force, step 1 | force, step 2 |", "| --- | --- | --- | --- | --- | --- |", *rows]) + "\n"
 
 

@@ -191,24 +191,24 @@ def same_unknowns(found):
 def rules(found):
     r = lambda a, b, key: mean_ratio(found, a, b, key)  # noqa: E731
     error, seconds = same_unknowns(found)
-    yield f"1. Name no element. On the same mesh `auto` has {r('default', 'full', 'error'):.2g} times the error of `full`, in {r('default', 'full', 'seconds'):.2g} times its time."
-    yield f"2. For 1 % or less take `order: 2` with `bbar` on a coarser mesh: {error:.2g} times the error of order 1 on the next finer mesh, in {seconds:.2g} times its time."
-    yield f"3. Let the gap be exact. One contact update a load step takes {r('one contact update', 'default', 'seconds'):.2g} times the time, and has {r('one contact update', 'default', 'error'):.2g} times the error."
-    yield f"4. Leave the solver's tolerance alone. 1e-10 takes {r('tolerance 1e-10', 'default', 'seconds'):.2g} times the time, with {r('tolerance 1e-10', 'default', 'error'):.2g} times the error: the mesh decides."
-    yield "5. Where contact ends at a sharp edge, the error falls with the size of the cells only, by either order. Run two meshes and extrapolate: [sharp edges](elements/sharp.md)."
+    yield f"1. Do not name an element in the scene. On the same mesh `auto` has {r('default', 'full', 'error'):.2g} times the error of `full`, in {r('default', 'full', 'seconds'):.2g} times its time."
+    yield f"2. For an error of 1 % or less use `order: 2` with `bbar` on a coarser mesh. It has {error:.2g} times the error of order 1 on the next finer mesh, in {seconds:.2g} times its time."
+    yield f"3. Let contact updates continue until the gap is consistent. One contact update per load step takes {r('one contact update', 'default', 'seconds'):.2g} times the time, and has {r('one contact update', 'default', 'error'):.2g} times the error."
+    yield f"4. Do not change the solver's tolerance. The tolerance 1e-10 takes {r('tolerance 1e-10', 'default', 'seconds'):.2g} times the time, with {r('tolerance 1e-10', 'default', 'error'):.2g} times the error: the mesh decides."
+    yield "5. If contact ends at a sharp edge, the error is proportional to the cell size for elements of either order. Compute two meshes and extrapolate: [sharp edges](elements/sharp.md)."
 
 
 def page(found, pages):
     where = machine.describe()
     yield "# What accuracy costs in time\n"
     yield f"`make bench-front` made this page on {datetime.date.today()}, sources {source_version()}: {where['processor']}, one core; " + ", ".join(f"{n} {v}" for n, v in where["versions"].items()) + "."
-    yield "Times are user seconds of the whole run, on a machine that other work shared. Gaps are exact, unless a setting says otherwise. References: Hertz's"
-    yield "formulas; for two blocks and cantilever values extrapolated from fine meshes, uncertain by 0.4 and 0.3 %; for punch and ring order 2 on fine meshes."
-    yield "Hertz's force, of a half-space, differs from that of this ball by about 0.2 %.\n"
+    yield "Times are user CPU seconds of whole runs. Other programs were running on the machine. Contact gaps are consistent, unless a setting says otherwise. References are Hertz's"
+    yield "formulas; for two blocks and cantilever values extrapolated from fine meshes, with an uncertainty of 0.4 and 0.3 %; for punch and ring results with order 2 on fine meshes."
+    yield "Hertz's force is that of a half-space, which differs from that of this ball by about 0.2 %.\n"
     yield "![error against time, six problems](front.png)\n"
-    yield "## What you pay\n"
+    yield "## Time for a given error\n"
     yield from price_table(found)
-    yield "\nThe command of any of them: problem, mesh and setting of the table give the scene, and the setting its options.\n"
+    yield "\nTo repeat a run, create its scene from the problem, the mesh and the setting in the table, and add the options of the setting:\n"
     yield '    share/bench/front.py --scene "hertz_cylinder, coarse, order 2, bbar" > scene.yaml'
     yield "    bin/contact scene.yaml -contact_updates 20\n"
     yield "| setting | further options |"
@@ -218,7 +218,7 @@ def page(found, pages):
     yield "## Five rules\n"
     yield from rules(found)
     yield "\n## Ratios to the published configuration\n"
-    yield "Time of `published.opts`, element `full`, over that of the defaults, on the first mesh:\n"
+    yield "Time with `published.opts` and the element `full`, divided by the time with the default settings, on the first mesh:\n"
     yield "| problem | published.opts [s] | its error | default [s] | its error | ratio of times |"
     yield "| --- | --- | --- | --- | --- | --- |"
     for name, rows in found.items():
@@ -227,7 +227,7 @@ def page(found, pages):
             yield f"| {CASES[name].title} | {theirs['seconds']:.2f} | {percent(theirs['error'])} | {ours['seconds']:.2f} | {percent(ours['error'])} | {theirs['seconds'] / ours['seconds']:.1f} |"
     yield "\n## All runs\n"
     yield f"[All {sum(map(len, found.values()))} runs of this page](front.csv): setting, mesh, unknowns, error, user seconds.\n"
-    yield "## Pages behind this one\n"
+    yield "## Further pages\n"
     yield "| page | |"
     yield "| --- | --- |"
     yield from pages
@@ -235,11 +235,11 @@ def page(found, pages):
 
 def index(folder):
     """A line for every page of a knob, and for the others"""
-    yield "| [elements/choice.md](elements/choice.md) | the element of scenes that name none, on eleven scenes |"
-    yield "| [elements/second.md](elements/second.md) | the same on eleven more: finite strain, friction, plasticity, torsion |"
+    yield "| [elements/choice.md](elements/choice.md) | the element that is chosen if a scene names none, for eleven scenes |"
+    yield "| [elements/second.md](elements/second.md) | the same for eleven other scenes: finite strain, friction, plasticity, torsion |"
     yield "| [elements/sharp.md](elements/sharp.md) | order 1 and 2 where contact ends at an edge |"
-    yield "| [calculix.md](calculix.md) | CalculiX: times, forces, and why they differ |"
-    yield "| [effects.md](effects.md) | what effects cost that a scene does not use |"
+    yield "| [calculix.md](calculix.md) | comparison with CalculiX: times, forces, and why they differ |"
+    yield "| [effects.md](effects.md) | cost of effects that a scene does not use |"
     for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else ():
         if name.endswith(".md"):
             with open(os.path.join(folder, name)) as file:

@@ -174,7 +174,7 @@ def baseline_words(study, rows):
         ours = next((row for row in runs if row["series"] == "defaults"), None)
         others = [f"{row['series']} {number(row['seconds'] / ours['seconds'], 2)}" for row in runs if ours and row is not ours]
         if others:
-            sentences.append(f"{panel.title}: in units of the defaults' {number(ours['seconds'])} s, " + ", ".join(others) + ".")
+            sentences.append(f"{panel.title}: time divided by that of the default settings, which is {number(ours['seconds'])} s: " + ", ".join(others) + ".")
     return " ".join(sentences)
 
 
@@ -222,11 +222,11 @@ def head(results):
     memory = f"{m['memory_bytes'] / 2**30:.0f} GiB" if m["memory_bytes"] else "unknown memory"
     command = {"full": "make bench-full", "quick": "make bench"}.get(results["size"], f"share/bench/run.py --size {results['size']}")
     small = "" if results["size"] == "full" else "\nThese are the figures of a small run; `make bench-full` makes those of the problems at full size.\n"
-    return f"""# One page a knob
+    return f"""# One page per setting
 {small}
 `{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
 Runs are on one rank unless stated otherwise. Times are of the whole run, including mesh and assembly; runs below {results["short"]:g} s are
-repeated three times, and the shortest time is given. Errors are relative to Hertz's solution, or to a value extrapolated from
+repeated three times, and the shortest time is given. Errors are relative to Hertz's solution, or to values extrapolated from
 fine meshes (last section). Force and energy of Hertz's solution, for a half-space, differ from those of this ball by about 0.2 %.
 Data of all runs: `bench.csv`, `bench.json`.
 

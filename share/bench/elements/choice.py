@@ -174,11 +174,12 @@ def answer(good):
 
 def page(found, finding):
     yield "# The element of a scene that names none\n"
-    yield "`share/bench/elements/choice.py` makes this page: scenes on which the choice was not made. Errors are of the contact force, or of the energy where no contact is; the"
-    yield "reference is the mean of `full` and `bbar` of order 2 on the mesh refined once. Times are user seconds on one core. Two questions: is the error of `auto` at most"
-    yield "1.2 times the least of all elements of order 1 on the mesh? Is it on the front: has no run of any element and mesh, that takes at most its time, an error smaller"
-    yield "than its own by more than 20 %? Where the second answer is no, order 2 on a coarser mesh is better: `order: 2` must be asked for, because on the same mesh it has"
-    yield "six to eight times the unknowns.\n"
+    yield "`share/bench/elements/choice.py` creates this page. The rule of `auto` was not chosen with these scenes. Errors are those of the contact force, or of"
+    yield "the energy if there is no contact. The reference is the mean of `full` and `bbar` of order 2 on the mesh refined once. Times are user seconds on one"
+    yield "core. The page answers two questions. Is the error of `auto` at most 1.2 times the smallest error of all elements of order 1 on the same mesh? Is"
+    yield "`auto` on the front, which means that no run with any element and mesh takes at most the same time with an error that is smaller by more than 20 %? If"
+    yield "the second answer is no, order 2 on a coarser mesh is better. The scene must then request `order: 2`, because on the same mesh order 2 has six to"
+    yield "eight times as many unknowns.\n"
     if finding:
         yield finding
     yield "| refinement | best of order 1 on the mesh | on the front of all runs | scenes |"

@@ -133,10 +133,11 @@ def limit_of(found):
 
 def page(results):
     yield "# Order 2 where contact ends at an edge\n"
-    yield "`share/bench/elements/sharp.py` makes this page. Element `bbar`, a true gap. Forces of plane problems are those of a layer of 0.2. The limit is extrapolated from the"
-    yield "last three meshes, from two under the assumption that the error is proportional to the size of a cell.\n"
-    yield "Faces of order 2 that are plane before they deform are facets in the gap. Smooth surfaces through their deformed"
-    yield "nodes overshoot where the face bends sharply beside an edge of the other body, and no consistent gap was found.\n"
+    yield "`share/bench/elements/sharp.py` creates this page. The element is `bbar`, and contact updates continue until the gap is consistent. Forces of plane"
+    yield "problems are those of a layer of thickness 0.2. The limit is extrapolated from the last three meshes. If there are only two, the error is assumed to"
+    yield "be proportional to the cell size.\n"
+    yield "For faces of order 2 that are plane before they deform, the gap is measured between facets. With smooth surfaces through their deformed nodes no"
+    yield "consistent gap was found, because these surfaces overshoot where the face bends sharply beside an edge of the other body.\n"
     yield "| problem | order | refinement | unknowns | force | contact updates, last load step | user time [s] | exit code | limit of the force |"
     yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for (problem, order), found in results.items():
