@@ -11,7 +11,7 @@ const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse
 static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /*
-   A real-valued option and its default. The name includes -tao_ipfilter_; offset: place of the value in IPOptions
+   A real-valued option and its default. The name includes -tao_ipfilter_; offset: position of the value in IPOptions
    [bytes].
 */
 typedef struct {

@@ -1,7 +1,7 @@
 /*
    Private header of PCBLOCKAMG: one V-cycle in single precision on the hierarchy that hypre's BoomerAMG sets up, with
-   matrices stored as dense blocks. A place is a position in a block vector, see BlockLevel; a ghost is a value of
-   another rank's unknown.
+   matrices stored as dense blocks. "Position" means a position in a block vector, see BlockLevel. A ghost is a value of
+   an unknown that another rank owns.
 */
 #ifndef BLOCKAMG_H
 #define BLOCKAMG_H
@@ -39,13 +39,14 @@ typedef struct {
 */
 typedef struct {
   int    n;
-  int   *place, *ptr, *col; /* place of each row; start of each row in col and val; number of the ghost of each entry */
+  int   *place, *ptr, *col; /* position of each row in block vectors; start of each row in col and val; number of the
+                               ghost of each entry */
   float *val, *shift;
 } BlockBorder;
 
 /*
-   Interpolation from the next coarser level in compressed row format. Rows are places of this level. Columns are places
-   of the next level, followed by its ghosts.
+   Interpolation from the next coarser level in compressed row format. Rows are positions in block vectors of this
+   level. Columns are positions in block vectors of the next level, followed by the ghosts of that level.
 */
 typedef struct {
   int      *ptr, *col;
@@ -54,20 +55,20 @@ typedef struct {
 } BlockInterpolation;
 
 /*
-   A level on this rank. A vector has 4 places per block row, followed by its ghosts. position[] has the place of each
-   unknown.
-   L is the strictly lower triangle without columns of other ranks, stored row by row in blocks of B x B floats. The
-   inverse of a diagonal block D is stored as W with D^-1 = W^T W, in B columns of 4 floats. Unused places hold zeros.
+   A level on this rank. A block vector has 4 entries per block row, followed by the ghosts. position[] has the position
+   of each unknown in a block vector. L is the strictly lower triangle without columns of other ranks, stored row by row
+   in blocks of B x B floats. The inverse of a diagonal block D is stored as W with D^-1 = W^T W, in B columns of 4
+   floats. Unused entries are zero.
 */
 typedef struct {
   int                n, nb, B; /* number of unknowns; number of block rows; block size, 3 or 4 */
   int               *position;
-  int               *ptr, *col; /* start of each block row in col; first place of the columns of each block */
+  int               *ptr, *col; /* start of each block row in col; position of the first column of each block */
   float             *L, *W;
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
-  int                nslots;    /* number of entries of a vector: those of this rank's places and of its ghosts */
+  int                nslots;    /* length of a block vector, including its ghosts */
   float             *x, *b, *t; /* iterate; right-hand side; L^T x */
 
   PetscLogDouble unknowns, entries, blocks, bytes; /* sums over all ranks: unknowns, matrix entries, floats of L and
@@ -86,7 +87,7 @@ typedef struct {
   PetscMPIInt size;
   int         nlevels; /* number of smoothed levels, without the dense level */
   BlockLevel *levels;
-  BlockLevel  bottom; /* block vectors and places of the dense level */
+  BlockLevel  bottom; /* block vectors of the dense level, and positions of its unknowns */
   BlockDense  dense;  /* N = 0: there is no dense level, and the coarsest level is only smoothed */
   double      scale;  /* power of 2 by which all matrices are divided, so that floats can represent them */
 } BlockHierarchy;

@@ -18,7 +18,8 @@ static PetscErrorCode DenseGather(const BlockHierarchy *h, const BlockRows *rows
 }
 
 /*
-   BlockDenseCreate_Private - creates the coarsest level and its inverse. The place of an unknown is its local number.
+   BlockDenseCreate_Private - creates the coarsest level and its inverse. The position of an unknown is its local
+   number.
 */
 PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows)
 {

@@ -21,7 +21,8 @@ static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
   PetscFunctionReturn(0);
 }
 
-/* Creates the array of the unknown at each place; -1 where a place is unused */
+/* Creates the map from positions in a block vector to unknowns: the number of the unknown at each position, or -1 if
+   the position is unused */
 static PetscErrorCode LevelGetUnknowns(const BlockLevel *level, int **unknown)
 {
   PetscFunctionBegin;
@@ -163,8 +164,8 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
 }
 
 /*
-   Stores the entries in columns of other ranks, row by row in the order of the places. border->shift becomes half the
-   sum of a row's absolute values.
+   Stores the entries in columns of other ranks, row by row in the order of the positions. border->shift becomes half
+   the sum of a row's absolute values.
 */
 static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, double scale)
 {

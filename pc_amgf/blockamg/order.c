@@ -10,8 +10,8 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
 }
 
 /*
-   Finds up to three neighbours of the unknown `seed` that have no place yet and share the most columns with it; best[]
-   is -1 beyond. mark[j] = seed for the columns j of the seed.
+   Finds up to three unknowns without a position yet that share the most columns with the unknown `seed`. best[] has -1
+   in place of missing ones. mark[j] = seed for the columns j of the seed.
 */
 static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int position[], const PetscInt mark[],
   PetscInt best[3])
@@ -39,7 +39,7 @@ static void GroupFindNeighbours(const BlockRows *rows, PetscInt seed, const int 
 
 /*
    BlockOrderGroups_Private - forms blocks of up to 4 unknowns that have many columns in common. Each block consists of
-   the first unknown without a place and the best of its neighbours.
+   the first unknown without a position and up to three unknowns that share the most columns with it.
 */
 PetscErrorCode BlockOrderGroups_Private(const BlockRows *rows, int position[])
 {

@@ -8,7 +8,7 @@
 /*
    Processes block row i of a sweep: x_i = W^T W (f - sum_j L_ij x_j), and then t_j += L_ij^T x_i. f: right-hand side of
    the row. step: 1 for a forward, -1 for a backward sweep. Blocks are read in this direction, since processors prefetch
-   memory that is read in one direction. For B = 3 the fourth place of x_i is zero and the fourth place of t_j is
+   memory that is read in one direction. For B = 3 the fourth entry of x_i is zero and the fourth entry of t_j is
    unused.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)

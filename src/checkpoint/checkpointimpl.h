@@ -11,8 +11,8 @@
 PETSC_INTERN PetscErrorCode CheckpointFindField(Checkpoint, const char name[], const CheckpointField **);
 
 /*
-   plastic.c: names of the fields with the places of the quadrature points, and with their plastic strains and plastic
-   deformations; ranks may read any parts of these
+   plastic.c: names of three fields: coordinates of the quadrature points, plastic strains at these points, and plastic
+   deformations at these points. Each rank may read any part of a field.
 */
 #define CHECKPOINT_PLASTIC_PLACES      "plastic_places"
 #define CHECKPOINT_PLASTIC             "plastic_history"

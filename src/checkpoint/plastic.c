@@ -1,14 +1,14 @@
 /*
-   Plastic strains at quadrature points. A point is identified by its place: each rank looks for its points among all
-   points of the file, whichever rank wrote or read them. On another mesh the points have other places, and no strain is
-   transferred.
+   Plastic strains at quadrature points. A point is identified by its coordinates. Each rank searches for its points
+   among all points of the file, whichever ranks wrote and read them. On another mesh the points have other coordinates,
+   and no strain is transferred.
 */
 #include "checkpointimpl.h"
 #include <stdlib.h>
 
 /*
-   Key of a point: its place in multiples of a step that is so small that no two points of a mesh share a key, and its
-   body
+   Key of a point: its coordinates, as multiples of a step that is so small that no two points of a mesh share a key,
+   and its body
 */
 typedef struct {
   PetscInt64 at[4];
@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
   PetscInt    n;
   PlasticKey *keys; /* in ascending order */
-  PetscReal   step; /* step to which places are rounded [length] */
+  PetscReal   step; /* step to which coordinates are rounded [length] */
   PetscBool  *found;
 } PlasticIndex;
 
@@ -34,9 +34,9 @@ static int PlasticCompare(const void *a, const void *b)
 }
 
 /*
-   Sets the key of a place. Bit d of `shift` says whether coordinate d is rounded after an addition (1) or a subtraction
-   (0) of `quarter` steps. With all eight shifts a place is found although rounding errors moved it across a rounding
-   limit.
+   Sets the key of a point with these coordinates. Bit d of `shift` says whether coordinate d is rounded after an
+   addition (1) or a subtraction (0) of `quarter` steps. With all eight shifts a point is found even if rounding errors
+   moved it across a rounding limit.
 */
 static void PlasticSetKey(const PetscReal place[4], PetscReal step, int shift, PetscReal quarter, PlasticKey *key)
 {

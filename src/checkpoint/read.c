@@ -271,7 +271,7 @@ static PetscErrorCode RestartLocate(Restart *r)
 
 /*
    Returns the interpolation weight of node `a`. A field of forces is not interpolated, since that would change the sum
-   of the forces: only the force of a node at the same place is taken.
+   of the forces: only the force of a node at the same position is taken.
 */
 static PetscReal RestartWeight(const MeshPlace *place, PetscInt a, PetscBool force)
 {

@@ -337,7 +337,8 @@ void RigidGetRotation(const RigidBody *body, PetscReal Q[3][3])
   }
 }
 
-/* Sets the displacement u of the body's nodes to that of its place and angle */
+/* Sets the displacement u of the body's nodes to the rigid motion with the body's `place` (centre) and `angle`
+   (rotation vector) */
 static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Vec u)
 {
   const PetscReal   *center = c->bodies.scene->displacements[body->leader].center;
@@ -371,8 +372,8 @@ static PetscErrorCode RigidPlace(const Constraints *c, const RigidBody *body, Ve
   PetscFunctionReturn(0);
 }
 
-/* Sets place and angle of a body. Free components are those of the nodes; other components have the prescribed
-   values. */
+/* Sets `place` (centre) and `angle` (rotation vector) of a body. Free components are those of the nodes; other
+   components have the prescribed values. */
 static void RigidLocate(const SceneDisplacement *d, const RigidMotion *given, const BodyPose *last, const BodyPose *now,
   RigidBody *body)
 {

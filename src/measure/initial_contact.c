@@ -75,9 +75,9 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
   if (nfrictionless)
     PetscCall(ReportWarn(sim->comm, &sim->report,
-      "contact pair \"%s\" has no friction at %" PetscInt_FMT " of the %" PetscInt_FMT
-      " nodes of %s along axes in which the two faces have different prescribed displacements, although the pair must "
-      "stick: prescribe displacements away from the contact, or give the pair a coefficient of friction",
+      "contact pair \"%s\" cannot stick at %" PetscInt_FMT " of the %" PetscInt_FMT
+      " nodes of %s, because different displacements are prescribed there on the two faces; no friction acts at these "
+      "nodes: prescribe displacements away from the contact, or give the pair a coefficient of friction",
       pair->name, nfrictionless, nnodes, pair->nonmortar));
   PetscFunctionReturn(0);
 }

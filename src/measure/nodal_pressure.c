@@ -175,8 +175,9 @@ static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gai
 }
 
 /*
-   Sets the first value of `edge` to a positive number at partly covered vertices, and then, ring by ring, at all
-   vertices of facets that contain a vertex with a positive number
+   Marks the vertices near partly covered ones. The vector `edge` has three values per vertex, of which the first is set
+   to a positive number: at partly covered vertices, and then, ring by ring, at all vertices of facets that contain a
+   marked vertex
 */
 static PetscErrorCode CoverFindEdge(DM dm, const CoverFacets *facets, Vec edge)
 {

@@ -21,7 +21,8 @@ static PetscReal ResolveModulus(Scene scene, PetscInt pair)
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }
 
-/* Computes the size of the mortar facets around each of their vertices, in the first value of `size` [length] */
+/* Computes the size of the mortar facets around each of their vertices [length]. The vector `size` has three values
+   per vertex; the result is the first of them. */
 static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
 {
   PetscScalar *a;

@@ -33,8 +33,9 @@ PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
 
 /*
-   pair_spread.c: transfers values from rows to vertices and back, in proportion to the shared area. The first value of
-   `sides` is 1 at vertices of the mortar side, -1 on the nonmortar side, and 0 elsewhere.
+   pair_spread.c: transfers values from rows to vertices and back, in proportion to the shared area. The vector `sides`
+   has three values per vertex. The first is 1 at vertices of the mortar side, -1 on the nonmortar side, and 0
+   elsewhere.
 */
 PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, const PairRows *, Vec sides);
 PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);

@@ -156,8 +156,8 @@ static PetscErrorCode PairMarkSelf(Simulation sim, const PairRows *rows, Vec sid
 }
 
 /*
-   Marks the vertices of both sides in the first value of `sides`: 1 on the mortar side, -1 on the nonmortar side.
-   Collective.
+   Collective. Marks the vertices of both sides. The vector `sides` has three values per vertex, of which the first is
+   set: 1 on the mortar side, -1 on the nonmortar side.
 */
 PetscErrorCode PairMarkSides(Simulation sim, PetscInt pair, const PairRows *rows, Vec sides)
 {

@@ -592,8 +592,8 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the bodies with free modes, and reports the first of them as an error unless the scene asks for
-   weak springs. unheld: whether each body has a free mode; NULL if not needed */
+/* Collective. Finds the bodies with free modes. The first of them is reported as an error, unless the scene has weak
+   springs. unheld: whether each body has a free mode; NULL if not needed */
 static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};

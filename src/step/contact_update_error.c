@@ -292,8 +292,8 @@ static PetscErrorCode PlaceFind(Simulation sim, const ContactSolution *sol, Cont
   PetscFunctionReturn(0);
 }
 
-/* Collective. Sets the node number and the coordinates of the vertex on its rank; then all ranks get the place with the
-   largest error */
+/* Collective. Sets the node number and the coordinates of the vertex on its rank; then all ranks get the PlaceFind()
+   result with the largest error */
 static PetscErrorCode PlaceShare(Simulation sim, GapPlace *place)
 {
   struct {

@@ -266,7 +266,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
     ip->lin->ndirect = 0;
   } else
     PetscCall(PetscInfo(tao,
-      "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, asked for %g, ||b|| = %g\n",
+      "Linear solver stopped with %s after %" PetscInt_FMT " iterations, ||b - A d|| = %g, allowed %g, ||b|| = %g\n",
       KSPConvergedReasons[reason], its, (double)ip->lin->norm, (double)ip->lin->target, (double)ip->lin->rhs));
   /* A failed factorization must not be reused. */
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(IPKSPReset(tao->ksp));

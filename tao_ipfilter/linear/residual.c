@@ -94,7 +94,7 @@ PetscErrorCode IPResidualRefine(Tao tao, Vec b, Vec d, PetscBool exact, PetscErr
     PetscCall(VecAXPY(d, 1.0, correction));
     PetscCall(IPResidualMeasure(tao, b, d));
     ip->rec->fallbacks.refinements++;
-    PetscCall(PetscInfo(tao, "Refined from ||b - A d|| = %g to %g, asked for %g\n", (double)before,
+    PetscCall(PetscInfo(tao, "Iterative refinement reduced ||b - A d|| from %g to %g, allowed %g\n", (double)before,
       (double)ip->lin->norm, (double)ip->lin->target));
     if (!(ip->lin->norm <= before)) {
       PetscCall(VecAXPY(d, -1.0, correction));

@@ -236,7 +236,8 @@ static PetscErrorCode DirectionPrintWeights(Tao tao, Vec D)
   if (!told) PetscFunctionReturn(0);
   PetscCall(VecMin(D, NULL, &least));
   PetscCall(VecMax(D, NULL, &largest));
-  PetscCall(PetscInfo(tao, "Newton system with D_max/D_min %g\n", (double)(largest / least)));
+  PetscCall(PetscInfo(tao, "Newton system: largest weight of an inequality row over the smallest, D_max/D_min %g\n",
+    (double)(largest / least)));
   PetscFunctionReturn(0);
 }
 

@@ -83,4 +83,4 @@ else:
         say(f"{name}: friction acts on nodes that are held", within(abs(pair["force"][2]), FRICTION * pair["normal_force"], 2e-3), pair["force"][2] / FRICTION / pair["normal_force"])
         say(f"{name}: no warning of nodes without friction", not any("no friction" in warning for warning in run["warnings"]), run["warnings"])
     warnings = load("held_sticks")["warnings"]
-    say("what sticks and is driven apart: 13 of 26 nodes", any("no friction at 13 of the 26 nodes of hub.inner" in warning for warning in warnings), warnings)
+    say("what sticks and is driven apart: 13 of 26 nodes", any("cannot stick at 13 of the 26 nodes of hub.inner" in warning for warning in warnings), warnings)

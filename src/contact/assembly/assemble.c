@@ -415,7 +415,7 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates J and lin->cover if there are smooth pairs, and lin->derivative if it is asked for */
+/* Collective. If there are smooth pairs, creates J and lin->cover, and lin->derivative if as->parts requires it */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {

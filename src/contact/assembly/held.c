@@ -17,7 +17,7 @@ static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one
                                                 face */
 
 /* The coordinate, along an axis, of vertices of a mortar face at which a displacement is prescribed. All fields are
-   real, so that places can be sent as one array. */
+   real, so that an array of these structs can be sent as an array of reals. */
 typedef struct {
   PetscReal motion, place; /* number of the displacement that prescribes the motion, and coordinate along the axis
                               [length] */
@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
   PetscBool  whole;  /* whether all vertices of the face are held by the same motion */
   PetscInt   motion; /* that motion, if whole is true */
-  PetscInt   n;      /* number of places of all ranks, without repetition */
+  PetscInt   n;      /* number of entries of `places` from all ranks, without repetition */
   HeldPlace *places;
   PetscReal  rounding; /* tolerance for equal coordinates [length] */
 } HeldFace;
@@ -40,7 +40,7 @@ static int HeldPlaceCompare(const void *a, const void *b)
   return (p->place > q->place) - (p->place < q->place);
 }
 
-/* Sorts the places and removes those with equal motion and, up to rounding, equal coordinate */
+/* Sorts the entries and removes those with equal motion and, up to rounding, equal coordinate */
 static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 {
   PetscInt kept = 0;
@@ -53,7 +53,7 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
   *n = kept;
 }
 
-/* Collective. Collects the places of all ranks on every rank */
+/* Collective. Collects the entries of all ranks on every rank */
 static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
 {
   PetscFunctionBegin;

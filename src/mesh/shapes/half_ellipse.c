@@ -47,14 +47,14 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
 
   PetscFunctionBegin;
   PetscCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6,
-    comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis, the depth or the half of the prism is an unknown direction",
-    body->name);
+    comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": one of the keys axis, depth and half is not a direction such as x or -x", body->name);
   PetscCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "Body \"%s\": the depth of the half ellipse lies along the prism's axis %c, they must be normal to each other",
-    body->name, "xyz"[ellipse->axis]);
+    "Body \"%s\": the keys depth and axis both have the direction %c, but must be perpendicular", body->name,
+    "xyz"[ellipse->axis]);
   PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm,
-    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the direction half must be normal to the prism's axis and to its depth",
-    body->name);
+    PETSC_ERR_ARG_OUTOFRANGE,
+    "Body \"%s\": the direction of the key half must be perpendicular to those of the keys axis and depth", body->name);
   PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0],
     (double)ellipse->semi_axes[1]);

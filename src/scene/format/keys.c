@@ -177,8 +177,9 @@ static const char *const synonyms[][2] = {
 };
 
 /*
-   Gets the valid keys at the place of an unknown key. *below: number of its letters that name its list and entry;
-   *names: valid continuations after these letters, or the rows of the table at the top level (*below = 0).
+   Gets the valid keys in the entry or list that contains an unknown key. *below: number of its letters that name its
+   list and entry; names: valid continuations after these letters, or the rows of the table at the top level (*below =
+   0).
 */
 static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], size_t *below, PetscInt *n,
   const char ***names)

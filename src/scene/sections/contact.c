@@ -229,19 +229,19 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
   PetscCall(ValidateSurface(comm, file, scene, pair->name, pair->self, strlen(pair->self)));
   body = SceneFindBody(scene, pair->mortar, &face);
   PetscCheck(scene->bodies[body].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" has self = %s, but the body \"%s\" is rigid and cannot come into contact with itself",
-    file, pair->name, pair->self, scene->bodies[body].name);
+    "%s: contact pair \"%s\" with self: %s: the body \"%s\" is rigid and cannot come into contact with itself", file,
+    pair->name, pair->self, scene->bodies[body].name);
   PetscCheck(pair->gap != GAP_NODE, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" has self = %s and gap node, but gap node needs two different faces: use gap mortar or "
-    "dual",
+    "%s: contact pair \"%s\" with self: %s cannot have gap: node, which needs two different faces; use gap: mortar or "
+    "gap: dual",
     file, pair->name, pair->self);
   PetscCheck(pair->interference == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" has self = %s and an interference, but a surface that is to come into contact with itself "
-    "must not overlap itself at the start: name the two faces that overlap as mortar and nonmortar",
+    "%s: contact pair \"%s\" with self: %s cannot have an interference, because the surface must not overlap itself at "
+    "the start; name the two faces that overlap as mortar and nonmortar",
     file, pair->name, pair->self);
   for (PetscInt c = 0; c < scene->ncyclic; ++c)
     PetscCheck(SceneFindBody(scene, scene->cyclic[c].from, &face) != body, comm, PETSC_ERR_USER_INPUT,
-      "%s: contact pair \"%s\" has self = %s, but the body is a sector of cyclic symmetry \"%s\": name two faces as "
+      "%s: contact pair \"%s\" with self: %s: the body is a sector of cyclic symmetry \"%s\": name two faces as "
       "mortar and nonmortar",
       file, pair->name, pair->self, scene->cyclic[c].name);
   for (PetscInt p = 0; p < scene->npairs; ++p) {
@@ -250,7 +250,8 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
                                          SceneFindBody(scene, other->nonmortar, &face) == body);
 
     PetscCheck(!within || !whole, comm, PETSC_ERR_USER_INPUT,
-      "%s: contact pair \"%s\" has self = %s, the whole surface of the body, which includes the faces of contact pair "
+      "%s: contact pair \"%s\" with self: %s is the whole surface of the body, which includes the faces of contact "
+      "pair "
       "\"%s\": leave one of the pairs out",
       file, pair->name, pair->self, other->name);
   }
