@@ -48,6 +48,9 @@ EFFECTS = {
     "order 2": (", order: 1", ""),
     "local refinement": ("", "refinements: []\n"),
     "AMG filter": ("", "solver: {tao_ipfilter_filter_switch: 10}\n"),
+    "inertia": (", density: 1", ""),
+    "plasticity": ("", "materials:\n  - metal: {law: j2, young: 1, poisson: 0.3, yield: 0.01, hardening: 0.1}\n"
+                       "  - deformed: {law: j2_finite, young: 1, poisson: 0.3, yield: 0.01}\n"),
 }
 # effect: options, without which it is off too
 OPTIONS = {"checkpoints": ["-checkpoint_every", "0"]}

@@ -128,9 +128,15 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, "step", PETSC_INT, NULL, &checkpoint->step));
-  for (size_t i = 0; CheckpointNumbers[i].name; ++i)
-    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, CheckpointNumbers[i].name, PETSC_REAL, NULL,
-      CheckpointNumber(checkpoint, i)));
+  for (size_t i = 0; CheckpointNumbers[i].name; ++i) {
+    const char *name = CheckpointNumbers[i].name;
+    PetscBool   has;
+
+    PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, name, &has));
+    PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+      "the state has no \"%s\": an earlier version of the program wrote it; start without -restart", name);
+    PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, CheckpointNumber(checkpoint, i)));
+  }
   PetscCall(PetscCalloc1(r->scene->nbolts, &checkpoint->shortening));
   for (PetscInt b = 0; b < r->scene->nbolts; ++b) {
     char name[256];

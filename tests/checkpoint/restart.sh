@@ -145,6 +145,7 @@ def put(index, value):
         return a
     return change
 
+damage("bad_earlier", lambda file: file.attrs.__delitem__("largest_speed"))
 number("step", 7), number("time", np.nan), number("previous_time", 100.0), number("increment", -1.0), number("work", np.inf)
 data("bad_cells", "cells", lambda a: a[:-1])
 data("bad_body", "body", lambda a: np.concatenate((a, a)))
@@ -153,7 +154,7 @@ data("bad_field", "displacement", lambda a: a[:-1])
 data("bad_value", "displacement", put((3, 1), np.nan))
 data("bad_place", "vertices", put((3, 1), np.nan))
 PY
-for name in step time previous_time increment work field value; do try press.yaml -restart bad_$name.h5; done
+for name in earlier step time previous_time increment work field value; do try press.yaml -restart bad_$name.h5; done
 for name in cells body vertex field value place; do
   try press.yaml -restart bad_$name.h5 -refine 1
   timeout 600 mpiexec --oversubscribe -n 2 "$contact" press.yaml -restart bad_$name.h5 -refine 1 -quiet > err 2>&1
