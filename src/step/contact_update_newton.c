@@ -16,7 +16,9 @@
 #include "src/state/contact_state.h"
 #include "src/state/control.h"
 
-#define NEWTON_TOLERANCE  0.1 /* largest relative tolerance of GMRES */
+#define NEWTON_TOLERANCE 0.1 /* largest relative tolerance of GMRES */
+#define NEWTON_SLOW \
+  0.05 /* if the last update left a larger fraction of the error, finite differences use exact forces */
 #define NEWTON_ITERATIONS 8
 #define NEWTON_FORCES \
   0.3 /* the solve that gives the right-hand side may leave forces outside of the subspace
@@ -36,6 +38,8 @@ typedef struct {
   PetscReal            rtol;             /* relative tolerance of GMRES */
   PetscReal            size, scale;      /* size: step of the finite differences [length]; scale: divisor that gives
                                             multipliers the unit of a length [force/length] */
+  PetscBool            gaps_only;        /* finite differences use the matrix J of the facets for smooth pairs, which
+                                            takes less time than the exact one */
   PetscBool            smooth;           /* false if the rows under pressure at the points of a finite difference
                                             differ */
   PetscInt             napplications;    /* number of applications of the preconditioner of K */
@@ -149,7 +153,7 @@ static PetscErrorCode NewtonDifference(GapNewton *s)
   if (p->sim->ties.C) PetscCall(MatMult(p->sim->ties.C, s->d, v));
   PetscCall(VecAYPX(v, step, s->u));
   PetscCall(VecWAXPY(lambda, step, s->lambdas, s->lambda));
-  PetscCall(NewtonLinearize(s, v, s->at_u->gaps_only, &lin));
+  PetscCall(NewtonLinearize(s, v, s->gaps_only, &lin));
   PetscCall(InterferenceAdd(p->sim, p->time, 1.0, lin));
   PetscCall(NewtonEvaluate(s, lin, lambda, s->f, s->c, &n));
   PetscCall(ContactLinearizationDestroy(&lin));
@@ -203,10 +207,7 @@ static PetscErrorCode NewtonMult(Mat shell, Vec z, Vec y)
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes f = C^T J(u)^T lambda exactly. For smooth pairs s->force is not exact, because it is computed with the
-   matrix J of the facets, which takes less time and is sufficient for differences.
-*/
+/* Computes f = C^T J(u)^T lambda exactly. For smooth pairs s->force is not exact if s->gaps_only. */
 static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
 {
   ContactLinearization lin;
@@ -234,6 +235,7 @@ static PetscErrorCode NewtonBegin(GapNewton *s, Vec b, PetscBool *solved)
   PetscFunctionBegin;
   PetscCall(NewtonEvaluate(s, s->at_u, s->lambda, s->force, s->gap, &s->nrows));
   PetscCall(NewtonForce(s, s->d));
+  if (!s->gaps_only) PetscCall(VecCopy(s->d, s->force));
   PetscCall(MatMultTranspose(s->p->J, s->lambda, s->f));
   PetscCall(VecAYPX(s->f, -1.0, s->d));
   PetscCall(VecCopy(s->gap, s->c));
@@ -287,18 +289,24 @@ static PetscErrorCode NewtonDestroy(GapNewton *s)
 }
 
 /*
-   Sets the tolerance of GMRES: the rate at which the gap converges, but at most NEWTON_TOLERANCE, and no smaller than
-   what reduces the error of the update to the gap tolerance.
+   Sets how accurate the method is. The tolerance of GMRES is the rate at which the gap converges, but at most
+   NEWTON_TOLERANCE, and no smaller than what reduces the error of the update to the gap tolerance.
 */
-static PetscErrorCode NewtonSetTolerance(GapNewton *s, const StepReport *report)
+static PetscErrorCode NewtonSetAccuracy(GapNewton *s, const StepReport *report)
 {
   const PetscReal safe = 0.3, allowed = s->p->sim->control->tolerances.gap_change;
   PetscReal       size;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(s->u, NORM_INFINITY, &size));
-  s->rtol = NEWTON_TOLERANCE;
-  if (report->contact_updates > 1) s->rtol = PetscMin(s->rtol, report->update_error / s->p->gap_change);
+  s->gaps_only = s->at_u->gaps_only;
+  s->rtol      = NEWTON_TOLERANCE;
+  if (report->contact_updates > 1) {
+    const PetscReal rate = report->update_error / s->p->gap_change;
+
+    s->gaps_only = (PetscBool)(s->gaps_only && rate <= NEWTON_SLOW);
+    s->rtol      = PetscMin(s->rtol, rate);
+  }
   s->rtol = PetscMin(safe, PetscMax(s->rtol, safe * allowed * size / report->update_error));
   PetscFunctionReturn(0);
 }
@@ -378,7 +386,7 @@ PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, C
   if (kinks || p->friction.T || !p->sim->solved->subspace || !NewtonIsNear(p, report)) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscCall(NewtonCreate(p, sol, u, &s));
-  PetscCall(NewtonSetTolerance(&s, report));
+  PetscCall(NewtonSetAccuracy(&s, report));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(VecGetLocalSize(s.lambda, &m));
   PetscCall(VecCreateMPI(p->sim->comm, n + m, PETSC_DETERMINE, &b));

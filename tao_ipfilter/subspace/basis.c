@@ -376,23 +376,34 @@ static PetscErrorCode BasisCombine(IPBasis *b, PetscInt n, PetscInt k, const Pet
   PetscFunctionReturn(0);
 }
 
-/* Replaces the entries W of K times the first k of n directions by their combinations with the columns of T */
+/*
+   Replaces the entries W of K times the first k of n directions by their combinations with the columns of T, in blocks
+   of entries that stay in the cache
+*/
 static PetscErrorCode BasisCombineForces(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
 {
-  PetscReal *sum;
-  PetscInt   nw;
+  const PetscInt chunk = 128;
+  PetscScalar   *sums;
+  PetscInt       nw;
 
   PetscFunctionBegin;
   PetscCall(ISGetLocalSize(b->W, &nw));
-  PetscCall(PetscMalloc1(k, &sum));
-  for (PetscInt i = 0; i < nw; i++) {
+  PetscCall(PetscMalloc1(chunk * k, &sums));
+  for (PetscInt start = 0; start < nw; start += chunk) {
+    const PetscInt rows = PetscMin(chunk, nw - start);
+
+    PetscCall(PetscArrayzero(sums, chunk * k));
     for (PetscInt c = 0; c < k; c++) {
-      sum[c] = 0.0;
-      for (PetscInt j = 0; j < n; j++) sum[c] += T[j + c * n] * b->q[j][i];
+      for (PetscInt j = 0; j < n; j++) {
+        const PetscReal    factor = T[j + c * n];
+        const PetscScalar *q      = b->q[j] + start;
+
+        for (PetscInt i = 0; i < rows; i++) sums[c * chunk + i] += factor * q[i];
+      }
     }
-    for (PetscInt c = 0; c < k; c++) b->q[c][i] = sum[c];
+    for (PetscInt c = 0; c < k; c++) PetscCall(PetscArraycpy(b->q[c] + start, sums + c * chunk, rows));
   }
-  PetscCall(PetscFree(sum));
+  PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 
