@@ -160,6 +160,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
+  PetscCall(PetscStrallocpy(keys->file, &s->file));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
   PetscCall(SceneReadAndValidate(keys, s));
   PetscCall(SceneKeysDestroy(&keys));
@@ -220,6 +221,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->ramps));
   PetscCall(PetscFree(s->units));
   PetscCall(PetscFree(s->name));
+  PetscCall(PetscFree(s->file));
   PetscCall(PetscFree(*scene));
   PetscFunctionReturn(0);
 }
