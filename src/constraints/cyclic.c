@@ -6,37 +6,37 @@
 #include "constraintsimpl.h"
 #include <vector3.h>
 
-/* Inserts the rows u2 = R u1 of one pair of faces into Y, except for nodes on the axis */
-static PetscErrorCode CyclicAdd(const Constraints *c, const SceneCyclic *cut, Mat Y, PetscInt first,
-  const PetscBool kept[], PetscBool follows[])
-{
+/* The nodes of one second face and their images on the first one, and R - 1 */
+typedef struct {
   PetscInt  n, *nodes, *images;
   PetscReal turn[3][3];
+} CyclicImages;
 
+/* Inserts the rows u2 = R u1 of one pair of faces into Y, except for nodes on the axis */
+static PetscErrorCode CyclicAdd(const CyclicImages *cut, Mat Y, PetscInt first, const PetscBool kept[],
+  PetscBool follows[])
+{
   PetscFunctionBegin;
-  PetscCall(MeshGetCyclicImages(c->bodies.dm, cut, turn, &n, &nodes, &images));
-  for (PetscInt k = 0; k < 3 * n; ++k) {
-    const PetscInt node = nodes[k / 3], image = images[k / 3], i = k % 3;
+  for (PetscInt k = 0; k < 3 * cut->n; ++k) {
+    const PetscInt node = cut->nodes[k / 3], image = cut->images[k / 3], i = k % 3;
 
     if (node == image) continue;
     follows[3 * (node - first) + i] = PETSC_TRUE;
     if (kept && kept[3 * (node - first) + i]) continue;
     for (PetscInt j = 0; j < 3; ++j) {
-      const PetscReal value = turn[i][j] + (i == j ? 1.0 : 0.0);
+      const PetscReal value = cut->turn[i][j] + (i == j ? 1.0 : 0.0);
 
       if (PetscAbsReal(value) > 1e-14) PetscCall(MatSetValue(Y, 3 * node + i, 3 * image + j, value, INSERT_VALUES));
     }
   }
-  PetscCall(PetscFree(nodes));
-  PetscCall(PetscFree(images));
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix Y of u = Y x. kept: rows that remain unit rows, or NULL; images: becomes true in the rows of
+/* Creates the matrix Y of u = Y x. cuts: images of each cyclic symmetry; kept: rows that remain unit rows, or NULL; images: becomes true in the rows of
    the second faces */
-static PetscErrorCode CyclicBuild(const Constraints *c, const PetscBool kept[], Mat *Y, PetscBool images[])
+static PetscErrorCode CyclicBuild(const Constraints *c, const CyclicImages cuts[], const PetscBool kept[], Mat *Y,
+  PetscBool images[])
 {
-  Scene    scene = c->bodies.scene;
   PetscInt n, rstart;
 
   PetscFunctionBegin;
@@ -44,8 +44,7 @@ static PetscErrorCode CyclicBuild(const Constraints *c, const PetscBool kept[], 
   PetscCall(VecGetOwnershipRange(c->bodies.mass, &rstart, NULL));
   PetscCall(MatCreateAIJ(c->bodies.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 4, NULL, 3, NULL, Y));
   PetscCall(PetscArrayzero(images, n));
-  for (PetscInt k = 0; k < scene->ncyclic; ++k)
-    PetscCall(CyclicAdd(c, &scene->cyclic[k], *Y, rstart / 3, kept, images));
+  for (PetscInt k = 0; k < c->bodies.scene->ncyclic; ++k) PetscCall(CyclicAdd(&cuts[k], *Y, rstart / 3, kept, images));
   for (PetscInt i = 0; i < n; ++i) {
     if (!images[i] || (kept && kept[i])) PetscCall(MatSetValue(*Y, rstart + i, rstart + i, 1.0, INSERT_VALUES));
   }
@@ -107,20 +106,31 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
    rows. */
 PetscErrorCode CyclicCreate(const Constraints *c, const PetscBool prescribed[], Mat *Y, PetscBool follows[])
 {
-  PetscInt   n;
-  PetscBool *images;
-  Mat        all;
+  const Scene   scene = c->bodies.scene;
+  PetscInt      n;
+  PetscBool    *images;
+  CyclicImages *cuts;
+  Mat           all;
 
   PetscFunctionBegin;
   *Y = NULL;
-  if (!c->bodies.scene->ncyclic) PetscFunctionReturn(0);
+  if (!scene->ncyclic) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(scene->ncyclic, &cuts));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k)
+    PetscCall(
+      MeshGetCyclicImages(c->bodies.dm, &scene->cyclic[k], cuts[k].turn, &cuts[k].n, &cuts[k].nodes, &cuts[k].images));
   PetscCall(VecGetLocalSize(c->bodies.mass, &n));
   PetscCall(PetscMalloc1(n, &images));
-  PetscCall(CyclicBuild(c, NULL, &all, images));
+  PetscCall(CyclicBuild(c, cuts, NULL, &all, images));
   PetscCall(CyclicCheckPrescribed(c, all, prescribed, images));
   PetscCall(MatDestroy(&all));
-  PetscCall(CyclicBuild(c, prescribed, Y, images));
+  PetscCall(CyclicBuild(c, cuts, prescribed, Y, images));
   for (PetscInt i = 0; i < n; ++i) follows[i] = (PetscBool)(follows[i] || (images[i] && !prescribed[i]));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k) {
+    PetscCall(PetscFree(cuts[k].nodes));
+    PetscCall(PetscFree(cuts[k].images));
+  }
+  PetscCall(PetscFree(cuts));
   PetscCall(PetscFree(images));
   PetscFunctionReturn(0);
 }
