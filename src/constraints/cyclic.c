@@ -32,8 +32,8 @@ static PetscErrorCode CyclicAdd(const CyclicImages *cut, Mat Y, PetscInt first, 
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix Y of u = Y x. cuts: images of each cyclic symmetry; kept: rows that remain unit rows, or NULL; images: becomes true in the rows of
-   the second faces */
+/* Creates the matrix Y of u = Y x. cuts: images of each cyclic symmetry; kept: rows that remain unit rows, or NULL;
+   images: becomes true in the rows of the second faces */
 static PetscErrorCode CyclicBuild(const Constraints *c, const CyclicImages cuts[], const PetscBool kept[], Mat *Y,
   PetscBool images[])
 {
