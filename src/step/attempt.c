@@ -439,6 +439,7 @@ static PetscErrorCode AttemptNextLinearization(StepProblem *p, ContactUpdateSeca
     PetscFunctionReturn(0);
   }
   if (damped) PetscCall(AttemptWarnDamped(sim, report));
+  if (damped) PetscCall(FrictionReleaseOpen(p));
   report->gap_damped += damped;
   p->by_newton = (PetscBool)(found && !damped);
   if (p->by_newton) PetscCall(VecCopy(next, u_linearized));
