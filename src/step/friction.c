@@ -132,8 +132,8 @@ static PetscErrorCode FrictionKeepReleased(StepProblem *p)
 }
 
 /*
-   Releases the vertices that must stick but are open at present, since contact updates do not converge: they might stick
-   and open by turns. They stick again from the next load step on.
+   Releases the vertices that must stick but are open at present, since contact updates do not converge: they might
+   stick and open by turns. They stick again from the next load step on.
 */
 PetscErrorCode FrictionReleaseOpen(StepProblem *p)
 {

@@ -137,18 +137,34 @@ static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem
   PetscFunctionReturn(0);
 }
 
+/* Goes back to the begin, with the constraints closed that carry a force, touch or are penetrated there */
+static PetscErrorCode ContinuationTouch(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[])
+{
+  const PetscReal tiny = 1e-9;
+
+  PetscFunctionBegin;
+  PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+  for (PetscInt i = 0; i < set->m; i++)
+    set->closed[i] = (PetscBool)(s->lambda[i] > 0.0 || s->gap[i] <= tiny * set->length);
+  PetscFunctionReturn(0);
+}
+
 /*
    Solves by pivoting, and by Newton's method from its end. The frames of terms that slip are those of the last end, so
-   that the laws of their components approach the law of the term.
+   that the laws of their components approach the law of the term. Contacts that stick start from the begin, so that the
+   order of the rows has no influence.
 */
-static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
-  PetscBool *solved)
+static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
+  PetscInt *steps, PetscBool *solved)
 {
   const PetscInt limit = 30, tries = 4;
   PetscBool      found = PETSC_FALSE, open = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(IPTermStickSolve(set, s, steps, &found));
+  if (IPTermStickApplies(set, s)) {
+    PetscCall(ContinuationTouch(set, s, begin));
+    PetscCall(IPTermStickSolve(set, s, steps, &found));
+  }
   if (found) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
   for (PetscInt k = 0; k < tries && !*solved; k++) {
     PetscCall(IPTermPivotFollow(set, s, open, steps, &found));
@@ -168,7 +184,7 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
 {
   PetscFunctionBegin;
   PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
-  if (!*solved) PetscCall(ContinuationPivot(set, s, first, steps, solved));
+  if (!*solved) PetscCall(ContinuationPivot(set, s, begin, first, steps, solved));
   if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationSolve(set, s, first, steps, solved));
   set->met = *solved;

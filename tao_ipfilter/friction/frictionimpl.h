@@ -151,6 +151,7 @@ PETSC_INTERN PetscErrorCode IPTableauEnter(IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauTake(IPTermSet *, const IPReducedSystem *, const IPTableau *);
 
 /* stick.c */
+PETSC_INTERN PetscBool      IPTermStickApplies(const IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN PetscErrorCode IPTermStickSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *found);
 
 /* pivot.c */

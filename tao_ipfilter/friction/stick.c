@@ -125,9 +125,10 @@ static PetscErrorCode StickRelease(IPTableau *p, PetscBool ever[], PetscReal wor
   PetscFunctionReturn(0);
 }
 
-/* Returns whether all terms stick where their constraints are closed, or are free */
-static PetscBool StickIsAll(const IPTermSet *set)
+/* Returns whether all terms stick where their constraints are closed, or are free, and C is computed */
+PetscBool IPTermStickApplies(const IPTermSet *set, const IPReducedSystem *s)
 {
+  if (!set->system.C || s->spring) return PETSC_FALSE;
   for (PetscInt i = 0; i < set->n; i++) {
     if (i >= set->m || set->coefficient[i] < 0.0 || set->limit[i] < PETSC_INFINITY) return PETSC_FALSE;
     if (set->coefficient[i] > 0.0 && set->coefficient[i] < IP_TERM_STICKS) return PETSC_FALSE;
@@ -157,8 +158,7 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
    Solves a problem whose closed contacts stick: by opening and closing contacts one at a time and, if that has no end
    or a force is too large for its constraint, by releasing terms. If a term is released, the coefficients of all that
    do not stick are set to zero: later problems of the same load step then have the same sticking contacts or fewer.
-   *found: false if terms may slip, C is not computed, or there is no solution. *steps: increased by the number of
-   terms released.
+   *found: false if there is no solution. *steps: increased by the number of terms released.
 */
 PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *found)
 {
@@ -169,7 +169,6 @@ PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscI
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  if (!set->system.C || s->spring || !StickIsAll(set)) PetscFunctionReturn(0);
   PetscCall(StickSetUp(set, s, &p, found));
   PetscCall(PetscCalloc2(p.m, &ever, p.m, &work));
   if (*found) PetscCall(StickClose(&p, PETSC_TRUE, ever, work, &ended));
