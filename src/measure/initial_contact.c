@@ -119,15 +119,16 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    PetscReal area = 0.0;
+    PetscReal closed = 0.0; /* area and force; on coarse facets no vertex may be closed although a force acts */
 
     if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
-    for (PetscInt s = 0; s < run->nsteps; ++s) area += p < run->steps[s].npairs ? run->steps[s].pairs[p].area : 0.0;
-    if (area == 0.0 && sim->scene->pairs[p].self)
+    for (PetscInt s = 0; s < run->nsteps; ++s)
+      if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
+    if (closed == 0.0 && sim->scene->pairs[p].self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",
         sim->scene->pairs[p].name, sim->scene->pairs[p].self));
-    else if (area == 0.0)
+    else if (closed == 0.0)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
         "faces and clearance",

@@ -59,3 +59,20 @@ for name in 'impact', 'generalized_alpha':
     run = history(name)
     say(name + ': reaction E A u/L of a bar that is moved slowly, to 10 %', all(abs(f - 0.1) < 0.01 for f in run['bar.xmax.reaction_x'][50:53]), run['bar.xmax.reaction_x'][50:53])
     say(name + ': work of the moved end is energy, to 5 % of the largest', max(map(abs, run['dynamics.numerical_dissipation'])) < 0.05 * max(run['dynamics.total_energy']), run['dynamics.numerical_dissipation'])"
+# a ball hits a plate with facets far larger than the contact: a force acts although no vertex is closed, so that no warning says that the pair was open
+cat > drop.yaml <<'YAML'
+bodies:
+  - plate: {lower: [0, 0, -2], upper: [20, 20, 0], cells: [8, 8, 2], young: 210000, poisson: 0.3, density: 7.85e-9}
+  - ball: {shape: ball, center: [0, 0, 5.01], octant: [1, 1, -1], radius: 5, patches: [4, 4, 4], layers: 3, young: 210000, poisson: 0.3, density: 7.85e-9, initial_velocity: [0, 0, -2000]}
+symmetry: [plate.xmin, plate.ymin, ball.x0, ball.y0]
+displacements:
+  - edge: {face: plate.xmax, value: [0, 0, 0]}
+contact:
+  - hit: {mortar: plate.zmax, nonmortar: ball.surface, distance: 2}
+dynamics: {time_step: 2e-6, end_time: 24e-6}
+YAML
+run drop.yaml -output drop; grep -c 'was open at the end' err
+"$PYTHON" -c "
+from histories import history
+from summaries import say
+say('drop: a contact force', max(history('drop')['contact_force_z']) > 10, '')"
