@@ -52,6 +52,9 @@ PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
+/* Finds whether a body of a pair ends inside the other one, through faces that are not the pair's */
+PETSC_EXTERN PetscErrorCode ContactGetEntered(Contact, PetscInt pair, Vec u, PetscReal margin, PetscBool *entered,
+  PetscReal place[3]);
 /* Determines whether a face of a pair is curved before it deforms */
 PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);
 /* Collective. Whether a node (its number in global vectors) is on the edge of a pair's nonmortar face */

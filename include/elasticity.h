@@ -93,9 +93,9 @@ PETSC_EXTERN PetscErrorCode ElasticitySetInertia(Elasticity, PetscReal inertia, 
 /* Computes for each body with a law of small strain an upper bound of its principal strains, and of its rotation
    angle [rad] */
 PETSC_EXTERN PetscErrorCode ElasticityBoundStrain(Elasticity, Vec u, PetscReal bounds[][2]);
-/* Computes for each body with a law of small strain the mean of the largest principal strain, and the mean rotation
-   angle [rad] */
-PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][2]);
+/* Computes for each body with a law of small strain the mean of the largest principal strain, the mean rotation
+   angle [rad], and the share of its volume that is inverted */
+PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][3]);
 /* Computes the mean Cauchy stress of each local cell, 7 values: xx yy zz xy yz zx and von Mises [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
 /* Computes the recovered stress at the nodes of the local section, 6 values per node [force/length^2] */

@@ -26,7 +26,8 @@ typedef struct {
   PetscReal   shear_force;          /* sum of the magnitudes of the friction forces of all rows [force] */
   PetscReal   stick_area;           /* area around the vertices that stick [length^2]; 0 without friction */
   PetscReal   slip_area;            /* area around the vertices that slip [length^2]; 0 without friction */
-  PetscReal   dissipated; /* work of friction since the start, by the trapezoidal rule over all solves [force length] */
+  PetscReal   dissipated; /* work of friction since the start, from the mean of the largest friction forces at the ends
+                             of each solve [force length] */
 } PairReport;
 
 /* Reaction on a face with prescribed displacements, or on a symmetry plane. If several faces prescribe the same row,

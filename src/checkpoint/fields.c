@@ -7,6 +7,7 @@ const CheckpointPairField CheckpointPairFields[CHECKPOINT_PAIR_FIELDS] = {
   [CHECKPOINT_SLACK]      = {"slack", 1, PETSC_FALSE, PETSC_FALSE},
   [CHECKPOINT_SHEAR]      = {"shear", 3, PETSC_TRUE, PETSC_TRUE},
   [CHECKPOINT_FRICTION]   = {"friction", 3, PETSC_TRUE, PETSC_TRUE},
+  [CHECKPOINT_BOUND]      = {"friction_bound", 1, PETSC_FALSE, PETSC_TRUE},
   [CHECKPOINT_SLIP_PATH]  = {"slip_path", 1, PETSC_FALSE, PETSC_TRUE},
   [CHECKPOINT_DISSIPATED] = {"dissipated", 1, PETSC_TRUE, PETSC_TRUE},
 };

@@ -73,6 +73,7 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
     [CHECKPOINT_SLACK]      = sim->history->slack,
     [CHECKPOINT_SHEAR]      = sim->history->settled,
     [CHECKPOINT_FRICTION]   = sim->history->friction,
+    [CHECKPOINT_BOUND]      = sim->history->bound,
     [CHECKPOINT_SLIP_PATH]  = sim->history->slip_path,
     [CHECKPOINT_DISSIPATED] = sim->history->dissipated,
   };

@@ -3,6 +3,7 @@
    used, since covered areas and rows change between load steps.
 */
 #include "measureimpl.h"
+#include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
@@ -74,65 +75,187 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
   PetscFunctionReturn(0);
 }
 
+/* Computes the largest friction force that the pressure of a row allows [force] */
+static PetscErrorCode FrictionGetBound(Simulation sim, PetscReal time, PetscInt row, PetscReal mass, PetscReal pressure,
+  PetscReal *bound)
+{
+  const PetscInt          which = sim->solved->linearization->pair[row];
+  const SceneContactPair *pair  = &sim->scene->pairs[which];
+  PetscReal               coefficient;
+
+  PetscFunctionBegin;
+  PetscCall(FrictionGetCoefficient(sim->scene, time, which, &coefficient));
+  *bound = PETSC_INFINITY;
+  if (!(pressure > 0.0) || coefficient == 0.0) *bound = 0.0;
+  else if (coefficient < PETSC_INFINITY) *bound = coefficient * pressure * mass;
+  if (pair->shear_limit < PETSC_INFINITY) *bound = PetscMin(*bound, pair->shear_limit * mass);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Returns the work of friction in a row that slips, in addition to that of the mean of the forces at the two states. A
+   row slips only while its force is at the bound. Its work is therefore the mean of the two bounds times the slip, also
+   if the row stuck at the last state, with a force below the bound. before, now: the bounds; old: friction force at the
+   last state, in global coordinates [force]; tangent: the row's tangents; f, s: its friction force and its slip, which
+   is zero if it sticks.
+*/
+static PetscReal FrictionLateWork(PetscReal before, PetscReal now, const PetscReal old[3], const PetscReal tangent[6],
+  const PetscScalar f[2], const PetscScalar s[2])
+{
+  const PetscReal slip[2]  = {PetscRealPart(s[0]), PetscRealPart(s[1])},
+                  force[2] = {PetscRealPart(f[0]), PetscRealPart(f[1])};
+  PetscReal bound =
+    0.5 * (PetscMax(before, VectorNorm(old)) + PetscMin(now, PetscSqrtReal(force[0] * force[0] + force[1] * force[1])));
+  PetscReal work = bound * PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
+
+  for (int a = 0; a < 2; ++a) work += 0.5 * slip[a] * (VectorDot(&tangent[3 * a], old) + force[a]);
+  return PetscMax(work, 0.0);
+}
+
+/*
+   Returns the part of FrictionLateWork() that counts. An open row slipped until it opened. This is assumed if it moved
+   farther along the face than away from it. The force that it lost must be found in other rows of its pair: share is
+   the sum of the bounds of the pair over that at the last state.
+*/
+static PetscReal FrictionLateShare(PetscReal now, PetscReal gap, const PetscScalar s[2], PetscReal share)
+{
+  const PetscReal square = PetscSqr(PetscRealPart(s[0])) + PetscSqr(PetscRealPart(s[1]));
+
+  if (now > 0.0) return 1.0;
+  return gap * gap < square ? PetscMin(share, 1.0) : 0.0;
+}
+
+/* Computes the bounds of all rows [force], and for each pair their sum over that at the last state */
+static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal bound[],
+  PetscReal share[])
+{
+  ContactLinearization  lin = sim->solved->linearization;
+  const ContactHistory *m   = sim->history;
+  const PetscScalar    *z, *mass;
+  PetscReal            *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(2 * m->npairs, &sums));
+  PetscCall(PetscArrayzero(bound, m->npairs * m->nowned));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    PetscReal now = 0.0;
+
+    PetscCall(FrictionGetBound(sim, time, r, PetscRealPart(mass[r]), PetscRealPart(z[r]), &now));
+    if (now < PETSC_INFINITY) bound[ContactHistoryIndex(m, lin, r)] = now;
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) {
+    sums[2 * (k / m->nowned)] += bound[k];
+    sums[2 * (k / m->nowned) + 1] += m->bound[k];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt p = 0; p < m->npairs; ++p) share[p] = sums[2 * p + 1] > 0.0 ? sums[2 * p] / sums[2 * p + 1] : 0.0;
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes the parts of FrictionLateWork() that count, and the bounds of the friction forces. late, bound: [npairs x
+   nowned] by vertex. Time integration has its own balance of energy: there `late` is zero.
+*/
+static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal late[],
+  PetscReal bound[])
+{
+  ContactLinearization  lin = sim->solved->linearization;
+  const ContactHistory *m   = sim->history;
+  const PetscScalar    *f, *s, *g;
+  PetscReal            *share;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(m->npairs, &share));
+  PetscCall(FrictionGetBounds(sim, time, sol, bound, share));
+  PetscCall(PetscArrayzero(late, m->npairs * m->nowned));
+  PetscCall(VecGetArrayRead(sol->shear, &f));
+  PetscCall(VecGetArrayRead(sol->slip, &s));
+  PetscCall(VecGetArrayRead(sol->gap, &g));
+  for (PetscInt r = 0; r < lin->nlocal && !SimulationIsDynamic(sim); ++r) {
+    const PetscInt k = ContactHistoryIndex(m, lin, r);
+
+    late[k] = FrictionLateShare(bound[k], PetscRealPart(g[r]), &s[2 * r], share[lin->pair[r]]) *
+              FrictionLateWork(m->bound[k], bound[k], &m->settled[3 * k], &lin->tangent[6 * r], &f[2 * r], &s[2 * r]);
+  }
+  PetscCall(VecRestoreArrayRead(sol->gap, &g));
+  PetscCall(VecRestoreArrayRead(sol->slip, &s));
+  PetscCall(VecRestoreArrayRead(sol->shear, &f));
+  PetscCall(PetscFree(share));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes for every pair the work of friction from the start to the solution `sol` at u, and the sum of the magnitudes
-   of the friction forces
+   of the friction forces. *late: FrictionLateWork() of all rows.
 */
-PetscErrorCode FrictionMeasure(Simulation sim, Vec u, const ContactSolution *sol, StepReport *report)
+PetscErrorCode FrictionMeasure(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol, StepReport *report,
+  PetscReal *late)
 {
   const Bodies          bodies = SimulationBodies(sim);
   const ContactHistory *m      = sim->history;
-  PetscReal            *sums, *work;
+  PetscReal            *sums, *work, *more, *bound;
   Vec                   force, increment[2];
 
   PetscFunctionBegin;
-  report->dissipated = 0.0;
+  report->dissipated = *late = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
-  PetscCall(PetscCalloc1(2 * m->npairs, &sums));
-  PetscCall(PetscMalloc1(m->nowned, &work));
+  PetscCall(PetscCalloc1(2 * m->npairs + 1, &sums));
+  PetscCall(PetscMalloc3(m->nowned, &work, m->npairs * m->nowned, &more, m->npairs * m->nowned, &bound));
+  PetscCall(FrictionGetLateWork(sim, time, sol, more, bound));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!report->pairs[p].frictional) continue;
     PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
-    for (PetscInt v = 0; v < m->nowned; ++v) sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v];
+    for (PetscInt v = 0; v < m->nowned; ++v) {
+      sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v] + more[p * m->nowned + v];
+      sums[2 * m->npairs] += more[p * m->nowned + v];
+    }
   }
   PetscCall(FrictionAddSizes(sim->solved->linearization, sol, sums));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs + 1), MPIU_REAL, MPIU_SUM, sim->comm));
+  *late = sums[2 * m->npairs];
   for (PetscInt p = 0; p < m->npairs; ++p) {
     report->pairs[p].dissipated  = sums[2 * p];
     report->pairs[p].shear_force = sums[2 * p + 1];
     report->dissipated += sums[2 * p];
   }
-  PetscCall(PetscFree(work));
+  PetscCall(PetscFree3(work, more, bound));
   PetscCall(PetscFree(sums));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
 
-/* Adds the dissipation up to u to the history, and stores the friction forces at u */
-static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactSolution *sol)
+/* Adds the dissipation up to u to the history, and stores the friction forces and their bounds at u */
+static PetscErrorCode FrictionSettleForces(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol)
 {
   const Bodies       bodies = SimulationBodies(sim);
   ContactHistory    *m      = sim->history;
   const PetscScalar *now;
-  PetscReal         *work;
+  PetscReal         *work, *late, *bound;
   Vec                force, increment[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
-  PetscCall(PetscMalloc1(m->nowned, &work));
+  PetscCall(PetscMalloc3(m->nowned, &work, m->npairs * m->nowned, &late, m->npairs * m->nowned, &bound));
+  PetscCall(FrictionGetLateWork(sim, time, sol, late, bound));
+  PetscCall(PetscArraycpy(m->bound, bound, m->npairs * m->nowned));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) continue;
     PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
-    for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v];
+    for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v] + late[p * m->nowned + v];
     PetscCall(VecGetArrayRead(force, &now));
     for (PetscInt i = 0; i < 3 * m->nowned; ++i) m->friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
     PetscCall(VecRestoreArrayRead(force, &now));
   }
-  PetscCall(PetscFree(work));
+  PetscCall(PetscFree3(work, late, bound));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
@@ -142,7 +265,7 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, Vec u, const ContactS
    Makes the solution at u the new state of equilibrium: adds its dissipation and slip to the history. Later slip is
    relative to this state.
 */
-PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
+PetscErrorCode FrictionSettle(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol)
 {
   ContactLinearization lin = sim->solved->linearization;
   ContactHistory      *m   = sim->history;
@@ -151,7 +274,7 @@ PetscErrorCode FrictionSettle(Simulation sim, Vec u, const ContactSolution *sol)
   PetscFunctionBegin;
   PetscCall(PetscFree2(sim->solved->shear, sim->solved->slip));
   if (!sol->shear) PetscFunctionReturn(0);
-  PetscCall(FrictionSettleForces(sim, u, sol));
+  PetscCall(FrictionSettleForces(sim, time, u, sol));
   PetscCall(PetscMalloc2(2 * lin->nlocal, &sim->solved->shear, 2 * lin->nlocal, &sim->solved->slip));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));

@@ -1,6 +1,7 @@
 /* Describes the contact pairs at the start, and warns of overlaps that the scene does not declare */
 #include "measureimpl.h"
 #include <math.h>
+#include "src/state/path.h"
 
 #define START_ROUNDING \
   1e-6 /* largest overlap that counts as rounding error, as a fraction of the square root of the
@@ -112,8 +113,35 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   PetscFunctionReturn(0);
 }
 
-/* Warns, after the last load step, of pairs that were open in all load steps */
-PetscErrorCode StartWarnOfUnmet(Simulation sim)
+/* Fails the last load step if the bodies of a pair that was open in all load steps have passed into each other */
+static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport *report)
+{
+  const SceneContactPair *pair = &sim->scene->pairs[p];
+  const PetscReal         part = 0.01; /* of the largest displacement, that does not count */
+  PetscReal               place[3];
+  PetscBool               entered;
+  char                    reason[512];
+
+  PetscFunctionBegin;
+  if (!report->converged) PetscFunctionReturn(0);
+  PetscCall(ContactGetEntered(sim->contact, p, sim->path->u, part * report->motion, &entered, place));
+  if (!entered) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "contact pair \"%s\" was open at the end of every load step, but its bodies have passed into each other, for "
+    "example "
+    "at the vertex (%g, %g, %g): the faces %s and %s are not those that meet",
+    pair->name, (double)place[0], (double)place[1], (double)place[2], pair->mortar, pair->nonmortar));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  report->gap_unconverged = PETSC_TRUE;
+  sim->report.converged   = PETSC_FALSE;
+  sim->report.reason      = report->reason;
+  sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+  PetscFunctionReturn(0);
+}
+
+/* Warns, after the last load step, of pairs that were open in all load steps. report: of that load step, which fails if
+   their bodies have passed into each other */
+PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
 {
   const RunReport *run = &sim->report;
 
@@ -124,6 +152,7 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim)
     if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s)
       if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
+    if (closed == 0.0) PetscCall(StartRefuseEntered(sim, p, report));
     if (closed == 0.0 && sim->scene->pairs[p].self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",

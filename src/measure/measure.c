@@ -172,7 +172,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
 {
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, dead = load;
-  PetscReal         size, residual, rounding;
+  PetscReal         size, residual, rounding, late = 0.0;
   PetscBool         moves; /* whether the bodies only move as a whole, without stress */
 
   PetscFunctionBegin;
@@ -197,14 +197,14 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
     PetscCall(FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, sol->shear, PETSC_DECIDE,
       contact));
     PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
-    PetscCall(FrictionMeasure(sim, u, sol, report));
+    PetscCall(FrictionMeasure(sim, time, u, sol, report, &late));
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
     if (!sim->history->shear && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
-  PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, report));
+  PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
   PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report)); /* needs all forces on faces */

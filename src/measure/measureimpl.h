@@ -12,8 +12,9 @@
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Mat slip, Vec shear, PetscInt pair, Vec force);
-PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, Vec u, const ContactSolution *, StepReport *);
-PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, Vec u, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, PetscReal time, Vec u, const ContactSolution *, StepReport *,
+  PetscReal *late);
+PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, PetscReal time, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* diagnose_rigid_motion.c */
@@ -59,6 +60,7 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
 /* penetration.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
 /*
@@ -66,14 +68,15 @@ PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
    small strain
 */
 PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
-PETSC_INTERN PetscErrorCode StrainWarn(Simulation, PetscInt step);
+PETSC_INTERN PetscErrorCode StrainTest(Simulation, StepReport *);
 
 /* rigid_places.c */
 PETSC_INTERN PetscErrorCode RigidPlacesMeasure(Simulation, StepReport *);
 
 /* work.c */
 PETSC_INTERN PetscErrorCode WorkWarn(Simulation, const StepReport *);
-PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *);
+PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact,
+  PetscReal late, StepReport *);
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
@@ -94,6 +97,6 @@ PETSC_INTERN PetscErrorCode MotionMeasure(Simulation, Vec u, StepReport *);
 
 /* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);
-PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation);
+PETSC_INTERN PetscErrorCode StartWarnOfUnmet(Simulation, StepReport *);
 
 #endif

@@ -32,6 +32,46 @@ static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepRepo
   return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
 }
 
+/* Returns whether the scene asks for gaps that are not exact, so that penetration is its own choice */
+static PetscBool PenetrationIsAllowed(Simulation sim)
+{
+  return (PetscBool)(sim->control->penalty > 0.0 || sim->scene->contact_updates == 1);
+}
+
+/*
+   Fails the load step if a pair carries no force although a vertex of it is in the other body: its gap is open only in
+   the mean, and nothing holds the faces apart. In time steps this is possible for one step, until the contact closes.
+*/
+PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
+{
+  PetscReal motion = 0.0;
+  char      reason[512];
+
+  PetscFunctionBegin;
+  if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < sim->report.nsteps; ++s) motion = PetscMax(motion, sim->report.steps[s].motion);
+  for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
+    const SceneContactPair *pair = &sim->scene->pairs[p];
+    const PairReport       *its  = &report->pairs[p];
+
+    if (its->normal_force != 0.0 || PenetrationIsMeant(pair, report)) continue;
+    if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "contact pair \"%s\" carries no force, although a vertex of %s or %s is %.3g deep in the other body, %.3g %% of "
+      "the "
+      "largest displacement: the gap is open in the mean over the nonmortar facets there; use gap: node, swap the two "
+      "faces, or refine them",
+      pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
+      100.0 * (double)(its->penetration / motion)));
+    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+    report->gap_unconverged = PETSC_TRUE;
+    sim->report.converged   = PETSC_FALSE;
+    sim->report.reason      = report->reason;
+    sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+  }
+  PetscFunctionReturn(0);
+}
+
 /*
    Warns of penetration after the last load step, pair by pair. Load steps in which the scene leaves an overlap are
    ignored.
@@ -42,7 +82,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
   PetscReal        motion = 0.0;
 
   PetscFunctionBegin;
-  if (sim->control->penalty > 0.0 || sim->scene->contact_updates == 1) PetscFunctionReturn(0);
+  if (PenetrationIsAllowed(sim)) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < run->nsteps; ++s) motion = PetscMax(motion, run->steps[s].motion);
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     const SceneContactPair *pair  = &sim->scene->pairs[p];
@@ -64,12 +104,12 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     if (pair->self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\": a vertex of %s is %.3g deep in its own body at the end of load step %" PetscInt_FMT
-        ", %.2g %% of the largest displacement, although the gap is closed in the mean: refine the surface there",
+        ", %.3g %% of the largest displacement, although the gap is closed in the mean: refine the surface there",
         pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
         "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
-        "%" PetscInt_FMT ", %.2g %% of the largest displacement, although the gap is %s %s: %s",
+        "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the gap is %s %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
         open ? "open" : "closed", node ? "at the nonmortar vertices" : "in the mean",
         node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));

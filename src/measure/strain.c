@@ -1,66 +1,91 @@
-/* Warns of bodies with a law of small strain that are strained or rotated far beyond its range */
+/* Warns of bodies with a law of small strain that are strained or rotated far beyond its range, and finds those that
+   are turned inside out */
 #include "measureimpl.h"
 #include "src/state/path.h"
 #include "src/state/results.h"
 
 #define STRAIN_LIMIT   0.25 /* largest principal strain, in the mean over the body's strain energy */
 #define ROTATION_LIMIT 0.25 /* largest rotation angle, in the mean over the body's volume [rad] */
+#define INVERTED_LIMIT 0.1  /* largest share of the body's volume that may be inverted, as it is at singular edges */
 
-/* Returns whether there are bodies of which no warning has been printed yet */
-static PetscBool StrainMayWarn(Scene scene, const PetscBool beyond[])
+/* Returns whether a body has a law of small strain */
+static PetscBool StrainApplies(Scene scene, PetscInt b)
 {
-  PetscBool any = PETSC_FALSE;
+  const Material *material = &scene->bodies[b].material;
 
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const Material *material = &scene->bodies[b].material;
-
-    any = (PetscBool)(any || (!beyond[b] && material->type != MATERIAL_RIGID && !MaterialIsFinite(material)));
-  }
-  return any;
+  return (PetscBool)(material->type != MATERIAL_RIGID && !MaterialIsFinite(material));
 }
 
-/* Collective. Finds whether the strain or rotation of a body may exceed a limit for the first time. If no quadrature
-   point exceeds it, the mean does not either. values: work array, two values per body */
-static PetscErrorCode StrainMayExceed(Simulation sim, PetscReal values[][2], PetscBool *may)
+/* Collective. Finds whether a body may be inverted, or may exceed a limit of which it has not been warned. If no
+   quadrature point does, the mean does not either. warned: bodies of which a warning has been printed */
+static PetscErrorCode StrainMayExceed(Simulation sim, const PetscBool warned[], PetscBool *may)
 {
+  Scene     scene = sim->scene;
+  PetscBool any   = PETSC_FALSE;
+  PetscReal(*bounds)[2];
+
   PetscFunctionBegin;
   *may = PETSC_FALSE;
-  PetscCall(ElasticityBoundStrain(sim->elasticity, sim->path->u, values));
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
-    *may = (PetscBool)(*may || (!sim->results->beyond[b] && sim->scene->bodies[b].material.type != MATERIAL_RIGID &&
-                                 (values[b][0] > STRAIN_LIMIT || values[b][1] > ROTATION_LIMIT)));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) any = (PetscBool)(any || StrainApplies(scene, b));
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(scene->nbodies, &bounds));
+  PetscCall(ElasticityBoundStrain(sim->elasticity, sim->path->u, bounds));
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    *may = (PetscBool)(*may || (StrainApplies(scene, b) &&
+                                 (bounds[b][0] >= 1.0 ||
+                                   (!warned[b] && (bounds[b][0] > STRAIN_LIMIT || bounds[b][1] > ROTATION_LIMIT)))));
+  PetscCall(PetscFree(bounds));
+  PetscFunctionReturn(0);
+}
+
+/* Fails the load step if a body is turned inside out. inverted: share of its volume */
+static PetscErrorCode StrainRefuse(Simulation sim, PetscInt b, PetscReal inverted, StepReport *report)
+{
+  char reason[320];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "body \"%s\" is turned inside out: %.3g %% of its volume is compressed to a thickness below zero, which its "
+    "material law for small strains does not prevent; use material: neohookean or another finite-strain law, or "
+    "smaller loads",
+    sim->scene->bodies[b].name, 100.0 * (double)inverted));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  sim->report.converged = PETSC_FALSE;
+  sim->report.reason    = report->reason;
+  sim->report.exit_code = RUN_FAILED;
   PetscFunctionReturn(0);
 }
 
 /*
-   Measures the last state, and warns once of each body, in the first load step in which it is beyond the range of its
-   law. Rigid bodies may rotate. Collective.
+   Measures the last state. Fails the load step if a body is turned inside out. Warns once of each body, in the first
+   load step in which it is beyond the range of its law. Rigid bodies may rotate. Collective.
 */
-PetscErrorCode StrainWarn(Simulation sim, PetscInt step)
+PetscErrorCode StrainTest(Simulation sim, StepReport *report)
 {
   Scene scene = sim->scene;
-  PetscReal(*values)[2];
+  PetscReal(*values)[3];
   PetscBool may;
 
   PetscFunctionBegin;
   if (!sim->results->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->results->beyond));
-  if (!StrainMayWarn(scene, sim->results->beyond)) PetscFunctionReturn(0);
+  PetscCall(StrainMayExceed(sim, sim->results->beyond, &may));
+  if (!may) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
-  PetscCall(StrainMayExceed(sim, values, &may));
-  if (may) PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
-  for (PetscInt b = 0; b < scene->nbodies && may; ++b) {
+  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
-    if (sim->results->beyond[b] || scene->bodies[b].material.type == MATERIAL_RIGID ||
-        (turned && values[b][1] <= ROTATION_LIMIT))
-      continue;
+    if (!StrainApplies(scene, b)) continue;
+    if (report->converged && values[b][2] > INVERTED_LIMIT) PetscCall(StrainRefuse(sim, b, values[b][2], report));
+    if (sim->results->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
     sim->results->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
-      "body \"%s\" is %s by %.2g %s on average in load step %" PetscInt_FMT
+      "body \"%s\" is %s by %.3g %s on average in load step %" PetscInt_FMT
       ", but its material law is for small strains: its forces have an error of about that size; use material: "
       "neohookean or another finite-strain law",
       scene->bodies[b].name, turned ? "rotated" : "strained",
-      (double)(turned ? values[b][1] * 180.0 / PETSC_PI : 100.0 * values[b][0]), turned ? "degrees" : "%", step + 1));
+      (double)(turned ? values[b][1] * 180.0 / PETSC_PI : 100.0 * values[b][0]), turned ? "degrees" : "%",
+      report->step));
   }
   PetscCall(PetscFree(values));
   PetscFunctionReturn(0);

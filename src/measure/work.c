@@ -100,9 +100,11 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 /*
    Adds the work from the last state to u. unbalanced: internal - contact - dead forces, which are the reactions in
    prescribed rows; rigid: forces on rigid bodies that are driven by forces, or NULL; contact: contact forces if there
-   is friction, which this function takes over, or NULL.
+   is friction, which this function takes over, or NULL. late: work of friction beyond that of the mean forces; it comes
+   from the loads, whose mean forces are too small by the same.
 */
-PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, StepReport *report)
+PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, PetscReal late,
+  StepReport *report)
 {
   const Bodies    bodies = SimulationBodies(sim);
   LoadPath       *path   = sim->path;
@@ -130,6 +132,8 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
                                                         bodies */
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
+  path->work += late;
+  path->contact_work += late;
   PetscCall(WorkAddBolts(sim, u, report));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;

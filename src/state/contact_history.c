@@ -29,8 +29,9 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   for (PetscInt p = 0; p < npairs; ++p)
     frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&scene->pairs[p]));
   if (frictional)
-    PetscCall(PetscCalloc5(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
-      3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->slip_path, npairs * m->nowned, &m->dissipated));
+    PetscCall(PetscCalloc6(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
+      3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->bound, npairs * m->nowned, &m->slip_path,
+      npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
 }
 
@@ -239,6 +240,6 @@ PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree4(m->pressure, m->slack, m->open, m->released));
-  PetscCall(PetscFree5(m->shear, m->settled, m->friction, m->slip_path, m->dissipated));
+  PetscCall(PetscFree6(m->shear, m->settled, m->friction, m->bound, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

@@ -21,6 +21,8 @@ struct _n_ContactHistory {
                                     without friction */
   PetscReal   *friction;         /* friction forces on the vertices of both faces at this state [force]; NULL without
                                     friction */
+  PetscReal   *bound;            /* [npairs x nowned] largest friction force that the pressure allowed at the last state
+                                    of equilibrium [force]; NULL without friction */
   PetscReal   *slip_path;        /* [npairs x nowned] length of the path along which the vertex slipped until this
                                     state [length]; NULL without friction */
   PetscReal   *dissipated;       /* [npairs x nowned] work of the friction forces until this state [force length];

@@ -778,7 +778,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
     PetscCall(MeasureState(p.sim, p.time, p.load, inertia, u, &sol, report));
     PetscCall(VecDestroy(&inertia));
     if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
-    if (sim->contact) PetscCall(FrictionSettle(sim, u, &sol));
+    if (sim->contact) PetscCall(FrictionSettle(sim, time, u, &sol));
     PetscCall(PathAdvance(sim->path, time, &u));
     PetscCall(ContactLinearizationDestroy(&good));
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));

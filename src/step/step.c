@@ -42,7 +42,8 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(ContactPointsMeasure(sim, report));
   PetscCall(RigidPlacesMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
-  if (report->converged) PetscCall(StrainWarn(sim, report->step - 1));
+  if (sim->contact && report->converged) PetscCall(PenetrationTest(sim, report));
+  if (report->converged) PetscCall(StrainTest(sim, report));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(ResultsMeasure(sim));
   PetscCall(ProbesMeasure(sim, report));
@@ -213,7 +214,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
   if (report->converged && step + 1 == sim->scene->nsteps) {
-    PetscCall(StartWarnOfUnmet(sim));
+    PetscCall(StartWarnOfUnmet(sim, report));
     PetscCall(PenetrationWarn(sim));
     PetscCall(PairMeshWarn(sim));
   }

@@ -275,10 +275,12 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(RunsAway(tao, &away));
     if (!away) PetscCall(ConvergeUnlessDegenerate(tao));
   } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g, but gradients of the constraints vanish where the constraints are met, and the "
-      "multipliers grow without limit: bounded multipliers may not exist",
-      (double)k->error));
+    const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
+
+    PetscCall(IPSetReason(tao, acceptable ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
+      "%s: KKT error %g; gradients of the constraints vanish where the constraints are met, and the multipliers grow "
+      "without limit: bounded multipliers may not exist",
+      acceptable ? "acceptable" : "no multipliers", (double)IPBothErrors(ip)));
   } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF,
       "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,

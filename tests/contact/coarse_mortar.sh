@@ -22,4 +22,19 @@ displacements:
 contact:
   - touch: {mortar: base.zmax, nonmortar: ball.surface}
 END
-"$contact" ball.yaml -quiet 2>&1 | grep -o 'though the gap is .*'
+# A pin of eight facets, whose edges are too sharp for a smooth surface, pushed into the wall of its hole
+cat > pin.yaml <<'END'
+bodies:
+  - hub: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 180], extent: [0, 0.2], cells: [3, 24, 1], young: 1000, poisson: 0.3}
+  - pin: {shape: tube_arc, axis: z, radii: [0.5, 1], angles: [0, 180], extent: [0, 0.2], cells: [2, 4, 1], young: 1000, poisson: 0.3}
+symmetry: [hub.lmin, hub.lmax, pin.lmin, pin.lmax]
+displacements:
+  - outer: {face: hub.outer, value: [0, 0, 0]}
+  - push: {face: pin.inner, value: [0, 0.02, 0]}
+contact:
+  - touch: {mortar: hub.inner, nonmortar: pin.outer}
+END
+for name in ball pin; do
+  "$contact" $name.yaml -quiet -summary $name.json 2> $name.log
+  echo "$name: exit code $?, $(grep -c 'carries no force, although a vertex of .* deep in the other body' $name.log) sentence"
+done

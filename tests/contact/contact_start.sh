@@ -27,6 +27,21 @@ try() {
   "$PYTHON" -c 'import json; print("  warnings in the summary: %d" % len(json.load(open("stone.json"))["warnings"]))'
 }
 
+# sides NAME MORTAR NONMORTAR WAY: a block above another one is moved by WAY, with a pair of faces that do not meet
+sides() {
+  cat > stone.yaml <<YAML
+bodies:
+  - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], young: 1000, poisson: 0.3}
+  - high: {lower: [0.2, 0.2, 1.05], upper: [0.8, 0.8, 1.3], cells: [3, 3, 3], young: 1000, poisson: 0.3}
+displacements: [{face: low.zmin, value: [0, 0, 0]}, {face: high.zmax, value: $4}]
+contact:
+  - wrong: {mortar: low.$2, nonmortar: high.$3}
+YAML
+  try "$1"
+}
+sides "pressed, sides that do not meet" xmax xmin "[0, 0, -0.3]"
+sides "pressed, tops" zmax zmax "[0, 0, -0.3]"
+sides "moved sideways, tops" zmax zmax "[0.5, 0, 0]"
 stone 0.7 -1 "" && try "overlap"
 "$contact" stone.yaml -scene_check | sed -n '/^Contact at/,$p'
 stone 0.7 -1 ", interference: 0.2" && try "more overlap than declared"

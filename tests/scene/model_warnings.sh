@@ -95,3 +95,19 @@ contact:
   - pair: {mortar: low.zmax, nonmortar: high.zmin, friction: 0.3}
 SCENE
 run ride
+
+# A lid that is pressed through a cube: a linear law lets the cube pass through a thickness of zero. Half of that is warned of
+for way in 0.5 1.5; do
+  cat > lid.yaml <<SCENE
+problem: lid
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [4, 4, 4], young: 1000, poisson: 0.3}
+  - lid: {lower: [-0.5, -0.5, 1], upper: [1.5, 1.5, 1.2], cells: [4, 4, 1], material: rigid}
+displacements:
+  - floor: {face: cube.zmin, value: [0, 0, 0]}
+  - press: {body: lid, value: [0, 0, -$way]}
+contact:
+  - touch: {mortar: lid.zmin, nonmortar: cube.zmax}
+SCENE
+  run lid
+done

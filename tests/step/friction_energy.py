@@ -55,7 +55,28 @@ ramps:
 SWAPPED = SEAM
 for side in "left", "right":
     SWAPPED = SWAPPED.replace(f"mortar: {side}.zmax, nonmortar: die.zmin", f"mortar: die.zmin, nonmortar: {side}.zmax")
+# A block that rests under a pressure, and is then pushed over a rigid floor, all at once and in many load steps
+PUSH = """problem: push
+bodies:
+  - floor: {{lower: [-1, -1, -1], upper: [3, 2, 0], cells: [1, 1, 1], material: rigid}}
+  - block: {{lower: [0, 0, 0], upper: [1, 1, {height}], cells: [3, 3, 3], young: 1000, poisson: 0.3}}
+displacements:
+  - ground: {{body: floor, value: [0, 0, 0]}}
+  - push: {{face: block.zmax, value: [0.1, 0, free], ramp: along}}
+pressures:
+  - press: {{face: block.zmax, value: 1}}
+contact:
+  - pair: {{mortar: floor.zmax, nonmortar: block.zmin, {law}}}
+load: {{factors: {load}}}
+ramps:
+  - along: {{factors: {along}}}
+"""
+STEPS = 16
+PUSHES = {"low": dict(height=0.25, law="friction: 0.3"), "high": dict(height=1, law="friction: 0.3"), "limited": dict(height=0.25, law="friction: 5, shear_limit: 0.3")}
 SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED}
+for push, values in PUSHES.items():
+    SCENES[push + "_once"] = PUSH.format(load=[1, 1, 1], along=[0, 1, 0], **values)
+    SCENES[push + "_slowly"] = PUSH.format(load=[1] * (2 * STEPS + 1), along=[k / STEPS for k in [*range(STEPS + 1), *range(STEPS - 1, -1, -1)]], **values)
 
 
 def parts(name):
@@ -90,6 +111,13 @@ else:
         steps = list(parts(name))[1:]  # at first overlaps are pressed out, by no work of loads
         say(f"{name}: in every step work is stored or dissipated, to 1 %", all(within(part["energy"] + part["dissipated"], part["work"], 0.01) for _, part in steps), steps)
         say(f"{name}: with what normal forces do, to 1e-8", all(within(part["energy"] + part["dissipated"] + part["normal_work"], part["work"], 1e-8) and step["imbalance"] < 1e-8 for step, part in steps), steps)
+    for push in PUSHES:
+        once, slowly = load(push + "_once")["steps"], load(push + "_slowly")["steps"]
+        for title, step, other in ("pushed", once[1], slowly[STEPS]), ("and back", once[2], slowly[-1]):
+            taken, work = (step[key] - once[0][key] for key in ("dissipated", "work"))
+            say(f"{push}, {title}: dissipated in one load step as in {STEPS}, to 3 %", within(taken, other["dissipated"] - slowly[0]["dissipated"], 0.03), (taken, other["dissipated"]))
+            say(f"{push}, {title}: the work of the loads as well", within(work, other["work"] - slowly[0]["work"], 0.03) and step["imbalance"] < 1e-6, (work, other["work"], step["imbalance"]))
+        say(f"{push}: friction times way, to 5 %", within(once[1]["dissipated"], 0.03, 0.05), once[1]["dissipated"])
     whole, restarted = (load(name)["steps"][-1] for name in ("pin", "pin_restarted"))
     say("pin: restarted, dissipated", within(restarted["dissipated"], whole["dissipated"], 1e-6), (restarted["dissipated"], whole["dissipated"]))
     one, three = (load(name)["steps"][-1] for name in ("pin", "pin_3"))

@@ -10,8 +10,9 @@ from nlp import HERE, KINDS, PROBLEMS, counts, differences, judge, parse, run, s
 from nlp_problems import UNBOUNDED, Problem
 
 # Minima of these problems beside the known ones, to which other forms lead: the gradient of the Lagrangian vanishes there to 1e-5, and its Hessian is positive
-# definite on the tangent space (HS23: two rows active, both multipliers positive)
-MINIMA = {"HS23": 9.472135955, "HS46": 0.0210889286, "S261": 1.6295575861, "S282": 3.9843950179, "bard": 1.0038205868, "BT5": 952.1424944555}
+# definite on the tangent space (HS23, S325: two rows active, both multipliers positive)
+MINIMA = {"HS23": 9.472135955, "HS46": 0.0210889286, "S261": 1.6295575861, "S282": 3.9843950179, "bard": 1.0038205868, "BT5": 952.1424944555,
+          "HS47": 10.0699102841, "S325": 7.4640959077}
 
 FUNCTIONS = {name: getattr(math, name) for name in ("exp", "sin", "cos", "cosh", "atan", "sqrt", "log", "tanh", "erf")}
 MOST_UNKNOWNS, MOST_ROWS = 50, 100  # tests/stress/nlp_read.h

@@ -11,6 +11,7 @@ A line a problem: name, how it ended, objective, violation, iterations, points e
 static const char *Ending(TaoConvergedReason reason, const char *sentence)
 {
   if (reason > 0) return strstr(sentence, "acceptable") == sentence ? "acceptable" : "converged";
+  if (strstr(sentence, "no multipliers") == sentence) return "no multipliers";
   if (strstr(sentence, "infeasible")) return "infeasible";
   return strstr(sentence, "unbounded") ? "unbounded" : "failed";
 }

@@ -97,6 +97,13 @@ static PetscBool DegenerateIsGood(TaoConvergedReason reason, const char *sentenc
   return (PetscBool)(violation < 1e-6 && error < (reason == TAO_CONVERGED_STEPTOL ? 1e-3 : 1e-6));
 }
 
+/* The optimum, which is called acceptable, or of which it is said that no multipliers exist */
+static PetscBool ReachedIsGood(TaoConvergedReason reason, const char *sentence, PetscReal error, PetscReal violation)
+{
+  if (reason > 0) return DegenerateIsGood(reason, sentence, error, violation);
+  return (PetscBool)(strstr(sentence, "no multipliers") == sentence && violation < 1e-6 && error < 1e-3);
+}
+
 /* The known optimum at a feasible point; or it is said that there is none. Where the solver fails, what it returns
    violates the constraints no more than the start did, by first. */
 static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Outcome *o)
@@ -112,8 +119,7 @@ static PetscErrorCode Judge(const FormulasProblem *problem, PetscReal first, Out
   o->error = ObjectiveError(p, o->f);
   if (p->end == NLP_SOLVED) o->good = (PetscBool)(o->reason > 0 && o->error < 1e-6 && o->violation < 1e-6);
   else if (p->end == NLP_DEGENERATE) o->good = DegenerateIsGood(o->reason, o->sentence, o->error, o->violation);
-  else if (p->end == NLP_REACHED)
-    o->good = (PetscBool)(o->reason > 0 && DegenerateIsGood(o->reason, o->sentence, o->error, o->violation));
+  else if (p->end == NLP_REACHED) o->good = ReachedIsGood(o->reason, o->sentence, o->error, o->violation);
   else if (p->end == NLP_INFEASIBLE) o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "infeasible"));
   else o->good = (PetscBool)(o->reason < 0 && strstr(o->sentence, "unbounded"));
   if (o->reason < 0 && o->violation > (1.0 + PETSC_SMALL) * first) o->good = PETSC_FALSE;

@@ -60,6 +60,12 @@ static const Case cases[] = {
      "1e-6*(5-2*x1^2-x2^2-x3^2-2*x1+x2+x4)-x7",
      ": : : : 0: 0: 0:", "0 0 0 0 8e6 10 5e-6", -44.0, NLP_REACHED, NULL},
     ""},
+  {{"cubic row twice, from afar", "x1", "", "(x1-1)^3-x2; (x1-1)^3-x2", "1: 0:", "25000 25000", 1.0, NLP_REACHED, NULL},
+    ""},
+  {{"cubic row, objective as an unknown", "x3", "x3-x1", "(x1-1)^3-x2", "1: 0: :", "25000 25000 25000", 1.0,
+     NLP_REACHED, NULL},
+    ""},
+  {{"square row", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL}, ""},
   {{"no number in the start", "x1^2+x2^2", "x1+x2-1", "", "", "nan 1", 0.5, NLP_DEGENERATE, NULL}, ""},
 };
 

@@ -1,4 +1,4 @@
-/* The undeformed boundary of all bodies: mean thickness, bounding boxes, and solid angles for tests whether a point is
+/* The boundary of all bodies: mean thickness, bounding boxes, and solid angles for tests whether a point is
    inside */
 #include <mesh.h>
 #include "surfaceimpl.h"
@@ -36,11 +36,11 @@ PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
   PetscCall(PetscMalloc1(end - start, &boundary));
   PetscCall(MeshMarkBoundary(dm, boundary));
   for (PetscInt f = start; f < end; ++f) b->n += boundary[f - start];
-  PetscCall(PetscMalloc2(b->n, &b->body, 12 * b->n, &b->x));
+  PetscCall(PetscMalloc3(b->n, &b->body, 4 * b->n, &b->vertex, 12 * b->n, &b->x));
   b->n = 0;
   for (PetscInt f = start; f < end; ++f) {
     const PetscInt *cell;
-    PetscInt        vertex[4], body;
+    PetscInt       *vertex = &b->vertex[4 * b->n], body;
 
     if (!boundary[f - start]) continue;
     PetscCall(DMPlexGetSupport(dm, f, &cell));
@@ -57,7 +57,21 @@ PetscErrorCode ContactBoundaryCreate(DM dm, ContactBoundary *b)
 PetscErrorCode ContactBoundaryDestroy(ContactBoundary *b)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(b->body, b->x));
+  PetscCall(PetscFree3(b->body, b->vertex, b->x));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Moves the facets' vertices to the global displacement u */
+PetscErrorCode ContactBoundaryDeform(DM dm, Vec u, ContactBoundary *b)
+{
+  Vec local;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalVector(dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(DMGlobalToLocal(dm, u, INSERT_VALUES, local));
+  PetscCall(ContactVerticesDeform(dm, local, 4 * b->n, b->vertex, b->x));
+  PetscCall(DMRestoreLocalVector(dm, &local));
   PetscFunctionReturn(0);
 }
 

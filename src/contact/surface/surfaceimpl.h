@@ -6,15 +6,17 @@
 #include <mesh.h>
 #include <petscbt.h>
 
-/* boundary.c: the undeformed boundary facets of all bodies on this rank */
+/* boundary.c: the boundary facets of all bodies on this rank, undeformed unless ContactBoundaryDeform() moves them */
 typedef struct {
   MPI_Comm   comm;
   PetscInt   nbodies;
   PetscInt   n, *body; /* number of facets, and the body of each */
+  PetscInt  *vertex;   /* [4 n] the facets' vertices */
   PetscReal *x;        /* [12 n] coordinates of the facets' vertices, counterclockwise seen from outside [length] */
 } ContactBoundary;
 PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
+PETSC_INTERN PetscErrorCode ContactBoundaryDeform(DM, Vec u, ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
 PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
 PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);

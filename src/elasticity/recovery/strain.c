@@ -2,10 +2,10 @@
 #include "recoveryimpl.h"
 
 /*
-   Computes the largest absolute principal strain, and the angle of the infinitesimal rotation [rad], from a
-   displacement gradient
+   Computes the largest absolute principal strain, the angle of the infinitesimal rotation [rad], and whether a
+   direction is compressed to a length of zero or less, from a displacement gradient
 */
-static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation)
+static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, PetscReal *rotation, PetscBool *inverted)
 {
   const PetscReal e[6] = {H[0], H[4], H[8], 0.5 * (H[1] + H[3]), 0.5 * (H[5] + H[7]), 0.5 * (H[2] + H[6])};
   PetscReal       principal[3];
@@ -13,13 +13,15 @@ static PetscErrorCode StrainMeasure(const PetscReal H[9], PetscReal *strain, Pet
   PetscFunctionBegin;
   PetscCall(ElasticityPrincipal(e, principal));
   *strain   = PetscMax(PetscAbsReal(principal[0]), PetscAbsReal(principal[2]));
+  *inverted = (PetscBool)(PetscMin(principal[0], principal[2]) <= -1.0);
   *rotation = 0.5 * PetscSqrtReal(PetscSqr(H[7] - H[5]) + PetscSqr(H[2] - H[6]) + PetscSqr(H[3] - H[1]));
   PetscFunctionReturn(0);
 }
 
-/* Computes the volume of a cell, and the means over the cell of the principal strain and of the rotation angle */
-static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume, PetscReal *strain,
-  PetscReal *rotation)
+/* Computes the volume of a cell and the part of it that is inverted [length^3], and the means over the cell of the
+   principal strain and of the rotation angle */
+static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume, PetscReal *inverted,
+  PetscReal *strain, PetscReal *rotation)
 {
   const CellBasis *basis = cell->body->basis;
   PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], X[3][CELL_MAX_NODES], U[3][CELL_MAX_NODES];
@@ -28,12 +30,14 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
   PetscCall(PetscArraycpy(&X[0][0], &cell->X[0][0], 3 * CELL_MAX_NODES));
   PetscCall(PetscArraycpy(&U[0][0], &cell->U[0][0], 3 * CELL_MAX_NODES));
   cell->body->element->strains(basis, cell->material, X, U, w, H);
-  *volume = *strain = *rotation = 0.0;
+  *volume = *inverted = *strain = *rotation = 0.0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     PetscReal s = 0.0, r = 0.0;
+    PetscBool turned = PETSC_FALSE;
 
-    PetscCall(StrainMeasure(H[q], &s, &r));
+    PetscCall(StrainMeasure(H[q], &s, &r, &turned));
     *volume += w[q];
+    if (turned) *inverted += w[q];
     *strain += w[q] * s;
     *rotation += w[q] * r;
   }
@@ -44,37 +48,42 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
 
 /*
    Collective. Measures strain and rotation of bodies with a law of small strain. u: global displacement, 3 components
-   per node [length]; values: two per body, namely the mean of the largest absolute principal strain weighted with the
-   strain energy, and the mean of the rotation angle weighted with the volume [rad]; 0 for other laws. With these
-   weights unloaded parts have no influence on the strain, and the few cells at a singular edge have little.
+   per node [length]; values: three per body, namely the mean of the largest absolute principal strain weighted with the
+   strain energy, the mean of the rotation angle weighted with the volume [rad], and the share of the volume in which a
+   direction is compressed to a length of zero or less; 0 for other laws. With these weights unloaded parts have no
+   influence on the strain, and the few cells at a singular edge have little.
 */
-PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][2])
+PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][3])
 {
   Vec                local;
   const PetscScalar *ul, *x;
-  PetscReal         *sums; /* per body: energy, energy x strain, volume, volume x rotation */
+  PetscReal         *sums; /* per body: energy, energy x strain, volume, volume x rotation, inverted volume */
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
-  PetscCall(PetscCalloc1(4 * e->nbodies, &sums));
+  PetscCall(PetscCalloc1(5 * e->nbodies, &sums));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    PetscReal *sum = sums + 4 * e->cellbody[c], volume, strain, rotation, energy;
+    PetscReal *sum = sums + 5 * e->cellbody[c], volume, inverted, strain, rotation, energy;
     CellState  cell;
 
     ElasticityGetCell(e, c, x, ul, &cell);
     if (cell.body->material.law->finite) continue;
-    PetscCall(StrainMeasureCell(&cell, &volume, &strain, &rotation));
+    PetscCall(StrainMeasureCell(&cell, &volume, &inverted, &strain, &rotation));
     energy = cell.body->element->energy(cell.body->basis, cell.material, cell.X, cell.U);
     sum[0] += energy;
     sum[1] += energy * strain;
     sum[2] += volume;
     sum[3] += volume * rotation;
+    sum[4] += inverted;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * e->nbodies), MPIU_REAL, MPIU_SUM,
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(5 * e->nbodies), MPIU_REAL, MPIU_SUM,
     PetscObjectComm((PetscObject)u)));
   for (PetscInt b = 0; b < e->nbodies; ++b) {
-    values[b][0] = sums[4 * b] > 0.0 ? sums[4 * b + 1] / sums[4 * b] : 0.0;
-    values[b][1] = sums[4 * b + 2] > 0.0 ? sums[4 * b + 3] / sums[4 * b + 2] : 0.0;
+    const PetscReal *sum = sums + 5 * b;
+
+    values[b][0] = sum[0] > 0.0 ? sum[1] / sum[0] : 0.0;
+    values[b][1] = sum[2] > 0.0 ? sum[3] / sum[2] : 0.0;
+    values[b][2] = sum[2] > 0.0 ? sum[4] / sum[2] : 0.0;
   }
   PetscCall(PetscFree(sums));
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
