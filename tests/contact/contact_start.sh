@@ -33,7 +33,7 @@ sides() {
 bodies:
   - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], young: 1000, poisson: 0.3}
   - high: {lower: [0.2, 0.2, 1.05], upper: [0.8, 0.8, 1.3], cells: [3, 3, 3], young: 1000, poisson: 0.3}
-displacements: [{face: low.zmin, value: [0, 0, 0]}, {face: high.zmax, value: $4}]
+displacements: [foot: {face: low.zmin, value: [0, 0, 0]}, head: {face: high.zmax, value: $4}]
 contact:
   - wrong: {mortar: low.$2, nonmortar: high.$3}
 YAML
