@@ -75,10 +75,11 @@ def comments():
 def messages():
     calls = r"(?:PetscCheck|SETERRQ|PetscInfo|\w*[Pp]rintf|\w*Warn\w*|\w*Fail\w*|\w*Say\w*|\w*Reason\w*|PetscOptions\w+)"
     for path, content in sources():
+        content = re.sub(r"/\*.*?\*/", lambda comment: re.sub(r"\S", " ", comment[0]), content, flags=re.S)
         for match in re.finditer(calls + r"\s*\((.*?)\);", content, flags=re.S):
             if re.search(r"@\w+{", match[1]):  # a citation
                 continue
-            call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt_FMT\s*"?', "d", match[1]))
+            call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt(?:64)?_FMT\s*"?', "d", match[1]))
             for piece in re.findall(r'"((?:[^"\\]|\\.)*)"', call):
                 # neither XML nor the headings of columns
                 if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and piece[:1] not in "-<" and not re.search(r"<\w+ |  .*  .*  ", piece):

@@ -2,7 +2,7 @@
 #include "contactimpl.h"
 #include "src/contact/self/selfimpl.h"
 
-/* default search distance of a contact pair over the square root of the area of its smaller face */
+/* default search distance of a contact pair, divided by the square root of the area of its smaller face */
 #define SEARCH_FRACTION 0.25
 /* upper bound of the search depth of a pair whose search distance is given, as a fraction of the thickness of both
    bodies */

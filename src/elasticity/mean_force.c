@@ -89,7 +89,7 @@ static PetscReal MeanGetFactor(PetscInt npoints, const MeanPoint points[], Petsc
   return PetscAbsReal(gained - work) > rounding * size ? (gained - work) / square : 0;
 }
 
-/* Adds the point's mean force minus the mean of its forces at both ends to F */
+/* Adds to F the mean force over the time step minus the mean of the forces at its two ends, at one quadrature point */
 static void MeanAddForce(PetscInt n, const MeanPoint *p, PetscReal alpha, PetscReal F[3][CELL_MAX_NODES])
 {
   PetscReal P[9];

@@ -235,7 +235,8 @@ static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char
 {
   *key = "plastic_strains";
   if (h->strains.n != h->stresses.n) {
-    (void)snprintf(why, length, "are %d numbers, for %d yield_stresses", (int)h->strains.n, (int)h->stresses.n);
+    (void)snprintf(why, length, "must be as many numbers as yield_stresses, but they are %d and %d", (int)h->strains.n,
+      (int)h->stresses.n);
     return PETSC_FALSE;
   }
   if (h->strains.n && h->strains.value[0] != 0) {

@@ -131,8 +131,9 @@ static PetscErrorCode CoverCreate(Simulation sim, const SceneContactPair *pair, 
 }
 
 /*
-   Replaces the values of vertices that pass them on by the values that they receive, and adds the received values at
-   the others. *left: area that remains at vertices that pass their values on.
+   Ends one round in which vertices at the edge of the covered area have given their values to neighbours. A vertex that
+   gives its values away keeps only those that it receives; at other vertices the received values are added. *left: area
+   at the vertices that give their values away, which the next round must move.
 */
 static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried, PetscReal *left)
 {

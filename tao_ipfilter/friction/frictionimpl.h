@@ -53,7 +53,7 @@ typedef struct {
   IPTermSystem system;
 } IPTermSet;
 
-/* coefficient from which a term whose constraint is closed is taken to stick always */
+/* A term with at least this coefficient of friction sticks whenever its constraint is closed */
 #define IP_TERM_STICKS 100.0
 
 /* The tableau of tableau.c */

@@ -45,8 +45,8 @@ static void PivotTurn(IPTableau *p, PetscInt i, PetscInt a)
 }
 
 /*
-   Changes q such that the present state solves the problem, with distances from all bounds that differ, and sets the
-   column of the parameter, which restores q at 1
+   Changes q such that the present state solves the problem, and no two variables have the same distance from their
+   bounds. Sets the column of the parameter: q has its original value where the parameter is 1.
 */
 static void PivotBegin(IPTableau *p, PetscBool open)
 {
@@ -190,8 +190,8 @@ static void PivotSlipFirst(const IPTableau *p, PivotLimit *limit)
 }
 
 /*
-   Lets the variable of limit->row leave the basis at its bound, in exchange for the driving variable. Its partner
-   drives next.
+   Exchanges the variable of limit->row, which has reached its bound, for the driving variable. The next driving
+   variable is its partner: the motion of the same row if it is a force, or the force if it is a motion.
 */
 static PetscErrorCode PivotCross(IPTableau *p, const PivotLimit *limit)
 {
@@ -269,8 +269,9 @@ static PetscBool PivotIsEndless(const IPTermSet *set)
 }
 
 /*
-   Moves to a solution of the laws by components. open: starts with all constraints open and with forces of zero, which
-   is the only solution of the changed data; otherwise starts with the present state, which may be one of several.
+   Moves to a solution in which each component of friction obeys its own law. open: starts with all constraints open
+   and all forces zero, which is the only solution of the changed data. Otherwise starts with the present state, which
+   may be one of several solutions.
    *found: false if the path does not reach a solution, or C is not computed. *steps: increased by the number of
    exchanges.
 */

@@ -1,7 +1,8 @@
 /*
-   Solves problems whose closed contacts stick (coefficients above IP_TERM_STICKS), if Newton's method fails. A contact
-   may be under tension if it sticks, and penetrated if it is open; there is then no state of stick and open contacts
-   alone. Such a contact has opened on the way, and has closed again at another place: its term is released.
+   Solves problems whose closed contacts stick (coefficients above IP_TERM_STICKS), if Newton's method fails. Some
+   contacts can neither stick nor be open: they are under tension if they stick, and penetrated if they are open. On the
+   way to this load they have opened, and closed again at another place. Their terms are therefore released, which means
+   that they slide without friction.
 */
 #include "frictionimpl.h"
 
@@ -59,11 +60,13 @@ static PetscReal StickExcess(const IPTableau *p, PetscInt i)
 }
 
 /*
-   Opens and closes constraints, those with the most energy at a time, until none is under tension or penetrated. All
-   with the same energy change at once, so that symmetric bodies remain symmetric; later only one, since changes of
-   several may cycle. follow: the term of a constraint
-   sticks when it closes, and is free when it opens. ever: which constraints were closed; work: an entry per constraint.
-   *ended: false if that has no end.
+   Opens constraints under tension and closes penetrated ones, until there are none. Each time those with the largest
+   energy change. All with the same energy change together, so that symmetric bodies remain symmetric. After some
+   changes only one constraint changes at a time, because changes of several may return to an earlier state.
+   follow: whether the term of a constraint sticks when it closes, and is free when it opens
+   ever:   which constraints were closed at any time
+   work:   work space, an entry per constraint
+   *ended: false if the changes do not end
 */
 static PetscErrorCode StickClose(IPTableau *p, PetscBool follow, PetscBool ever[], PetscReal work[], PetscBool *ended)
 {
@@ -96,9 +99,9 @@ static PetscErrorCode StickClose(IPTableau *p, PetscBool follow, PetscBool ever[
 }
 
 /*
-   Releases terms whose force is too large for their constraint, those with the most energy at a time. They remain free,
-   also where their constraint closes again: it has moved while it was open. The energy falls with each release, so that
-   it ends. *released: number of terms released.
+   Releases terms whose force is too large for the normal force of their constraint. Each time those with the largest
+   energy are released. They remain free, even if their constraint closes again, because it has moved while it was open.
+   Each release reduces the energy; the releases therefore end. *released: number of terms released.
 */
 static PetscErrorCode StickRelease(IPTableau *p, PetscBool ever[], PetscReal work[], PetscInt *released,
   PetscBool *ended)
@@ -155,9 +158,9 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
 }
 
 /*
-   Solves a problem whose closed contacts stick: by opening and closing contacts one at a time and, if that has no end
-   or a force is too large for its constraint, by releasing terms. If a term is released, the coefficients of all that
-   do not stick are set to zero: later problems of the same load step then have the same sticking contacts or fewer.
+   Solves a problem whose closed contacts stick. Contacts are opened and closed first. If this does not end, or a force
+   is too large for its constraint, terms are released. The coefficients of friction of all terms that do not stick are
+   then set to zero, so that no further contact sticks in later problems of the same load step.
    *found: false if there is no solution. *steps: increased by the number of terms released.
 */
 PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *found)

@@ -108,8 +108,8 @@ static void TableauRotate(const IPTableau *p, PetscReal f[], size_t stride, Pets
 }
 
 /*
-   Factors T, whose diagonal is raised by a little: it is singular for bodies that only contact holds. This changes the
-   solution by as little, and Newton's method starts from it.
+   Factors T. If only contact holds a body, T is singular; its diagonal is therefore increased slightly. The solution
+   changes slightly too, which does no harm, because Newton's method only starts from it.
 */
 static PetscErrorCode TableauFactorDirections(const IPReducedSystem *s, PetscReal T[], PetscBool *factored)
 {

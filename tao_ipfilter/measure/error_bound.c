@@ -272,8 +272,8 @@ PetscBool IPErrorBoundRefined(const TAO_IPFILTER *ip)
 }
 
 /*
-   Returns the norm of the stationarity residual for which the larger one of the two measures kkt->dual and
-   kkt->work_dual is 1
+   Returns the unit of forces: a stationarity residual of this norm makes the larger one of kkt->dual and
+   kkt->work_dual equal to 1
 */
 PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 {

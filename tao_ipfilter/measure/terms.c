@@ -77,14 +77,15 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   if (terms->limit) {
     PetscCall(VecGetLocalSize(terms->limit, &nt));
     PetscCheck(2 * nt == rows, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
-      "The limits of %" PetscInt_FMT " norm terms are %" PetscInt_FMT, rows / 2, nt);
+      "There must be one limit per norm term, but there are %" PetscInt_FMT " terms and %" PetscInt_FMT " limits",
+      rows / 2, nt);
   }
   if (terms->coefficient) {
     PetscCall(VecGetLocalSize(terms->coefficient, &nt));
     if (tao->ineq_constrained) PetscCall(VecGetLocalSize(tao->constraints_inequality, &constraints));
     PetscCheck(2 * nt == rows && nt == constraints, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
-      "There are %" PetscInt_FMT " coefficients of %" PetscInt_FMT " norm terms and %" PetscInt_FMT
-      " inequality constraints; with coefficients one term per constraint is required",
+      "Norm terms with coefficients need one coefficient and one term per inequality constraint, but there are "
+      "%" PetscInt_FMT " coefficients, %" PetscInt_FMT " terms and %" PetscInt_FMT " constraints",
       nt, rows / 2, constraints);
   }
   PetscCheck(terms->limit || terms->coefficient, comm, PETSC_ERR_ARG_WRONG,

@@ -343,8 +343,9 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
 }
 
 /*
-   Computes sizes_j = |A_jj|, at least a small fraction of the largest entry, and b_j = sqrt(sizes_j) times the sine of
-   an irregular angle. In any units b has a component in every direction.
+   Computes the vector b of a test solve, which has a component along every eigenvector of A, whatever the units are:
+   b_j = sqrt(sizes_j) times the sine of an irregular angle, with sizes_j = |A_jj|, but at least a small fraction of the
+   largest entry
 */
 static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
 {
