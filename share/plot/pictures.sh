@@ -31,5 +31,6 @@ picture beam_sphere_linear --view 25 200 --up x
 picture beam_sphere_neo_hookean --view 25 200 --up x
 picture hertz_cylinder --mirror x --around-contact 6 --view 0 -90 --field nodal_von_mises
 picture thick_tube --field equivalent_plastic_strain --view 25 -40
+picture pinched_ring --only ring --mirror x --view 10 -80 --field nodal_von_mises
 curves bar_impact '*energy' contact_force_x
 picture lug --view 50 -60 --scale 100 --limit 100 --field nodal_von_mises --no-edges
