@@ -1,6 +1,7 @@
 /* The border of a face, and the vertices of a face whose displacement is prescribed. An edge is on the border if only
    one facet of the face, on any rank, has it. */
 #include <petscsf.h>
+#include <string.h>
 #include <mesh.h>
 #include "surfaceimpl.h"
 
@@ -109,6 +110,15 @@ static PetscErrorCode BorderMarkFace(DM dm, const char face[], MPI_Op op, PetscI
   PetscFunctionReturn(0);
 }
 
+/* Returns whether a face is of the body of the surface. Bodies have no nodes in common, so that other faces cannot hold
+   the surface. */
+static PetscBool BorderIsOfBody(const char face[], const ContactSurface *s)
+{
+  const size_t length = strcspn(s->name, ".");
+
+  return (PetscBool)(strcspn(face, ".") == length && !strncmp(face, s->name, length));
+}
+
 /* Collective. Finds the vertices of s at which faces with these prescribed displacements hold the mesh. Sets
    s->held. */
 PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
@@ -124,7 +134,7 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
     const SceneDisplacement *d    = &displacements[k];
     const PetscInt           axes = (d->fixed[0] ? 1 : 0) | (d->fixed[1] ? 2 : 0) | (d->fixed[2] ? 4 : 0);
 
-    if (!d->moves) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
+    if (!d->moves && BorderIsOfBody(d->face, s)) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
   PetscCall(PetscFree(s->held));
@@ -162,7 +172,7 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
   PetscCall(PetscMalloc1(npoints, &marks));
   for (PetscInt v = 0; v < npoints; ++v) marks[v] = CONTACT_FREE;
   for (PetscInt k = 0; k < n; ++k) {
-    if (displacements[k].moves || !displacements[k].fixed[axis]) continue;
+    if (displacements[k].moves || !displacements[k].fixed[axis] || !BorderIsOfBody(displacements[k].face, s)) continue;
     PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, BorderFindMotion(displacements, k, axis), marks));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
@@ -184,7 +194,7 @@ PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplaceme
   PetscCall(DMPlexGetChart(dm, NULL, &npoints));
   PetscCall(PetscCalloc1(npoints, &marks));
   for (PetscInt k = 0; k < n; ++k) {
-    if (displacements[k].inclined && !displacements[k].moves)
+    if (displacements[k].inclined && !displacements[k].moves && BorderIsOfBody(displacements[k].face, s))
       PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
