@@ -98,7 +98,7 @@ static const KeyMeaning constant_meanings[] = {
   {"kinematic", " [F/L²]", "kinematic hardening: stress per equivalent plastic strain", "0"},
   {"plastic_strains", "", "equivalent plastic strains of a table, ascending from 0", "none"},
   {"poisson", "", "Poisson's ratio; for `orthotropic`: ν12, ν23, ν13", ""},
-  {"saturation", " [F/L²]", "largest increase of the yield stress by hardening that saturates (Voce)", "0"},
+  {"saturation", " [F/L²]", "final yield stress of hardening that saturates (Voce); at least the yield stress", "0"},
   {"saturation_rate", "", "rate of the saturation per equivalent plastic strain", "0"},
   {"second_axis", "", "direction of the second material axis", "y"},
   {"shear", " [F/L²]", "shear moduli G12, G23, G13", ""},
