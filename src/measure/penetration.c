@@ -60,8 +60,8 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact pair \"%s\" carries no force, although a vertex of %s or %s is %.3g deep in the other body, %.3g %% of "
-      "the largest displacement: the gap is open in the mean over the nonmortar facets there; use gap: node, swap the two "
-      "faces, or refine them",
+      "the largest displacement: the gap is open in the mean over the nonmortar facets there; use gap: node, swap the "
+      "two faces, or refine them",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
       100.0 * (double)(its->penetration / motion)));
     PetscCall(ReportReason(report, PETSC_FALSE, reason));
