@@ -40,8 +40,9 @@ static PetscBool PenetrationIsAllowed(Simulation sim)
 
 /*
    Fails the last load step if a pair carries no force although a vertex of it is in the other body: its gap is open
-   only in the mean, and nothing holds the faces apart. Earlier load steps are only warned of, because a contact that begins
-   on a coarse mesh closes in the mean a little later than its first vertex. In time steps this is not an error either.
+   only in the mean, and nothing holds the faces apart. Earlier load steps are only warned of, because a contact that
+   begins on a coarse mesh closes in the mean a little later than its first vertex. In time steps this is not an error
+   either.
 */
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
