@@ -4,6 +4,7 @@
    the angle weighted pseudonormal, 2005). A point whose closest point is on the border of an open surface is outside.
 */
 #include "modelimpl.h"
+#include <petsccompat.h>
 #include <rankerror.h>
 #include <stdlib.h>
 #include <vector3.h>
@@ -262,7 +263,7 @@ PetscErrorCode SceneStlCreate(MPI_Comm comm, const char file[], PetscReal scale,
 {
   RankError      error;
   PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
+  PetscMPIInt    rank, count;
   SceneStl       s;
   StlSorted     *work;
 
@@ -276,12 +277,13 @@ PetscErrorCode SceneStlCreate(MPI_Comm comm, const char file[], PetscReal scale,
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
   PetscCallMPI(MPI_Bcast(&s->n, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&s->size, 1, MPIU_REAL, 0, comm));
+  PetscCall(PetscMPIIntCast(9 * s->n, &count));
   if (rank) {
     PetscCall(PetscMalloc1(9 * s->n, &s->x));
     PetscCall(PetscMalloc1(3 * s->n, &s->rim));
   }
-  PetscCallMPI(MPI_Bcast(s->x, (PetscMPIInt)(9 * s->n), MPIU_REAL, 0, comm));
-  PetscCallMPI(MPI_Bcast(s->rim, (PetscMPIInt)(3 * s->n), MPIU_BOOL, 0, comm));
+  PetscCallMPI(MPI_Bcast(s->x, count, MPIU_REAL, 0, comm));
+  PetscCallMPI(MPI_Bcast(s->rim, count / 3, MPI_PETSCBOOL, 0, comm));
   PetscCall(PetscMalloc2(s->n, &s->order, 2 * s->n, &s->node));
   for (PetscInt f = 0; f < s->n; ++f) s->order[f] = f;
   PetscCall(PetscMalloc1(s->n, &work));
