@@ -24,7 +24,7 @@
   0.3 /* the solve that gives the right-hand side may leave forces outside of the subspace
                                    W up to this fraction of the tolerance */
 #define NEWTON_LONGEST \
-  10.0 /* longest step, as a multiple of the step that it corrects. Longer than 1 where contact updates alone move
+  5.0 /* longest step, as a multiple of the step that it corrects. Longer than 1 where contact updates alone move
           away from the solution */
 #define NEWTON_APPLICATIONS 2 /* largest number of applications of the preconditioner of K in this solve */
 
