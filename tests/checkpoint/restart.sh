@@ -76,16 +76,16 @@ done
 
 "$contact" press.yaml -load_steps 4000 -checkpoint term.h5 > log 2>&1 &
 pid=$!
-begun $pid grep -q 'Load step 3' log
+begun $pid grep -qs 'Load step 3' log
 kill -TERM $pid
 wait $pid
 echo "SIGTERM: exit $?, $(ls term.h5*)"
-"$contact" press.yaml -load_steps 4000 -restart term.h5 -checkpoint term.h5 > log 2>&1 &
+"$contact" press.yaml -load_steps 4000 -restart term.h5 -checkpoint term.h5 > again.log 2>&1 &
 pid=$!
-begun $pid grep -q 'Load step' log
+begun $pid grep -qs 'Load step' again.log
 kill -TERM $pid
 wait $pid
-echo "and again: exit $?, $(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' log) $(grep -c '^Checkpoint term.h5: time' log)"
+echo "and again: exit $?, $(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' again.log) $(grep -c '^Checkpoint term.h5: time' again.log)"
 
 rm -f full.h5
 trap '' XFSZ # the disk is full: a write fails, and no signal says so
