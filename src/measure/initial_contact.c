@@ -128,14 +128,9 @@ static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport 
   if (!entered) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "contact pair \"%s\" was open at the end of every load step, but its bodies have passed into each other, for "
-    "example "
-    "at the vertex (%g, %g, %g): the faces %s and %s are not those that meet",
+    "example at the vertex (%g, %g, %g): the faces %s and %s are not those that meet",
     pair->name, (double)place[0], (double)place[1], (double)place[2], pair->mortar, pair->nonmortar));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  report->gap_unconverged = PETSC_TRUE;
-  sim->report.converged   = PETSC_FALSE;
-  sim->report.reason      = report->reason;
-  sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+  PetscCall(PenetrationFail(sim, report, reason));
   PetscFunctionReturn(0);
 }
 

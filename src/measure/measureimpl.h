@@ -61,6 +61,7 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 /* penetration.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode PenetrationFail(Simulation, StepReport *, const char reason[]);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
 /*

@@ -38,6 +38,18 @@ static PetscBool PenetrationIsAllowed(Simulation sim)
   return (PetscBool)(sim->control->penalty > 0.0 || sim->scene->contact_updates == 1);
 }
 
+/* Fails a load step whose solution has bodies in each other: its gap is not consistent */
+PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char reason[])
+{
+  PetscFunctionBegin;
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  report->gap_unconverged = PETSC_TRUE;
+  sim->report.converged   = PETSC_FALSE;
+  sim->report.reason      = report->reason;
+  sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+  PetscFunctionReturn(0);
+}
+
 /*
    Fails the last load step if a pair carries no force although a vertex of it is in the other body: its gap is open
    only in the mean, and nothing holds the faces apart. Earlier load steps are only warned of, because a contact that
@@ -65,11 +77,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
       "two faces, or refine them",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
       100.0 * (double)(its->penetration / motion)));
-    PetscCall(ReportReason(report, PETSC_FALSE, reason));
-    report->gap_unconverged = PETSC_TRUE;
-    sim->report.converged   = PETSC_FALSE;
-    sim->report.reason      = report->reason;
-    sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+    PetscCall(PenetrationFail(sim, report, reason));
   }
   PetscFunctionReturn(0);
 }
