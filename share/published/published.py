@@ -294,11 +294,12 @@ def commit():
 def cut_runs(records):
     for problem, mesh, way in ordered(records):
         record = records[problem, mesh, way]
-        what = f"- {TITLES[problem]}, mesh {mesh}, {way}: {done_of(record)} of {LOAD_STEPS[problem]} load steps done when "
+        begun = len(unfinished(record))
+        what = f"- {TITLES[problem]}, mesh {mesh}, {way}: {len(steps(record))} of {LOAD_STEPS[problem]} load steps" + (f" and {begun} systems of the next one" if begun else "") + " were solved. "
         if record["cut"]:
-            yield what + f"the limit of {record['limit']:.0f} s of elapsed time ended it."
+            yield what + f"The limit of {record['limit']:.0f} s of elapsed time ended the run."
         elif record["code"] == 5:
-            yield what + "it was ended by hand."
+            yield what + "The run was ended by hand."
         elif not steps(record):
             yield f"- {TITLES[problem]}, mesh {mesh}, {way}: {record['words']}"
 
