@@ -142,7 +142,7 @@ def figure(found, folder):
         for index, setting in enumerate(names):
             points = [(row["seconds"], max(row["error"], 1e-6)) for row in rows if cloud(row) == setting]
             if points:
-                axis.loglog(*zip(*points), "ox^vsdP*<>hp"[index], color=f"C{index}", label=setting, markersize=5, linestyle="none", alpha=0.8)
+                axis.loglog(*zip(*points), "ox^vsdP*<>+1"[index], color=f"C{index}" if index < 10 else ("k", "m")[index - 10], label=setting, markersize=5, linestyle="none", alpha=0.8)
         axis.plot(*zip(*front([(row["seconds"], max(row["error"], 1e-6)) for row in rows])), "k-", linewidth=0.8, drawstyle="steps-post", label="Pareto front")
         for setting, marker in (("default", "s"), (RECOMMENDED, "D")):
             row = find(rows, setting)
