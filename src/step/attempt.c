@@ -15,7 +15,7 @@
 */
 #define ATTEMPT_HELD 1e-5
 
-/* contact updates after which the gap must have come nearer by one digit; otherwise no consistent gap is expected */
+/* contact updates within which the change of the gap must fall to a tenth; otherwise the updates end without success */
 #define ATTEMPT_PATIENCE 12
 
 /*
