@@ -2,6 +2,7 @@
 # deep vertices are in the other body where the nonmortar side is the coarser one, on one rank and on three.
 # coarse_mortar.py has the scenes, and holds their summaries and fields against each other.
 contact=$AMGF_DIR/bin/contact
+rm -f ball.yaml pin.yaml # of an earlier run in this folder
 "$PYTHON" "$AMGF_DIR/tests/contact/coarse_mortar.py" write
 for scene in *.yaml; do
   name=${scene%.yaml}
