@@ -1,5 +1,6 @@
 /* Finds bodies of a pair that have passed into each other through faces that are not the pair's */
 #include "contactimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 #define FINAL_MOST  200 /* largest number of points of a rank that are tested */
 #define FINAL_REALS 7   /* a point: coordinates at the start and at the end [length], and the other body */
@@ -27,25 +28,6 @@ static void FinalCollect(const ContactBoundary at[2], const PetscReal box[], Pet
       point[(*n)++][6] = (PetscReal)other;
     }
   }
-}
-
-/* Collective. Gathers the points of all ranks on every rank. *all: freed by the caller */
-static PetscErrorCode FinalGather(MPI_Comm comm, PetscInt n, PetscReal point[][FINAL_REALS], PetscInt *nall,
-  PetscReal (**all)[FINAL_REALS])
-{
-  PetscMPIInt size, mine = (PetscMPIInt)(FINAL_REALS * n), *count, *start;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCall(PetscMalloc2(size, &count, size + 1, &start));
-  PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, count, 1, MPI_INT, comm));
-  start[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  *nall = start[size] / FINAL_REALS;
-  PetscCall(PetscMalloc1(*nall, all));
-  PetscCallMPI(MPI_Allgatherv(point, mine, MPIU_REAL, *all, count, start, MPIU_REAL, comm));
-  PetscCall(PetscFree2(count, start));
-  PetscFunctionReturn(0);
 }
 
 /* Collective. Finds a point that is outside the other body at the start, and inside it by more than `margin` at the
@@ -96,22 +78,23 @@ PetscErrorCode ContactGetEntered(Contact contact, PetscInt p, Vec u, PetscReal m
 {
   const ContactPairData *pair = &contact->pairs[p];
   ContactBoundary        at[2];
-  PetscReal             *box, (*point)[FINAL_REALS], (*all)[FINAL_REALS];
-  PetscInt               n = 0, nall;
+  PetscReal             *box, (*point)[FINAL_REALS];
+  PetscInt               n = 0;
 
   PetscFunctionBegin;
   *entered = PETSC_FALSE;
   if (pair->formula || pair->mortar.body == pair->nonmortar.body) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactBoundaryCreate(contact->dm, &at[k]));
   PetscCall(ContactBoundaryDeform(contact->dm, u, &at[1]));
-  PetscCall(PetscMalloc2(6 * at[1].nbodies, &box, FINAL_MOST, &point));
+  PetscCall(PetscMalloc1(6 * at[1].nbodies, &box));
+  PetscCall(PetscMalloc1(FINAL_MOST, &point));
   PetscCall(ContactBoundaryBoxes(&at[1], box));
   FinalCollect(at, box, pair->mortar.body, pair->nonmortar.body, &n, point);
   FinalCollect(at, box, pair->nonmortar.body, pair->mortar.body, &n, point);
-  PetscCall(FinalGather(contact->comm, n, point, &nall, &all));
-  PetscCall(FinalTest(contact->comm, at, margin, nall, (const PetscReal(*)[FINAL_REALS])all, entered, place));
-  PetscCall(PetscFree(all));
-  PetscCall(PetscFree2(box, point));
+  PetscCall(RecordsGather(contact->comm, FINAL_REALS, &n, &point));
+  PetscCall(FinalTest(contact->comm, at, margin, n, (const PetscReal(*)[FINAL_REALS])point, entered, place));
+  PetscCall(PetscFree(point));
+  PetscCall(PetscFree(box));
   for (PetscInt k = 0; k < 2; ++k) PetscCall(ContactBoundaryDestroy(&at[k]));
   PetscFunctionReturn(0);
 }

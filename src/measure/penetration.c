@@ -38,6 +38,15 @@ static PetscBool PenetrationIsAllowed(Simulation sim)
   return (PetscBool)(sim->control->penalty > 0.0 || sim->scene->contact_updates == 1);
 }
 
+/* Returns the largest displacement of the load steps so far [length] */
+static PetscReal PenetrationMotion(const RunReport *run)
+{
+  PetscReal motion = 0.0;
+
+  for (PetscInt s = 0; s < run->nsteps; ++s) motion = PetscMax(motion, run->steps[s].motion);
+  return motion;
+}
+
 /* Fails a load step whose solution has bodies in each other: its gap is not consistent */
 PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char reason[])
 {
@@ -58,13 +67,12 @@ PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char re
 */
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
-  PetscReal motion = 0.0;
-  char      reason[512];
+  const PetscReal motion = PenetrationMotion(&sim->report);
+  char            reason[512];
 
   PetscFunctionBegin;
   if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
   if (report->step < sim->scene->nsteps) PetscFunctionReturn(0);
-  for (PetscInt s = 0; s < sim->report.nsteps; ++s) motion = PetscMax(motion, sim->report.steps[s].motion);
   for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
     const PairReport       *its  = &report->pairs[p];
@@ -89,11 +97,10 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 PetscErrorCode PenetrationWarn(Simulation sim)
 {
   const RunReport *run    = &sim->report;
-  PetscReal        motion = 0.0;
+  const PetscReal  motion = PenetrationMotion(run);
 
   PetscFunctionBegin;
   if (PenetrationIsAllowed(sim)) PetscFunctionReturn(0);
-  for (PetscInt s = 0; s < run->nsteps; ++s) motion = PetscMax(motion, run->steps[s].motion);
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     const SceneContactPair *pair  = &sim->scene->pairs[p];
     PetscReal               depth = 0.0;

@@ -48,6 +48,7 @@ typedef struct {
   PetscBool   *closed, *slips;
   PetscBool   *active, listed; /* active: rows that may carry a force; listed: whether `active` is up to date */
   PetscInt     na;             /* number of active rows */
+  PetscInt     nreleased;      /* number of terms released so far, see stick.c */
   PetscBool    met;            /* whether the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
@@ -144,6 +145,7 @@ PETSC_INTERN PetscErrorCode IPTermSetIterate(IPTermSet *, const IPReducedSystem 
 /* tableau.c */
 PETSC_INTERN PetscErrorCode IPTableauCreate(const IPTermSet *, IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauDestroy(IPTableau *);
+PETSC_INTERN PetscErrorCode IPTableauSubtract(IPTableau *, const PetscReal c[], const PetscReal along[]);
 PETSC_INTERN PetscErrorCode IPTableauExchange(IPTableau *, PetscInt row, PetscInt column);
 PETSC_INTERN void           IPTableauChoose(const IPTermSet *, const IPReducedSystem *, IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauSetUp(const IPTermSet *, const IPReducedSystem *, IPTableau *, PetscBool *made);

@@ -8,7 +8,6 @@
    PATH solver, 1995). Newton's method starts at the end of the path.
 */
 #include "frictionimpl.h"
-#include <petscblaslapack.h>
 
 /* Returns a number between 0.5 and 1.5, which is different at each call but the same in each run */
 static PetscReal PivotNext(IPTableau *p)
@@ -144,16 +143,12 @@ static void PivotFindLimit(const IPTableau *p, PivotLimit *limit)
 */
 static PetscErrorCode PivotPass(IPTableau *p)
 {
-  const PetscReal minus = -1.0, one = 1.0;
-  const PetscInt  column = -1 - p->place[p->driving];
-  PetscInt        a;
-  const PetscInt  i = IPTableauTerm(p, p->driving, &a), normal = p->mu[i] > 0.0 ? p->place[i] : -1;
-  PetscReal      *c = IPTableauColumn(p, column), *along, by, constant = 2.0 * p->limit[i];
-  PetscBLASInt    n, k, inc = 1;
+  const PetscInt column = -1 - p->place[p->driving];
+  PetscInt       a;
+  const PetscInt i = IPTableauTerm(p, p->driving, &a), normal = p->mu[i] > 0.0 ? p->place[i] : -1;
+  PetscReal     *c = IPTableauColumn(p, column), *along, by, constant = 2.0 * p->limit[i];
 
   PetscFunctionBegin;
-  PetscCall(PetscBLASIntCast(p->rows, &n));
-  k = n + 1;
   PetscCall(PetscMalloc1(p->rows + 1, &along));
   for (PetscInt j = 0; j <= p->rows; j++) along[j] = normal >= 0 ? 2.0 * p->mu[i] * IPTableauColumn(p, j)[normal] : 0.0;
   if (normal >= 0) constant += 2.0 * p->mu[i] * p->q[normal];
@@ -161,7 +156,7 @@ static PetscErrorCode PivotPass(IPTableau *p)
   for (PetscInt j = 0; j <= p->rows; j++) along[j] *= by;
   along[column] = 0.0;
   for (PetscInt r = 0; r < p->rows; r++) p->q[r] -= c[r] * by * constant;
-  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &n, &k, &inc, &minus, c, &n, along, &inc, &one, p->A, &n));
+  PetscCall(IPTableauSubtract(p, c, along));
   for (PetscInt r = 0; r < p->rows; r++) c[r] *= by;
   PetscCall(PetscFree(along));
   p->sign[2 * i + a]   = -p->sign[2 * i + a];

@@ -180,6 +180,7 @@ PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscI
   for (PetscInt i = 0; i < p.n && *found && released; i++)
     if (!p.sticks[2 * i] && !p.sticks[2 * i + 1]) set->coefficient[i] = 0.0;
   if (*found) PetscCall(IPTableauTake(set, s, &p));
+  if (*found) set->nreleased += released;
   *steps += released;
   PetscCall(PetscFree2(ever, work));
   PetscCall(IPTableauDestroy(&p));

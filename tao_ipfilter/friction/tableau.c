@@ -33,25 +33,34 @@ PetscErrorCode IPTableauCreate(const IPTermSet *set, IPTableau *p)
   PetscFunctionReturn(0);
 }
 
-/* Exchanges the basic variable of a row and the nonbasic variable of a column */
-PetscErrorCode IPTableauExchange(IPTableau *p, PetscInt row, PetscInt column)
+/* Subtracts c along^T from A. along: an entry per column */
+PetscErrorCode IPTableauSubtract(IPTableau *p, const PetscReal c[], const PetscReal along[])
 {
-  const PetscReal by = 1.0 / IPTableauColumn(p, column)[row], minus = -1.0;
-  const PetscInt  enters = p->others[column], leaves = p->basic[row];
-  PetscReal      *c   = IPTableauColumn(p, column), *along;
-  const PetscReal one = 1.0;
+  const PetscReal minus = -1.0, one = 1.0;
   PetscBLASInt    n, k, inc = 1;
 
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(p->rows, &n));
   k = n + 1;
+  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &n, &k, &inc, &minus, c, &n, along, &inc, &one, p->A, &n));
+  PetscFunctionReturn(0);
+}
+
+/* Exchanges the basic variable of a row and the nonbasic variable of a column */
+PetscErrorCode IPTableauExchange(IPTableau *p, PetscInt row, PetscInt column)
+{
+  const PetscReal by     = 1.0 / IPTableauColumn(p, column)[row];
+  const PetscInt  enters = p->others[column], leaves = p->basic[row];
+  PetscReal      *c = IPTableauColumn(p, column), *along;
+
+  PetscFunctionBegin;
   PetscCall(PetscMalloc1(p->rows + 1, &along));
   for (PetscInt j = 0; j <= p->rows; j++) {
     along[j]                   = IPTableauColumn(p, j)[row] * by;
     IPTableauColumn(p, j)[row] = 0.0;
   }
   along[column] = 0.0;
-  PetscCallBLAS("BLASgemm", BLASgemm_("N", "N", &n, &k, &inc, &minus, c, &n, along, &inc, &one, p->A, &n));
+  PetscCall(IPTableauSubtract(p, c, along));
   for (PetscInt i = 0; i < p->rows; i++)
     if (i != row) p->q[i] -= c[i] * by * p->q[row];
   p->q[row] *= -by;

@@ -715,29 +715,25 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
 PetscErrorCode IPReducedReleaseTerms(const IPReduced *r, Vec coefficient)
 {
   IPLawsData   data = {0};
-  PetscInt     any  = 0;
   PetscScalar *a;
   VecScatter   scatter;
   Vec          on_first;
 
   PetscFunctionBegin;
   if (!coefficient) PetscFunctionReturn(0);
+  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
+  PetscCallMPI(MPI_Bcast(&data.nreleased, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)coefficient)));
+  if (!data.nreleased) PetscFunctionReturn(0);
   PetscCall(VecScatterCreateToZero(coefficient, &scatter, &on_first));
   PetscCall(VecScatterBegin(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecScatterEnd(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
-  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
   PetscCall(VecGetArray(on_first, &a));
   for (PetscInt i = 0; r->laws && i < r->nterms; i++) {
-    if (data.coefficient[i] != 0.0 || a[i] == 0.0) continue;
-    a[i] = 0.0;
-    any  = 1;
+    if (data.coefficient[i] == 0.0) a[i] = 0.0;
   }
   PetscCall(VecRestoreArray(on_first, &a));
-  PetscCallMPI(MPI_Bcast(&any, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)coefficient)));
-  if (any) {
-    PetscCall(VecScatterBegin(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
-    PetscCall(VecScatterEnd(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
-  }
+  PetscCall(VecScatterBegin(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(VecScatterEnd(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecScatterDestroy(&scatter));
   PetscCall(VecDestroy(&on_first));
   PetscFunctionReturn(0);

@@ -90,6 +90,7 @@ typedef struct {
   PetscReal *dead;                /* two entries per term: unit direction along which the term cannot move; zero:
                                      none */
   PetscBool *closed;              /* constraints that are closed initially */
+  PetscInt   nreleased;           /* number of terms that the laws have released so far */
 } IPLawsData;
 
 /*

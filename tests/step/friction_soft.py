@@ -5,6 +5,8 @@ python3 friction_soft.py scenes writes the scenes; python3 friction_soft.py judg
 import json
 import sys
 
+from leaves import leaves
+
 PLATES = """problem: pad
 bodies:
   - low: {{lower: [-0.5, -0.5, -0.2], upper: [1.5, 1.5, 0], cells: [1, 1, 1], material: rigid}}
@@ -61,16 +63,6 @@ def stack(blocks, law="friction: 0.3"):
     return text + "displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n  - g: {value: [0, 0, -1]}\ncontact:\n" + pairs
 
 
-def leaves(n, friction, thickness=0.3):
-    """Leaves clamped at one end, and bent at the tip of the last; they touch all along, and bend by far more than their surfaces give"""
-    bodies = displacements = pairs = ""
-    for i in range(n):
-        bodies += f"  - leaf{i}: {{lower: [0, 0, {i * thickness:.6g}], upper: [10, 1, {(i + 1) * thickness:.6g}], cells: [20, 2, 1], young: 1000, poisson: 0.3, element: incompatible}}\n"
-        displacements += f"  - clamp{i}: {{face: leaf{i}.xmin, value: [0, 0, 0]}}\n"
-        pairs += f"  - j{i}: {{mortar: leaf{i - 1}.zmax, nonmortar: leaf{i}.zmin, friction: {friction}}}\n" if i else ""
-    return f"problem: leaves\nbodies:\n{bodies}displacements:\n{displacements}  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\ncontact:\n{pairs}"
-
-
 def tower(law):
     """A block pressed on a floor and pushed along its top so that half of its base lifts off: vertices beside the part in contact would neither stick nor open"""
     return f"""problem: tower
@@ -99,7 +91,7 @@ SCENES = {
     "finite": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean"),
     "finite_tied": pad("", "4, 4, 4", ", material: neohookean"),
     "finite_quarter": pad(", friction: 0.3", "4, 4, 4", ", material: neohookean", QUARTER),
-    "leaves": leaves(5, 0.1),
+    "leaves": leaves(5, ", friction: 0.1"),
     "rests": RESTS,
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
     "finite_sticks_6": pad(", stick: true", "6, 6, 6", ", material: neohookean"),

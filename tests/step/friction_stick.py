@@ -6,6 +6,7 @@ Some nodes of these can neither stick, since they would be pulled, nor be open, 
 """
 import sys
 
+from leaves import leaves
 from summaries import load, say
 
 TUBE = "{{shape: tube_arc, axis: z, radii: [{}, {}], angles: [0, 90], extent: [0, 20], cells: [{}, {}, 5], young: 200000, poisson: 0}}"
@@ -22,17 +23,6 @@ load: {{steps: 3}}
 ramps:
   - push: {{factors: [0, 0.1, 1]}}
 """
-
-
-def leaves(n, law, steps=1):
-    """Leaves clamped at one end, and bent at the tip of the last. law: of their faces; empty: tied"""
-    bodies = displacements = pairs = ""
-    for i in range(n):
-        bodies += f"  - leaf{i}: {{lower: [0, 0, {0.3 * i:.6g}], upper: [10, 1, {0.3 * (i + 1):.6g}], cells: [20, 2, 1], young: 1000, poisson: 0.3, element: incompatible}}\n"
-        displacements += f"  - clamp{i}: {{face: leaf{i}.xmin, value: [0, 0, 0]}}\n"
-        pairs += f"  - j{i}: {{mortar: leaf{i - 1}.zmax, nonmortar: leaf{i}.zmin{law}}}\n" if i else ""
-    tip = f"  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\n"
-    return f"problem: leaves\nbodies:\n{bodies}displacements:\n{displacements}{tip}{'contact' if law else 'ties'}:\n{pairs}load: {{steps: {steps}}}\n"
 
 
 def belt(law):
