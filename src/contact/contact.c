@@ -10,6 +10,10 @@
 /* degree of the quadrature rule on the triangles of an overlap. The integrand on parallelograms, a product of two
    bilinear functions, has degree 4. The rules of degree 4 and 5 have 6 and 7 points. */
 #define RULE_DEGREE 5
+/* The same between smooth surfaces, where the integrand on parallelograms has degree 6. With a lower degree the
+   integral would depend on how the overlap is divided into triangles. The derivative of the gap would jump where nearly
+   coincident edges of the two faces cross, and contact updates would not converge there. */
+#define RULE_DEGREE_SMOOTH 6
 
 static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
 
@@ -137,7 +141,8 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   c->dm     = dm;
   c->comm   = PetscObjectComm((PetscObject)dm);
   c->npairs = npairs;
-  PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule));
+  PetscCall(ContactRuleCreate(RULE_DEGREE, &c->rule[0]));
+  PetscCall(ContactRuleCreate(RULE_DEGREE_SMOOTH, &c->rule[1]));
   PetscCall(PetscCalloc1(npairs, &c->pairs));
   PetscCall(ContactBoundaryCreate(dm, &boundary));
   PetscCall(PetscMalloc1(boundary.nbodies, &thickness));
@@ -182,7 +187,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 . -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals
                                        of the facets
 . -contact_quadrature <5>            - degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the
-                                       mortar integrals
+                                       mortar integrals. Without the option it is 5, and 6 between smooth surfaces
 - -contact_search_depth <length>     - largest penetration at which facets count as facing each other. 0: the mean
                                        thickness of the thinner body or, if that is larger, the search distance that the
                                        pair sets, but at most 0.9 times the sum of both thicknesses
@@ -194,9 +199,9 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
   GapType   gap    = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
-  PetscInt  degree = contact->rule.degree;
+  PetscInt  degree = contact->rule[0].degree;
   PetscBool smooth = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
-  PetscBool set_gap, set_smooth;
+  PetscBool set_gap, set_smooth, set_degree;
 
   PetscFunctionBegin;
   PetscOptionsBegin(contact->comm, NULL, "Contact options", "Contact");
@@ -208,7 +213,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature",
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
-    degree, &degree, NULL));
+    degree, &degree, &set_degree));
   PetscCall(PetscOptionsReal("-contact_search_depth",
     "Largest penetration at which facets face each other (0: from the thickness of the bodies)",
     "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
@@ -228,7 +233,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     if (set_smooth && !contact->pairs[p].formula) contact->pairs[p].smooth = smooth;
   }
   PetscCall(ContactSmoothReset(contact));
-  PetscCall(ContactRuleCreate(degree, &contact->rule));
+  for (PetscInt k = 0; set_degree && k < 2; ++k) PetscCall(ContactRuleCreate(degree, &contact->rule[k]));
   PetscCall(ContactSetUpPairs(contact));
   PetscFunctionReturn(0);
 }

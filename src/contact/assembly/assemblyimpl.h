@@ -96,10 +96,11 @@ struct _n_Contact {
   const SceneDisplacement *displacements;
   PetscBool                smoothed; /* whether ContactSmoothFind() has determined the curved pairs */
   ContactSmoothNormals     smooth;
-  Mat         trace; /* T - 1 (trace.c): added to the mesh's displacement at the surfaces' vertices; NULL if no face
+  Mat         trace;   /* T - 1 (trace.c): added to the mesh's displacement at the surfaces' vertices; NULL if no face
                         has order 2 */
-  ContactRule rule;  /* quadrature rule on the triangles of overlaps */
-  PetscReal   reach; /* lower bound of the search distance, for pairs whose distance the scene does not set [length] */
+  ContactRule rule[2]; /* quadrature rules on the triangles of overlaps: between facets, and between smooth surfaces */
+  PetscReal   reach;   /* lower bound of the search distance, for pairs whose distance the scene does not set
+                          [length] */
   PetscReal
     reach_depth;   /* lower bound of the search depth of all pairs [length]; 0: none. If positive, facets face each
                             other whose normals make an angle of more than 90 degrees */

@@ -237,8 +237,8 @@ static PetscErrorCode MortarSelfNormals(Contact contact, PetscInt p, const Conta
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     const PetscInt begin = near->offset[f];
 
-    PetscCall(OverlapsFind(limits, &contact->rule, &pair->nonmortar, f, mortar, near->offset[f + 1] - begin,
-      near->facet + begin, list));
+    PetscCall(OverlapsFind(limits, &contact->rule[pair->nonmortar.patched], &pair->nonmortar, f, mortar,
+      near->offset[f + 1] - begin, near->facet + begin, list));
     meets[f] = (PetscBool)(list->n > 0);
   }
   PetscCall(ContactSurfaceNormals(contact->dm, &pair->nonmortar, meets, pair->normal, n, rows->vertex + first,
@@ -250,6 +250,7 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   ContactAssembly *assembly)
 {
   ContactPairData           *pair   = &contact->pairs[p];
+  const ContactRule         *rule   = &contact->rule[pair->nonmortar.patched];
   const ContactOverlapLimits limits = {contact->reach_depth > 0.0 ? 0.0 : CONTACT_NORMAL_COSINE, CONTACT_OVERLAP_DROP,
     pair->distance + pair->bulge, pair->depth + pair->bulge};
   MortarOverlaps             list   = {0, 0, NULL, NULL};
@@ -273,8 +274,8 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
     PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
     for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
       (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
-    PetscCall(OverlapsFind(&limits, &contact->rule, &pair->nonmortar, f, mortar, n, near.facet + first, &list));
-    PetscCall(MortarAddFacet(&contact->rule, pair, f, normal, mortar, &list, assembly));
+    PetscCall(OverlapsFind(&limits, rule, &pair->nonmortar, f, mortar, n, near.facet + first, &list));
+    PetscCall(MortarAddFacet(rule, pair, f, normal, mortar, &list, assembly));
     pair->nfacing += list.n;
   }
   PetscCall(OverlapsDestroy(&list));

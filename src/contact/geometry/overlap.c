@@ -1,8 +1,8 @@
 /* The overlap of two facets: projection onto a plane, clipping, and quadrature points on both facets */
 #include "geometryimpl.h"
 
-/* distance from a line up to which a point counts as being on it, relative to the length of the line */
-#define ONE_LINE 1e-4
+/* distance from a line that is attributed to rounding, relative to the length of the line */
+#define ONE_LINE 1e-9
 /* distance of two vertices that is attributed to rounding, relative to the size of the smaller facet */
 #define ONE_VERTEX 1e-12
 
