@@ -3,9 +3,10 @@
    work, and it has no moment about the mean of the initial and the final places (Simo and Tarnow, The discrete
    energy-momentum method, 1992; Gonzalez, Exact energy and momentum conserving algorithms for general models in
    nonlinear elasticity, 2000):
-     f = int F_m (S_m + alpha dE) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F),
-   where F_m and S_m are the means of the values at U and U', and alpha is one number per cell. For laws of small strain
-   F_m = I and S = P.
+     f = int F_m (S_m + alpha C^(-1) dE C^(-1)) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F),   C = F^T F,
+   where F_m and S_m are the means of the values at U and U', F and C belong to U, and alpha is one number per cell. The
+   metric C makes the term with alpha a stress in the deformed cell. alpha dE alone would be very different from one in
+   cells that are strained by 1 or more. For laws of small strain F_m = F = I and S = P.
    The mean of the forces at U and U' would not do this work: where a metal begins to yield its stress is a concave
    function of the strain, so that the mean is too small.
 */
@@ -17,6 +18,7 @@ typedef struct {
   PetscReal F[3][3];                 /* mean deformation gradient F_m */
   PetscReal H[2][9], P[2][9];        /* F - I and stress P at the start and at the end of the step */
   PetscReal S[3][3], dE[3][3];       /* mean stress S_m; change dE of the strain */
+  PetscReal R[3][3];                 /* C^(-1) dE C^(-1) */
 } MeanPoint;
 
 /*
@@ -41,7 +43,24 @@ static void MeanSetGradient(const PetscReal H[9], PetscReal F[3][3])
   for (int i = 0; i < 9; ++i) F[i / 3][i % 3] = H[i] + (i % 4 ? 0 : 1);
 }
 
-/* Computes F_m, S_m and dE of a point. finite: the law is one of finite strain; change: F' - F. */
+/* Computes R = C^(-1) dE C^(-1) for the deformation gradient F at the start of the step */
+static void MeanRaise(PetscReal F[3][3], const PetscReal dE[3][3], PetscReal R[3][3])
+{
+  PetscReal       cofactors[3][3], inverse[3][3];
+  const PetscReal det = MatrixCofactors(F, cofactors);
+
+  for (int i = 0; i < 9; ++i) {
+    inverse[i / 3][i % 3] = R[i / 3][i % 3] = 0;
+    for (int k = 0; k < 3; ++k)
+      inverse[i / 3][i % 3] += cofactors[k][i / 3] * cofactors[k][i % 3] / (det * det);
+  }
+  for (int i = 0; i < 9; ++i) {
+    for (int k = 0; k < 9; ++k)
+      R[i / 3][i % 3] += inverse[i / 3][k / 3] * dE[k / 3][k % 3] * inverse[k % 3][i % 3];
+  }
+}
+
+/* Computes F_m, S_m, dE and R of a point. finite: the law is one of finite strain; change: F' - F. */
 static void MeanSetPoint(PetscBool finite, const PetscReal change[9], MeanPoint *p)
 {
   PetscReal identity[9] = {0}, F[3][3], C[3][3];
@@ -69,6 +88,8 @@ static void MeanSetPoint(PetscBool finite, const PetscReal change[9], MeanPoint 
       p->dE[i % 3][i / 3] += 0.5 * p->F[k][i / 3] * change[3 * k + i % 3];
     }
   }
+  MeanSetGradient(finite ? p->H[0] : identity, F);
+  MeanRaise(F, p->dE, p->R);
 }
 
 /*
@@ -83,7 +104,7 @@ static PetscReal MeanGetFactor(PetscInt npoints, const MeanPoint points[], Petsc
   for (PetscInt q = 0; q < npoints; ++q) {
     for (int i = 0; i < 9; ++i) {
       work += points[q].w * points[q].S[i / 3][i % 3] * points[q].dE[i / 3][i % 3];
-      square += points[q].w * PetscSqr(points[q].dE[i / 3][i % 3]);
+      square += points[q].w * points[q].R[i / 3][i % 3] * points[q].dE[i / 3][i % 3];
     }
   }
   return PetscAbsReal(gained - work) > rounding * size ? (gained - work) / square : 0;
@@ -96,7 +117,7 @@ static void MeanAddForce(PetscInt n, const MeanPoint *p, PetscReal alpha, PetscR
 
   for (int i = 0; i < 9; ++i) {
     P[i] = -0.5 * (p->P[0][i] + p->P[1][i]);
-    for (int k = 0; k < 3; ++k) P[i] += p->F[i / 3][k] * (p->S[k][i % 3] + alpha * p->dE[k][i % 3]);
+    for (int k = 0; k < 3; ++k) P[i] += p->F[i / 3][k] * (p->S[k][i % 3] + alpha * p->R[k][i % 3]);
   }
   CellForceAdd((int)n, p->w, (PetscReal(*)[CELL_MAX_NODES])p->G, P, F);
 }
