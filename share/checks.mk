@@ -43,7 +43,7 @@ memcheck:
 
 # Writes the sources in the style of .clang-format
 format:
-	clang-format -i $(FORMAT_FILES)
+	@clang-format -i $(FORMAT_FILES)
 
 tidy:
 	@mkdir -p build; clean=0; \

@@ -51,12 +51,10 @@ static void MeanRaise(PetscReal F[3][3], const PetscReal dE[3][3], PetscReal R[3
 
   for (int i = 0; i < 9; ++i) {
     inverse[i / 3][i % 3] = R[i / 3][i % 3] = 0;
-    for (int k = 0; k < 3; ++k)
-      inverse[i / 3][i % 3] += cofactors[k][i / 3] * cofactors[k][i % 3] / (det * det);
+    for (int k = 0; k < 3; ++k) inverse[i / 3][i % 3] += cofactors[k][i / 3] * cofactors[k][i % 3] / (det * det);
   }
   for (int i = 0; i < 9; ++i) {
-    for (int k = 0; k < 9; ++k)
-      R[i / 3][i % 3] += inverse[i / 3][k / 3] * dE[k / 3][k % 3] * inverse[k % 3][i % 3];
+    for (int k = 0; k < 9; ++k) R[i / 3][i % 3] += inverse[i / 3][k / 3] * dE[k / 3][k % 3] * inverse[k % 3][i % 3];
   }
 }
 
