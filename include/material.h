@@ -113,7 +113,7 @@ typedef struct {
   PetscBool (*cauchy)(const MaterialModuli *, const PetscReal H[9], PetscReal sigma[6]);
   /* Dilatation theta(H) and its derivative C = dtheta/dH */
   PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
-  /* Adds pressure times the second derivative of theta to a tangent */
+  /* Adds pressure times the second derivative of theta to a tangent; NULL: this derivative is zero */
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
   /* Only for laws with a history; NULL for other laws. Computes the history at H from that in the moduli, and
      returns whether they differ. The other functions evaluate the step from the history in the moduli to H; energy

@@ -31,7 +31,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
   PetscCall(ISDestroy(&amgf->set_is));
   PetscCall(MatDestroy(&amgf->set_P));
   PetscCall(PetscFree(amgf->file));
-  PetscCall(PCAMGFRemoveFunctions_Private(pc));
+  PetscCall(PCAMGFComposeFunctions_Private(pc, PETSC_FALSE));
   PetscCall(PetscFree(pc->data));
   PetscFunctionReturn(0);
 }
@@ -140,6 +140,6 @@ PetscErrorCode PCCreate_AMGF(PC pc)
   pc->ops->view           = PCView_AMGF;
   pc->ops->reset          = PCReset_AMGF;
   pc->ops->destroy        = PCDestroy_AMGF;
-  PetscCall(PCAMGFComposeFunctions_Private(pc));
+  PetscCall(PCAMGFComposeFunctions_Private(pc, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

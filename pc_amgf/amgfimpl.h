@@ -186,8 +186,7 @@ PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
 /* api.c, in addition to the public functions */
-PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC);
-PETSC_INTERN PetscErrorCode PCAMGFRemoveFunctions_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC, PetscBool attach);
 /* opts.c */
 PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
 /* view.c */

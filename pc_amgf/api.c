@@ -114,40 +114,40 @@ static PetscErrorCode PCAMGFGetCounts_AMGF(PC pc, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PCAMGFComposeFunctions_Private(PC pc)
+#define PUBLIC(function) \
+  { \
+    #function "_C", (PetscVoidFunction)function##_AMGF \
+  }
+static const struct {
+  const char       *name;
+  PetscVoidFunction implementation;
+} functions[] = {
+  PUBLIC(PCAMGFSetCycle),
+  PUBLIC(PCAMGFGetCycle),
+  PUBLIC(PCAMGFSetFilterIS),
+  PUBLIC(PCAMGFSetFilterInterpolation),
+  PUBLIC(PCAMGFGetFilterSize),
+  PUBLIC(PCAMGFSetFilterActive),
+  PUBLIC(PCAMGFSetFilterOptional),
+  PUBLIC(PCAMGFSetAMGLag),
+  PUBLIC(PCAMGFGetAMGAge),
+  PUBLIC(PCAMGFGetAMGPC),
+  PUBLIC(PCAMGFGetFilterKSP),
+  PUBLIC(PCAMGFSetFilterRanks),
+  PUBLIC(PCAMGFGetFilterPivots),
+  PUBLIC(PCAMGFGetCounts),
+  PUBLIC(PCAMGFSetFactor),
+  PUBLIC(PCAMGFExpect),
+  PUBLIC(PCAMGFGetFactored),
+};
+
+/* Composes the implementations of the public functions with the PC, or removes them if `attach` is false */
+PetscErrorCode PCAMGFComposeFunctions_Private(PC pc, PetscBool attach)
 {
   PetscFunctionBegin;
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetCycle_C", PCAMGFSetCycle_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCycle_C", PCAMGFGetCycle_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterIS_C", PCAMGFSetFilterIS_AMGF));
-  PetscCall(
-    PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterInterpolation_C", PCAMGFSetFilterInterpolation_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterSize_C", PCAMGFGetFilterSize_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterActive_C", PCAMGFSetFilterActive_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterOptional_C", PCAMGFSetFilterOptional_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetAMGLag_C", PCAMGFSetAMGLag_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGAge_C", PCAMGFGetAMGAge_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetAMGPC_C", PCAMGFGetAMGPC_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterKSP_C", PCAMGFGetFilterKSP_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFilterRanks_C", PCAMGFSetFilterRanks_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFilterPivots_C", PCAMGFGetFilterPivots_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetCounts_C", PCAMGFGetCounts_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFSetFactor_C", PCAMGFSetFactor_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFExpect_C", PCAMGFExpect_AMGF));
-  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCAMGFGetFactored_C", PCAMGFGetFactored_AMGF));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode PCAMGFRemoveFunctions_Private(PC pc)
-{
-  static const char *const names[] = {"PCAMGFSetCycle_C", "PCAMGFGetCycle_C", "PCAMGFSetFilterIS_C",
-    "PCAMGFSetFilterInterpolation_C", "PCAMGFGetFilterSize_C", "PCAMGFSetFilterActive_C", "PCAMGFSetFilterOptional_C",
-    "PCAMGFSetAMGLag_C", "PCAMGFGetAMGAge_C", "PCAMGFGetAMGPC_C", "PCAMGFGetFilterKSP_C", "PCAMGFGetCounts_C",
-    "PCAMGFSetFactor_C", "PCAMGFExpect_C", "PCAMGFGetFactored_C", "PCAMGFSetFilterRanks_C", "PCAMGFGetFilterPivots_C"};
-
-  PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(names); i++)
-    PetscCall(PetscObjectComposeFunction((PetscObject)pc, names[i], NULL));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(functions); i++)
+    PetscCall(
+      PetscObjectComposeFunction((PetscObject)pc, functions[i].name, attach ? functions[i].implementation : NULL));
   PetscFunctionReturn(0);
 }
 

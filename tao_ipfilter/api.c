@@ -155,39 +155,38 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
   PetscFunctionReturn(0);
 }
 
+#define PUBLIC(function) \
+  { \
+    #function "_C", (PetscVoidFunction)function##_IPFilter \
+  }
+static const struct {
+  const char       *name;
+  PetscVoidFunction implementation;
+} functions[] = {
+  PUBLIC(TaoIPFilterSetSlackMass),
+  PUBLIC(TaoIPFilterSetPrimalMass),
+  PUBLIC(TaoIPFilterSetWarmStart),
+  PUBLIC(TaoIPFilterSetWarmStartEquality),
+  PUBLIC(TaoIPFilterSetWarmStartBounds),
+  PUBLIC(TaoIPFilterGetSlack),
+  PUBLIC(TaoIPFilterGetKSPIterations),
+  PUBLIC(TaoIPFilterGetKKTError),
+  PUBLIC(TaoIPFilterGetFilterUse),
+  PUBLIC(TaoIPFilterGetRegularizations),
+  PUBLIC(TaoIPFilterGetFallbacks),
+  PUBLIC(TaoIPFilterGetReason),
+  PUBLIC(TaoIPFilterSetNormTerms),
+  PUBLIC(TaoIPFilterSetNormTermForces),
+  PUBLIC(TaoIPFilterGetNormTermForces),
+};
+
 /* Composes the implementations of the public functions with the Tao, or removes them if `attach` is false */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
-  PetscObject o = (PetscObject)tao;
-
   PetscFunctionBegin;
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterSetSlackMass_C", attach ? TaoIPFilterSetSlackMass_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterSetPrimalMass_C", attach ? TaoIPFilterSetPrimalMass_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStart_C", attach ? TaoIPFilterSetWarmStart_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartEquality_C",
-    attach ? TaoIPFilterSetWarmStartEquality_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetWarmStartBounds_C",
-    attach ? TaoIPFilterSetWarmStartBounds_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetSlack_C", attach ? TaoIPFilterGetSlack_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKSPIterations_C",
-    attach ? TaoIPFilterGetKSPIterations_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetKKTError_C", attach ? TaoIPFilterGetKKTError_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterGetFilterUse_C", attach ? TaoIPFilterGetFilterUse_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetRegularizations_C",
-    attach ? TaoIPFilterGetRegularizations_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterGetFallbacks_C", attach ? TaoIPFilterGetFallbacks_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetReason_C", attach ? TaoIPFilterGetReason_IPFilter : NULL));
-  PetscCall(
-    PetscObjectComposeFunction(o, "TaoIPFilterSetNormTerms_C", attach ? TaoIPFilterSetNormTerms_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetNormTermForces_C",
-    attach ? TaoIPFilterSetNormTermForces_IPFilter : NULL));
-  PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterGetNormTermForces_C",
-    attach ? TaoIPFilterGetNormTermForces_IPFilter : NULL));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(functions); i++)
+    PetscCall(
+      PetscObjectComposeFunction((PetscObject)tao, functions[i].name, attach ? functions[i].implementation : NULL));
   PetscFunctionReturn(0);
 }
 

@@ -127,7 +127,7 @@ static void J2Return(const MaterialModuli *m, const PetscReal H[9], PetscReal e[
   s->alpha += s->increment;
 }
 
-static PetscReal MaterialWork_J2(const MaterialModuli *m, const PetscReal history[MATERIAL_HISTORY])
+PetscReal MaterialWork_J2(const MaterialModuli *m, const PetscReal history[MATERIAL_HISTORY])
 {
   PetscReal stress, slope;
 
@@ -221,16 +221,6 @@ static void MaterialElastic_J2(const PetscReal history[MATERIAL_HISTORY], PetscR
   for (int i = 0; i < 9; ++i) H[i] -= history[at[i]];
 }
 
-static PetscReal MaterialDilatation_J2(const PetscReal H[9], PetscReal C[9])
-{
-  return MaterialLawLinear.dilatation(H, C);
-}
-
-static void MaterialCurvature_J2(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  (void)pressure, (void)H, (void)A;
-}
-
 static PetscBool J2CheckTable(const MaterialHardening *h, const char **key, char why[], size_t length)
 {
   *key = "plastic_strains";
@@ -298,7 +288,7 @@ PetscBool MaterialCollapses(const Material *material)
     PetscBool)(material->type == MATERIAL_J2 && material->hardening.modulus == 0 && material->hardening.kinematic == 0);
 }
 
-static PetscErrorCode MaterialModuli_J2(const Material *material, MaterialModuli *moduli)
+PetscErrorCode MaterialModuli_J2(const Material *material, MaterialModuli *moduli)
 {
   const char *key;
   char        why[128];
@@ -327,8 +317,7 @@ const MaterialLaw MaterialLawJ2 = {
   .stress     = MaterialStress_J2,
   .tangent    = MaterialTangent_J2,
   .cauchy     = MaterialCauchy_J2,
-  .dilatation = MaterialDilatation_J2,
-  .curvature  = MaterialCurvature_J2,
+  .dilatation = MaterialDilatation_Linear,
   .advance    = MaterialAdvance_J2,
   .elastic    = MaterialElastic_J2,
   .work       = MaterialWork_J2,

@@ -182,28 +182,6 @@ static void MaterialElastic_J2Finite(const PetscReal history[MATERIAL_HISTORY], 
   for (int i = 0; i < 9; ++i) H[i] = elastic[i];
 }
 
-static PetscReal MaterialWork_J2Finite(const MaterialModuli *m, const PetscReal history[MATERIAL_HISTORY])
-{
-  return MaterialLawJ2.work(m, history);
-}
-
-static PetscReal MaterialDilatation_J2Finite(const PetscReal H[9], PetscReal C[9])
-{
-  return MaterialLawNeoHookean.dilatation(H, C);
-}
-
-static void MaterialCurvature_J2Finite(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  MaterialLawNeoHookean.curvature(pressure, H, A);
-}
-
-static PetscErrorCode MaterialModuli_J2Finite(const Material *material, MaterialModuli *moduli)
-{
-  PetscFunctionBegin;
-  PetscCall(MaterialLawJ2.moduli(material, moduli));
-  PetscFunctionReturn(0);
-}
-
 static const MaterialConstant constants[] = {MATERIAL_YOUNG, MATERIAL_POISSON, MATERIAL_HARDENING, MATERIAL_DENSITY,
   {NULL}};
 
@@ -214,12 +192,12 @@ const MaterialLaw MaterialLawJ2Finite = {
   .stress     = MaterialStress_J2Finite,
   .tangent    = MaterialTangent_J2Finite,
   .cauchy     = MaterialCauchy_J2Finite,
-  .dilatation = MaterialDilatation_J2Finite,
-  .curvature  = MaterialCurvature_J2Finite,
+  .dilatation = MaterialDilatation_NeoHookean,
+  .curvature  = MaterialCurvature_NeoHookean,
   .advance    = MaterialAdvance_J2Finite,
   .elastic    = MaterialElastic_J2Finite,
-  .work       = MaterialWork_J2Finite,
+  .work       = MaterialWork_J2,
   .finite     = PETSC_TRUE,
   .constants  = constants,
-  .moduli     = MaterialModuli_J2Finite,
+  .moduli     = MaterialModuli_J2,
 };

@@ -52,15 +52,10 @@ static PetscBool MaterialTangent_Linear(const MaterialModuli *m, const PetscReal
 }
 
 /* Returns the dilatation theta = tr e, and computes its derivative C */
-static PetscReal MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9])
+PetscReal MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9])
 {
   for (int i = 0; i < 9; ++i) C[i] = i % 4 ? 0 : 1;
   return H[0] + H[4] + H[8];
-}
-
-static void MaterialCurvature_Linear(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  (void)pressure, (void)H, (void)A;
 }
 
 const MaterialLaw MaterialLawLinear = {
@@ -71,7 +66,6 @@ const MaterialLaw MaterialLawLinear = {
   .tangent    = MaterialTangent_Linear,
   .cauchy     = MaterialCauchy_Linear,
   .dilatation = MaterialDilatation_Linear,
-  .curvature  = MaterialCurvature_Linear,
   .constants  = MaterialConstantsSmall,
   .moduli     = MaterialModuliIsotropic,
 };

@@ -9,6 +9,13 @@
 MATERIAL_LAWS(MATERIAL_LAW)
 #undef MATERIAL_LAW
 
+/* Functions of a law that other laws share: of linear.c, neohookean.c and j2.c */
+PETSC_INTERN PetscReal      MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9]);
+PETSC_INTERN PetscReal      MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9]);
+PETSC_INTERN void           MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
+PETSC_INTERN PetscReal      MaterialWork_J2(const MaterialModuli *, const PetscReal history[MATERIAL_HISTORY]);
+PETSC_INTERN PetscErrorCode MaterialModuli_J2(const Material *, MaterialModuli *);
+
 /*
    isotropic.c: the constants Young's modulus, Poisson's ratio, thermal expansion and density, and the moduli that
    follow from them

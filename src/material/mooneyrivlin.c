@@ -117,16 +117,6 @@ static PetscBool MaterialCauchy_MooneyRivlin(const MaterialModuli *m, const Pets
   return PETSC_TRUE;
 }
 
-static PetscReal MaterialDilatation_MooneyRivlin(const PetscReal H[9], PetscReal C[9])
-{
-  return MaterialLawNeoHookean.dilatation(H, C);
-}
-
-static void MaterialCurvature_MooneyRivlin(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  MaterialLawNeoHookean.curvature(pressure, H, A);
-}
-
 static PetscErrorCode MaterialModuli_MooneyRivlin(const Material *material, MaterialModuli *moduli)
 {
   PetscFunctionBegin;
@@ -162,8 +152,8 @@ const MaterialLaw MaterialLawMooneyRivlin = {
   .stress     = MaterialStress_MooneyRivlin,
   .tangent    = MaterialTangent_MooneyRivlin,
   .cauchy     = MaterialCauchy_MooneyRivlin,
-  .dilatation = MaterialDilatation_MooneyRivlin,
-  .curvature  = MaterialCurvature_MooneyRivlin,
+  .dilatation = MaterialDilatation_NeoHookean,
+  .curvature  = MaterialCurvature_NeoHookean,
   .finite     = PETSC_TRUE,
   .constants  = constants,
   .moduli     = MaterialModuli_MooneyRivlin,

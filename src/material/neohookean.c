@@ -141,7 +141,7 @@ static PetscBool MaterialCauchy_NeoHookean(const MaterialModuli *m, const PetscR
 }
 
 /* Returns the dilatation theta = J - 1, and computes its derivative C */
-static PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9])
+PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9])
 {
   Kinematics k;
 
@@ -154,7 +154,7 @@ static PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C
    Adds pressure x d2J/dF_ij dF_kl to A, where d2J/dF_ij dF_kl = e_ikm e_jln F_mn is zero unless i, k, m and j, l, n are
    permutations
 */
-static void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
+void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
 {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

@@ -51,16 +51,6 @@ static PetscBool MaterialTangent_Orthotropic(const MaterialModuli *m, const Pets
   return PETSC_TRUE;
 }
 
-static PetscReal MaterialDilatation_Orthotropic(const PetscReal H[9], PetscReal C[9])
-{
-  return MaterialLawLinear.dilatation(H, C);
-}
-
-static void MaterialCurvature_Orthotropic(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  (void)pressure, (void)H, (void)A;
-}
-
 /* Computes the material's axes, the rows of R. Returns false if the given axes are parallel. */
 PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
 {
@@ -181,8 +171,7 @@ const MaterialLaw MaterialLawOrthotropic = {
   .stress     = MaterialStress_Orthotropic,
   .tangent    = MaterialTangent_Orthotropic,
   .cauchy     = MaterialCauchy_Orthotropic,
-  .dilatation = MaterialDilatation_Orthotropic,
-  .curvature  = MaterialCurvature_Orthotropic,
+  .dilatation = MaterialDilatation_Linear,
   .constants  = constants,
   .moduli     = MaterialModuli_Orthotropic,
   .scale      = MaterialScale_Orthotropic,

@@ -38,11 +38,6 @@ static PetscReal MaterialDilatation_Rigid(const PetscReal H[9], PetscReal C[9])
   return 0;
 }
 
-static void MaterialCurvature_Rigid(PetscReal pressure, const PetscReal H[9], PetscReal A[81])
-{
-  (void)pressure, (void)H, (void)A;
-}
-
 static const MaterialConstant constants[] = {MATERIAL_DENSITY, {NULL}};
 
 const MaterialLaw MaterialLawRigid = {
@@ -53,7 +48,6 @@ const MaterialLaw MaterialLawRigid = {
   .tangent    = MaterialTangent_Rigid,
   .cauchy     = MaterialCauchy_Rigid,
   .dilatation = MaterialDilatation_Rigid,
-  .curvature  = MaterialCurvature_Rigid,
   .constants  = constants,
   .moduli     = MaterialModuliIsotropic,
 };

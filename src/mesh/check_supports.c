@@ -118,13 +118,49 @@ static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *fa
   PetscFunctionReturn(0);
 }
 
+static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/*
+   Adds restraints of the motion of a body at the vertices of facets. other: the body relative to which it moves;
+   negative: the ground. along: the axes of the restrained components; NULL: the component along `normal`, or along the
+   normal of each facet if `normal` is NULL. total: number of facets of the face on all ranks
+*/
+static PetscErrorCode SupportAddFacets(Support *support, IS facets, PetscInt total, PetscInt body, PetscInt other,
+  const PetscBool along[3], const PetscReal normal[3])
+{
+  const PetscInt *f;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], own[3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    MeshComputeFacetArea(x, own);
+    VectorScaleToUnit(own);
+    for (PetscInt k = 0; k < 12; ++k) {
+      const PetscReal *direction = along ? axes[k % 3] : normal ? normal : own;
+
+      if (along ? !along[k % 3] : k % 3) continue;
+      SupportAddMotion(support, body, direction, x[k / 3], 1);
+      if (other >= 0) SupportAddMotion(support, other, direction, x[k / 3], -1);
+      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+    }
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscFunctionReturn(0);
+}
+
 /* Adds the restraints of a displacement that is prescribed at a point or along an edge */
 static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *point)
 {
-  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  IS                     vertices;
-  const PetscInt        *v;
-  PetscInt               n, total;
+  IS              vertices;
+  const PetscInt *v;
+  PetscInt        n, total;
 
   PetscFunctionBegin;
   PetscCall(MeshGetFaceVertices(support->dm, point->face, &vertices));
@@ -150,8 +186,7 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
 static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
   PetscBool *released)
 {
-  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  PetscMPIInt            rank;
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   *released = PETSC_FALSE;
@@ -169,39 +204,23 @@ static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement 
 /* Adds the restraints of a prescribed displacement */
 static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
 {
-  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  IS                     facets;
-  const PetscInt        *f;
-  PetscInt               n, b, total;
-  PetscReal              normal[3], length = 0;
-  PetscBool              released;
+  IS        facets;
+  PetscInt  b, total;
+  PetscReal normal[3] = {displacement->normal[0], displacement->normal[1], displacement->normal[2]};
+  PetscBool released;
 
   PetscFunctionBegin;
   if (displacement->at != DISPLACEMENT_FACE) {
     PetscCall(SupportAddPoint(support, displacement));
     PetscFunctionReturn(0);
   }
-  for (PetscInt d = 0; d < 3; ++d) length += PetscSqr(displacement->normal[d]);
-  for (PetscInt d = 0; d < 3; ++d)
-    normal[d] = displacement->inclined ? displacement->normal[d] / PetscSqrtReal(length) : 0;
   PetscCall(SupportGetFace(support, displacement->face, &facets, &b, &total));
   SupportBeginLink(support, b, PETSC_DECIDE);
   PetscCall(SupportAddRigid(support, displacement, b, &released));
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; !released && i < n; ++i) {
-    PetscInt  vertices[4];
-    PetscReal x[4][3];
-
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    for (PetscInt k = 0; k < 12; ++k) {
-      if (!displacement->fixed[k % 3] && (!displacement->inclined || k % 3)) continue;
-      SupportAddMotion(support, b, displacement->inclined ? normal : axes[k % 3], x[k / 3], 1);
-      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
-    }
-  }
-  PetscCall(ISRestoreIndices(facets, &f));
+  if (displacement->inclined) VectorScaleToUnit(normal);
+  if (!released)
+    PetscCall(SupportAddFacets(support, facets, total, b, PETSC_DECIDE,
+      displacement->inclined ? NULL : displacement->fixed, normal));
   PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
 }
@@ -231,11 +250,10 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
    or along that of a plane mortar face */
 static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
 {
-  IS              facets;
-  const PetscInt *f;
-  PetscInt        n, mortar, nonmortar, total;
-  PetscReal       flat[3];
-  PetscBool       plane;
+  IS        facets;
+  PetscInt  mortar, nonmortar, total;
+  PetscReal flat[3];
+  PetscBool plane;
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, pair->mortar, &facets, &mortar, &total));
@@ -243,23 +261,7 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
   SupportBeginLink(support, nonmortar, mortar);
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  vertices[4];
-    PetscReal x[4][3], normal[3];
-
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    MeshComputeFacetArea(x, normal);
-    VectorScaleToUnit(normal);
-    for (PetscInt a = 0; a < 4; ++a) {
-      SupportAddMotion(support, nonmortar, plane ? flat : normal, x[a], 1);
-      SupportAddMotion(support, mortar, plane ? flat : normal, x[a], -1);
-      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
-    }
-  }
-  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(SupportAddFacets(support, facets, total, nonmortar, mortar, NULL, plane ? flat : NULL));
   PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
 }
@@ -269,32 +271,15 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
 static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
   const PetscBool along[3])
 {
-  static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  IS                     facets;
-  const PetscInt        *f;
-  PetscInt               n, mortar, nonmortar, total;
+  IS       facets;
+  PetscInt mortar, nonmortar, total;
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, mortar_face, &facets, &mortar, &total));
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, nonmortar_face, &facets, &nonmortar, &total));
   SupportBeginLink(support, nonmortar, mortar);
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  vertices[4];
-    PetscReal x[4][3];
-
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    for (PetscInt k = 0; k < 12; ++k) {
-      if (!along[k % 3]) continue;
-      SupportAddMotion(support, nonmortar, axes[k % 3], x[k / 3], 1);
-      SupportAddMotion(support, mortar, axes[k % 3], x[k / 3], -1);
-      PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
-    }
-  }
-  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(SupportAddFacets(support, facets, total, nonmortar, mortar, along, NULL));
   PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
 }

@@ -40,7 +40,7 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
   PetscFunctionBegin;
   PetscCall(ShapeGet(comm, body, &shape));
   if (shape) {
-    own = shape->faces(body);
+    own = shape->faces ? shape->faces(body) : shape->names;
     while (own[nown]) ++nown;
   } else {
     PetscCall(GmshGetPhysicalNames(comm, body, 2, &nown, &surfaces, NULL));

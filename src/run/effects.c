@@ -3,69 +3,30 @@
 #include <math.h>
 #include "src/state/results.h"
 
-typedef enum {
-  EFFECT_CONTACT,
-  EFFECT_UPDATES,
-  EFFECT_FRICTION,
-  EFFECT_FILTER,
-  EFFECT_FINITE_STRAIN,
-  EFFECT_PLASTICITY,
-  EFFECT_RIGID,
-  EFFECT_BBAR,
-  EFFECT_INCOMPATIBLE,
-  EFFECT_ORDER2,
-  EFFECT_PRESSURE,
-  EFFECT_TRACTION,
-  EFFECT_BODY_FORCE,
-  EFFECT_INERTIA,
-  EFFECT_SPRINGS,
-  EFFECT_BOLTS,
-  EFFECT_WEAK_SPRINGS,
-  EFFECT_TEMPERATURE,
-  EFFECT_TIES,
-  EFFECT_PLANES,
-  EFFECT_BOUNDS,
-  EFFECT_ESTIMATE,
-  EFFECT_RESULTS,
-  EFFECT_COUNT
-} EffectType;
+/* The largest number of effects */
+#define EFFECTS_MAX 32
 
-static const char *const EffectNames[] = {
-  [EFFECT_CONTACT]       = "contact",
-  [EFFECT_UPDATES]       = "contact updates",
-  [EFFECT_FRICTION]      = "friction",
-  [EFFECT_FILTER]        = "AMG filter",
-  [EFFECT_FINITE_STRAIN] = "finite strain",
-  [EFFECT_PLASTICITY]    = "plasticity",
-  [EFFECT_RIGID]         = "rigid bodies",
-  [EFFECT_BBAR]          = "mean dilatation",
-  [EFFECT_INCOMPATIBLE]  = "incompatible modes",
-  [EFFECT_ORDER2]        = "order 2",
-  [EFFECT_PRESSURE]      = "pressure",
-  [EFFECT_TRACTION]      = "traction",
-  [EFFECT_BODY_FORCE]    = "body force",
-  [EFFECT_INERTIA]       = "inertia",
-  [EFFECT_SPRINGS]       = "springs",
-  [EFFECT_BOLTS]         = "pretension",
-  [EFFECT_WEAK_SPRINGS]  = "weak springs",
-  [EFFECT_TEMPERATURE]   = "thermal strain",
-  [EFFECT_TIES]          = "ties",
-  [EFFECT_PLANES]        = "inclined symmetry",
-  [EFFECT_BOUNDS]        = "displacement bounds",
-  [EFFECT_ESTIMATE]      = "error estimate",
-  [EFFECT_RESULTS]       = "probes and fields",
-};
-
-static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...)
+static PetscErrorCode EffectSet(RunReport *, const char name[], PetscBool on, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
 
-static PetscErrorCode EffectSet(RunReport *report, EffectType type, PetscBool on, const char format[], ...)
+/* Returns the effect of a name; if there is none, the place behind the last effect */
+static RunEffect *EffectFind(RunReport *report, const char name[])
 {
-  RunEffect *effect = &report->effects[type];
+  PetscInt i = 0;
+
+  while (i < report->neffects && strcmp(report->effects[i].name, name)) ++i;
+  return &report->effects[i];
+}
+
+/* Sets an effect, which is added if it is new. format: text of the reason. */
+static PetscErrorCode EffectSet(RunReport *report, const char name[], PetscBool on, const char format[], ...)
+{
+  RunEffect *effect = EffectFind(report, name);
   va_list    args;
 
   PetscFunctionBegin;
-  effect->name = EffectNames[type];
+  if (effect == report->effects + report->neffects) ++report->neffects;
+  effect->name = name;
   effect->on   = on;
   effect->time = NAN;
   va_start(args, format);
@@ -94,65 +55,64 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   }
   PetscCall(PetscFree2(nnodes, elements));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) planes += scene->displacements[d].inclined;
-  report->neffects = EFFECT_COUNT;
-  PetscCall(PetscCalloc1(EFFECT_COUNT, &report->effects));
-  PetscCall(EffectSet(report, EFFECT_CONTACT, (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs",
-    scene->npairs));
+  PetscCall(PetscCalloc1(EFFECTS_MAX, &report->effects));
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
-  PetscCall(EffectSet(report, EFFECT_FRICTION, (PetscBool)(rubbing > 0),
-    "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
-  PetscCall(EffectSet(report, EFFECT_UPDATES, (PetscBool)(scene->npairs && scene->contact_updates > 1),
+  PetscCall(
+    EffectSet(report, "contact", (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
+  PetscCall(EffectSet(report, "contact updates", (PetscBool)(scene->npairs && scene->contact_updates > 1),
     "contact_updates is %" PetscInt_FMT, scene->contact_updates));
-  PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(scene->npairs > 0),
+  PetscCall(EffectSet(report, "friction", (PetscBool)(rubbing > 0),
+    "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
+  PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
     scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
-  PetscCall(EffectSet(report, EFFECT_FINITE_STRAIN, (PetscBool)(finite > 0),
+  PetscCall(EffectSet(report, "finite strain", (PetscBool)(finite > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law of finite strain%s", finite, scene->nbodies,
     !finite          ? ""
     : sim->quadratic ? ", one tangent a load step"
                      : ", true energy"));
-  PetscCall(EffectSet(report, EFFECT_PLASTICITY, (PetscBool)(plastic > 0),
+  PetscCall(EffectSet(report, "plasticity", (PetscBool)(plastic > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law that yields", plastic, scene->nbodies));
-  PetscCall(EffectSet(report, EFFECT_RIGID, (PetscBool)(rigid > 0),
+  PetscCall(EffectSet(report, "rigid bodies", (PetscBool)(rigid > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
-  PetscCall(EffectSet(report, EFFECT_BBAR, (PetscBool)(mean > 0),
+  PetscCall(EffectSet(report, "mean dilatation", (PetscBool)(mean > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
-  PetscCall(EffectSet(report, EFFECT_INCOMPATIBLE, (PetscBool)(modes > 0),
+  PetscCall(EffectSet(report, "incompatible modes", (PetscBool)(modes > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
-  PetscCall(EffectSet(report, EFFECT_ORDER2, (PetscBool)(second > 0),
+  PetscCall(EffectSet(report, "order 2", (PetscBool)(second > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of order 2", second, scene->nbodies));
-  PetscCall(EffectSet(report, EFFECT_PRESSURE, (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures",
+  PetscCall(EffectSet(report, "pressure", (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures",
     scene->npressures));
-  PetscCall(EffectSet(report, EFFECT_TRACTION, (PetscBool)(scene->ntractions > 0),
+  PetscCall(EffectSet(report, "traction", (PetscBool)(scene->ntractions > 0),
     "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
-  PetscCall(EffectSet(report, EFFECT_SPRINGS, (PetscBool)(scene->nsprings + scene->nconnectors > 0),
+  PetscCall(
+    EffectSet(report, "body force", (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
+  if (SceneIsDynamic(scene))
+    PetscCall(
+      EffectSet(report, "inertia", PETSC_TRUE, "%" PetscInt_FMT " time steps of %g, scheme %s, mass %s", scene->nsteps,
+        (double)scene->dynamics.time_step, DynamicsSchemes[scene->dynamics.scheme], MassTypes[scene->dynamics.mass]));
+  else PetscCall(EffectSet(report, "inertia", PETSC_FALSE, "no dynamics: a static analysis"));
+  PetscCall(EffectSet(report, "springs", (PetscBool)(scene->nsprings + scene->nconnectors > 0),
     "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
-  PetscCall(EffectSet(report, EFFECT_BOLTS, (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
-  PetscCall(EffectSet(report, EFFECT_WEAK_SPRINGS, (PetscBool)(scene->weak_springs > 0.0),
+  PetscCall(EffectSet(report, "pretension", (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
+  PetscCall(EffectSet(report, "weak springs", (PetscBool)(scene->weak_springs > 0.0),
     scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set",
     sim->springs.nweak));
-  PetscCall(EffectSet(report, EFFECT_TEMPERATURE, (PetscBool)(scene->ntemperatures > 0),
-    "%" PetscInt_FMT " temperatures", scene->ntemperatures));
-  PetscCall(EffectSet(report, EFFECT_TIES, (PetscBool)(scene->nties + scene->ncyclic > 0),
+  PetscCall(EffectSet(report, "thermal strain", (PetscBool)(scene->ntemperatures > 0), "%" PetscInt_FMT " temperatures",
+    scene->ntemperatures));
+  PetscCall(EffectSet(report, "ties", (PetscBool)(scene->nties + scene->ncyclic > 0),
     "%" PetscInt_FMT " ties, %" PetscInt_FMT " cuts of sectors", scene->nties, scene->ncyclic));
-  PetscCall(EffectSet(report, EFFECT_PLANES, (PetscBool)(planes > 0), "%" PetscInt_FMT " symmetry planes along no axis",
-    planes));
-  PetscCall(EffectSet(report, EFFECT_BODY_FORCE, (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces",
-    scene->nforces));
-  if (SceneIsDynamic(scene))
-    PetscCall(EffectSet(report, EFFECT_INERTIA, PETSC_TRUE, "%" PetscInt_FMT " time steps of %g, scheme %s, mass %s",
-      scene->nsteps, (double)scene->dynamics.time_step, DynamicsSchemes[scene->dynamics.scheme],
-      MassTypes[scene->dynamics.mass]));
-  else PetscCall(EffectSet(report, EFFECT_INERTIA, PETSC_FALSE, "no dynamics: a static analysis"));
+  PetscCall(EffectSet(report, "inclined symmetry", (PetscBool)(planes > 0),
+    "%" PetscInt_FMT " symmetry planes along no axis", planes));
   if (scene->displacement_bounds)
-    PetscCall(
-      EffectSet(report, EFFECT_BOUNDS, PETSC_TRUE, "from load step %" PetscInt_FMT, scene->displacement_bounds));
-  else PetscCall(EffectSet(report, EFFECT_BOUNDS, PETSC_FALSE, "displacement_bounds is not set"));
-  PetscCall(EffectSet(report, EFFECT_RESULTS,
+    PetscCall(EffectSet(report, "displacement bounds", PETSC_TRUE, "from load step %" PetscInt_FMT,
+      scene->displacement_bounds));
+  else PetscCall(EffectSet(report, "displacement bounds", PETSC_FALSE, "displacement_bounds is not set"));
+  PetscCall(EffectSet(report, "error estimate", sim->results->estimate,
+    sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
+  PetscCall(EffectSet(report, "probes and fields",
     (PetscBool)(sim->results->probes.n || sim->results->nodes || sim->results->points),
     "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", sim->results->probes.n,
     sim->results->nodes ? "" : "no ", sim->results->points ? "" : "not "));
-  PetscCall(EffectSet(report, EFFECT_ESTIMATE, sim->results->estimate,
-    sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
   PetscFunctionReturn(0);
 }
 
@@ -167,15 +127,15 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
     filtered += report->steps[s].filtered_systems;
   }
   if (sim->contact && !systems && report->nsteps)
-    PetscCall(EffectSet(report, EFFECT_FILTER, PETSC_FALSE, "no system holds constraints: they are solved beside it"));
+    PetscCall(EffectSet(report, "AMG filter", PETSC_FALSE, "no system holds constraints: they are solved beside it"));
   if (sim->contact && systems)
-    PetscCall(EffectSet(report, EFFECT_FILTER, (PetscBool)(filtered > 0),
+    PetscCall(EffectSet(report, "AMG filter", (PetscBool)(filtered > 0),
       "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
-  report->effects[EFFECT_CONTACT].time  = report->time.contact;
-  report->effects[EFFECT_FILTER].time   = report->time.filter_setup + report->time.filter_apply;
-  report->effects[EFFECT_ESTIMATE].time = report->time.error_estimate;
-  report->effects[EFFECT_RESULTS].time  = report->time.results;
-  if (report->effects[EFFECT_PLASTICITY].on) report->effects[EFFECT_PLASTICITY].time = report->time.assembly;
-  if (report->effects[EFFECT_FINITE_STRAIN].on) report->effects[EFFECT_FINITE_STRAIN].time = report->time.assembly;
+  EffectFind(report, "contact")->time           = report->time.contact;
+  EffectFind(report, "AMG filter")->time        = report->time.filter_setup + report->time.filter_apply;
+  EffectFind(report, "error estimate")->time    = report->time.error_estimate;
+  EffectFind(report, "probes and fields")->time = report->time.results;
+  if (EffectFind(report, "plasticity")->on) EffectFind(report, "plasticity")->time = report->time.assembly;
+  if (EffectFind(report, "finite strain")->on) EffectFind(report, "finite strain")->time = report->time.assembly;
   PetscFunctionReturn(0);
 }

@@ -418,49 +418,33 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+typedef enum { USES_FINITE_STRAIN, USES_BBAR, USES_INCOMPATIBLE, USES_ORDER2 } BodyEffect;
+
+static PetscBool DescribeUses(BodyEffect effect, const SceneBody *body, const BodyChoice *choice)
+{
+  if (effect == USES_FINITE_STRAIN) return MaterialIsFinite(&body->material);
+  if (effect == USES_ORDER2) return (PetscBool)(choice->order > 1);
+  return (PetscBool)(choice->element == (effect == USES_BBAR ? ELEMENT_BBAR : ELEMENT_INCOMPATIBLE));
+}
+
 /*
-   Prints whether an effect is used and the bodies that use it, for example: on, in slab block. has: returns whether a
-   body uses the effect; off: text that is printed if no body uses it.
+   Prints whether an effect is used and the bodies that use it, for example: on, in slab block. off: text that is
+   printed if no body uses it.
 */
-static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char effect[],
-  PetscBool (*has)(const SceneBody *, const BodyChoice *), const BodyChoice choices[], const char off[])
+static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char name[], BodyEffect effect,
+  const BodyChoice choices[], const char off[])
 {
   PetscBool on = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies; ++b)
-    on = on || has(&scene->bodies[b], &choices[b]) ? PETSC_TRUE : PETSC_FALSE;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s", effect, on ? "on, in" : "off: "));
-  if (!on) PetscCall(PetscViewerASCIIPrintf(viewer, "%s", off));
-  for (PetscInt b = 0; on && b < scene->nbodies; ++b) {
-    if (has(&scene->bodies[b], &choices[b])) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", scene->bodies[b].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s", name));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (!DescribeUses(effect, &scene->bodies[b], &choices[b])) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", on ? " " : "on, in ", scene->bodies[b].name));
+    on = PETSC_TRUE;
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", on ? "" : "off: ", on ? "" : off));
   PetscFunctionReturn(0);
-}
-
-static PetscBool DescribeIsFinite(const SceneBody *body, const BodyChoice *choice)
-{
-  (void)choice;
-  return MaterialIsFinite(&body->material);
-}
-
-static PetscBool DescribeIsBbar(const SceneBody *body, const BodyChoice *choice)
-{
-  (void)body;
-  return choice->element == ELEMENT_BBAR ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscBool DescribeIsIncompatible(const SceneBody *body, const BodyChoice *choice)
-{
-  (void)body;
-  return choice->element == ELEMENT_INCOMPATIBLE ? PETSC_TRUE : PETSC_FALSE;
-}
-
-static PetscBool DescribeIsOrder2(const SceneBody *body, const BodyChoice *choice)
-{
-  (void)body;
-  return choice->order > 1 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
@@ -478,7 +462,7 @@ static PetscErrorCode DescribeEffects(Scene scene, const BodyChoice choices[], P
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b)
-    finite = finite || DescribeIsFinite(&scene->bodies[b], &choices[b]) ? PETSC_TRUE : PETSC_FALSE;
+    if (MaterialIsFinite(&scene->bodies[b].material)) finite = PETSC_TRUE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs,
     "no contact; one linear solve a step where every body is linear"));
@@ -489,13 +473,14 @@ static PetscErrorCode DescribeEffects(Scene scene, const BodyChoice choices[], P
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
     scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", DescribeIsFinite, choices, "every material is linear"));
+  PetscCall(
+    DescribeBodyEffect(scene, viewer, "finite strain", USES_FINITE_STRAIN, choices, "every material is linear"));
   if (finite)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", DescribeIsBbar, choices, "no element is bbar"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", DescribeIsIncompatible, choices,
-    "no element is incompatible"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", DescribeIsOrder2, choices, "every body has order 1"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", USES_BBAR, choices, "no element is bbar"));
+  PetscCall(
+    DescribeBodyEffect(scene, viewer, "incompatible modes", USES_INCOMPATIBLE, choices, "no element is incompatible"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", USES_ORDER2, choices, "every body has order 1"));
   PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
   PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
   if (scene->displacement_bounds)

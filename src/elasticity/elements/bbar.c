@@ -154,7 +154,7 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
   CellSumsClear(basis->nnodes, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     if (!m->law->tangent(CellModuli(&m->isochoric, q, &own), d->H[q], A)) return PETSC_FALSE;
-    m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
+    if (m->law->curvature) m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
     CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
   }
   CellStiffnessFinish(basis, &S, K);

@@ -66,4 +66,4 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeBall = {OctantFaces, ShapeSize_Ball, ShapeCreate_Ball, ShapeMap_Ball, keys};
+const Shape ShapeBall = {OctantFaces, ShapeSize_Ball, ShapeCreate_Ball, ShapeMap_Ball, keys, NULL};

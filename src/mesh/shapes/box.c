@@ -1,12 +1,7 @@
 /* Boxes of hexahedra, aligned with the axes, with equal or graded cells along each axis */
 #include "shapesimpl.h"
 
-static const char *const *ShapeFaces_Box(PETSC_UNUSED const SceneBody *body)
-{
-  static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", NULL};
-
-  return faces;
-}
+static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", NULL};
 
 static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {
@@ -73,4 +68,4 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeBox = {ShapeFaces_Box, ShapeSize_Box, ShapeCreate_Box, NULL, keys};
+const Shape ShapeBox = {NULL, ShapeSize_Box, ShapeCreate_Box, NULL, keys, faces};

@@ -8,12 +8,7 @@
 
 #define CYLINDER_CORE 0.45 /* half the width of the core, relative to the radius */
 
-static const char *const *ShapeFaces_Cylinder(PETSC_UNUSED const SceneBody *body)
-{
-  static const char *const faces[] = {"surface", "lmin", "lmax", NULL};
-
-  return faces;
-}
+static const char *const faces[] = {"surface", "lmin", "lmax", NULL};
 
 /* Returns the number of vertices of the core in one cross-section. A layer around the core has 4 n[0] vertices. */
 static PetscInt CylinderCore(const PetscInt n[3])
@@ -173,6 +168,5 @@ static const ShapeKey cone_keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeCylinder = {ShapeFaces_Cylinder, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder,
-  cylinder_keys};
-const Shape ShapeCone = {ShapeFaces_Cylinder, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder, cone_keys};
+const Shape ShapeCylinder = {NULL, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder, cylinder_keys, faces};
+const Shape ShapeCone     = {NULL, ShapeSize_Cylinder, ShapeCreate_Cylinder, ShapeMap_Cylinder, cone_keys, faces};

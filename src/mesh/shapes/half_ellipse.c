@@ -301,4 +301,4 @@ static const ShapeKey keys[] = {
 };
 
 const Shape ShapeHalfEllipse = {ShapeFaces_HalfEllipse, ShapeSize_HalfEllipse, ShapeCreate_HalfEllipse,
-  ShapeMap_HalfEllipse, keys};
+  ShapeMap_HalfEllipse, keys, NULL};

@@ -40,12 +40,7 @@ static HoledBox HoledSetUp(const SceneBody *body)
   return h;
 }
 
-static const char *const *ShapeFaces_HoledBox(PETSC_UNUSED const SceneBody *body)
-{
-  static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "hole", NULL};
-
-  return faces;
-}
+static const char *const faces[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "hole", NULL};
 
 /* Checks the radius and the position of the hole */
 static PetscErrorCode HoledCheckPlace(MPI_Comm comm, const SceneBody *body)
@@ -202,4 +197,4 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeHoledBox = {ShapeFaces_HoledBox, ShapeSize_HoledBox, ShapeCreate_HoledBox, ShapeMap_HoledBox, keys};
+const Shape ShapeHoledBox = {NULL, ShapeSize_HoledBox, ShapeCreate_HoledBox, ShapeMap_HoledBox, keys, faces};

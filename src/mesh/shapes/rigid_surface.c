@@ -5,12 +5,7 @@
 */
 #include "shapesimpl.h"
 
-static const char *const *ShapeFaces_RigidSurface(PETSC_UNUSED const SceneBody *body)
-{
-  static const char *const faces[] = {"surface", NULL};
-
-  return faces;
-}
+static const char *const faces[] = {"surface", NULL};
 
 static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *body)
 {
@@ -99,31 +94,28 @@ static PetscErrorCode ShapeCreate_RigidSurface(const SceneBody *body, ShapeGrid 
 }
 
 #define SURFACE_KEY(name, n, at, required) SHAPE_KEY(name, KEY_REALS, n, own[at], required)
+/* The last keys of every rigid surface */
 #define SURFACE_END \
+  SURFACE_KEY("mass", 1, SURFACE_MASS, PETSC_FALSE), \
   { \
     NULL, KEY_REALS, 0, 0, PETSC_FALSE \
   }
-
-#define SURFACE_MASS_KEY SURFACE_KEY("mass", 1, SURFACE_MASS, PETSC_FALSE)
 
 static const ShapeKey plane_keys[] = {
   SURFACE_KEY("point", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("normal", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey sphere_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey cylinder_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey cone_keys[] = {
@@ -131,7 +123,6 @@ static const ShapeKey cone_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("half_angle", 1, SURFACE_ANGLE, PETSC_TRUE),
   SURFACE_KEY("size", 1, SURFACE_SIZE, PETSC_FALSE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey torus_keys[] = {
@@ -139,7 +130,6 @@ static const ShapeKey torus_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("radius", 1, SURFACE_RADIUS, PETSC_TRUE),
   SURFACE_KEY("section_radius", 1, SURFACE_SECTION, PETSC_TRUE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 
@@ -151,27 +141,24 @@ static const ShapeKey extruded_keys[] = {
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   SURFACE_KEY("across", 3, SURFACE_ACROSS, PETSC_TRUE),
   PROFILE_KEYS,
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 static const ShapeKey revolved_keys[] = {
   SURFACE_KEY("center", 3, SURFACE_POINT, PETSC_TRUE),
   SURFACE_KEY("direction", 3, SURFACE_AXIS, PETSC_TRUE),
   PROFILE_KEYS,
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 
 static const ShapeKey stl_keys[] = {
   SHAPE_KEY("mesh", KEY_TEXT, 1, gmsh.file, PETSC_TRUE),
   SHAPE_KEY("scale", KEY_REALS, 1, gmsh.scale, PETSC_FALSE),
-  SURFACE_MASS_KEY,
   SURFACE_END,
 };
 
 #define SURFACE_SHAPE(keys) \
   { \
-    ShapeFaces_RigidSurface, ShapeSize_RigidSurface, ShapeCreate_RigidSurface, NULL, keys \
+    NULL, ShapeSize_RigidSurface, ShapeCreate_RigidSurface, NULL, keys, faces \
   }
 const Shape ShapeRigidPlane    = SURFACE_SHAPE(plane_keys);
 const Shape ShapeRigidSphere   = SURFACE_SHAPE(sphere_keys);

@@ -105,7 +105,7 @@ typedef struct {
 
 /* The shapes, each in its own file. A new shape is one file with a Shape, and one line in model.h. */
 typedef struct {
-  /* Returns the names of the faces, terminated by NULL */
+  /* Returns the names of the faces, terminated by NULL. NULL: they are `names` for every body of the shape. */
   const char *const *(*faces)(const SceneBody *);
   /* Collective. Reports an error if the body's parameters are invalid. Computes the numbers of level 0 cells and
      vertices. */
@@ -114,7 +114,8 @@ typedef struct {
   PetscErrorCode (*create)(const SceneBody *, ShapeGrid *);
   /* Maps parameters to coordinates [length]. x and parameters may be one array. NULL if parameters are coordinates. */
   PetscErrorCode (*map)(const SceneBody *, const PetscReal parameters[3], PetscReal x[3]);
-  const ShapeKey *keys; /* the last key has no name */
+  const ShapeKey    *keys; /* the last key has no name */
+  const char *const *names;
 } Shape;
 
 #define SHAPE_DECLARE(name, shape, text) PETSC_INTERN const Shape Shape##shape;

@@ -108,5 +108,5 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell,
-  keys};
+const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell, keys,
+  NULL};

@@ -45,4 +45,4 @@ static const ShapeKey keys[] = {
 };
 
 const Shape ShapeSpheroidShell = {OctantFaces, ShapeSize_SpheroidShell, ShapeCreate_SpheroidShell,
-  ShapeMap_SpheroidShell, keys};
+  ShapeMap_SpheroidShell, keys, NULL};

@@ -147,4 +147,4 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeTubeArc = {ShapeFaces_TubeArc, ShapeSize_TubeArc, ShapeCreate_TubeArc, ShapeMap_TubeArc, keys};
+const Shape ShapeTubeArc = {ShapeFaces_TubeArc, ShapeSize_TubeArc, ShapeCreate_TubeArc, ShapeMap_TubeArc, keys, NULL};

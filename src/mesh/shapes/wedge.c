@@ -6,12 +6,7 @@
    the axis */
 #define WEDGE_CORNERS 0
 
-static const char *const *ShapeFaces_Wedge(PETSC_UNUSED const SceneBody *body)
-{
-  static const char *const faces[] = {"side1", "side2", "side3", "lmin", "lmax", NULL};
-
-  return faces;
-}
+static const char *const faces[] = {"side1", "side2", "side3", "lmin", "lmax", NULL};
 
 /* Returns twice the area of the triangle [length^2]; negative if the corners are clockwise about the axis */
 static PetscReal WedgeArea(const SceneBody *body)
@@ -122,4 +117,4 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeWedge = {ShapeFaces_Wedge, ShapeSize_Wedge, ShapeCreate_Wedge, NULL, keys};
+const Shape ShapeWedge = {NULL, ShapeSize_Wedge, ShapeCreate_Wedge, NULL, keys, faces};
