@@ -22,6 +22,18 @@ PETSC_INTERN int            CheckpointPlasticParts(Scene);
 PETSC_INTERN PetscErrorCode CheckpointAddPlastic(Scene, Elasticity, Checkpoint);
 PETSC_INTERN PetscErrorCode CheckpointGetPlastic(Scene, MPI_Comm, Elasticity, Checkpoint);
 
+/* plastic_nearest.c: finds the nearest of many points */
+typedef struct {
+  const PetscReal *places;          /* coordinates and body of the points */
+  PetscReal        lower[3], size;  /* lower corner of the grid and edge length of its boxes [length] */
+  PetscInt         n[3];            /* number of boxes along x, y, z */
+  PetscInt        *first, *records; /* records[first[b]] to records[first[b + 1] - 1] are the points in box b */
+} PlasticGrid;
+
+PETSC_INTERN PetscErrorCode PlasticGridCreate(PetscInt n, const PetscReal places[], PlasticGrid *);
+PETSC_INTERN PetscErrorCode PlasticGridDestroy(PlasticGrid *);
+PETSC_INTERN PetscInt       PlasticGridFind(const PlasticGrid *, const PetscReal place[4], PetscReal *square);
+
 /*
    read.c, write.c: numbers of a checkpoint, which are stored as attributes of its file; the list ends with a NULL name
 */

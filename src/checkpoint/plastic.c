@@ -1,7 +1,8 @@
 /*
    Plastic strains at quadrature points. A point is identified by its coordinates. Each rank searches for its points
    among all points of the file, whichever ranks wrote and read them. On another mesh the points have other coordinates,
-   and no strain is transferred.
+   and take the strains of the nearest points of the file. These are states of yielding metal that exist, whereas
+   interpolated ones need not be.
 */
 #include "checkpointimpl.h"
 #include <stdlib.h>
@@ -21,6 +22,7 @@ typedef struct {
   PlasticKey *keys; /* in ascending order */
   PetscReal   step; /* step to which coordinates are rounded [length] */
   PetscBool  *found;
+  PetscReal  *square; /* of points that are not found: squared distance of the nearest point so far [length^2] */
 } PlasticIndex;
 
 static int PlasticCompare(const void *a, const void *b)
@@ -96,7 +98,7 @@ static PetscErrorCode PlasticIndexCreate(MPI_Comm comm, PetscInt n, const PetscR
   index->n    = n;
   index->step = fine * size;
   PetscCall(PetscMalloc1(n, &index->keys));
-  PetscCall(PetscCalloc1(n, &index->found));
+  PetscCall(PetscCalloc2(n, &index->found, n, &index->square));
   for (PetscInt i = 0; i < n; ++i) {
     PlasticSetKey(places + 4 * i, index->step, 0, 0, &index->keys[i]);
     index->keys[i].point = i;
@@ -126,11 +128,36 @@ static void PlasticTake(PlasticIndex *index, int part, PetscInt n, const PetscRe
 }
 
 /*
-   Copies one part of the history from all records of the file to the points of all ranks. Each rank in turn broadcasts
-   the records that it has read.
+   Copies one part of the history from the nearest records to the points of this rank that were not found, if these
+   records are nearer than those of the calls before. own: places of this rank's points.
 */
-static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpoint, PlasticIndex *index,
-  PetscReal history[])
+static PetscErrorCode PlasticTakeNearest(PlasticIndex *index, int part, PetscInt n, const PetscReal places[],
+  const PetscReal from[], const PetscReal own[], PetscReal history[])
+{
+  PlasticGrid grid;
+
+  PetscFunctionBegin;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PlasticGridCreate(n, places, &grid));
+  for (PetscInt i = 0; i < index->n; ++i) {
+    PetscInt record = PETSC_DECIDE;
+
+    if (!index->found[i]) record = PlasticGridFind(&grid, own + 4 * i, &index->square[i]);
+    if (record >= 0)
+      PetscCall(
+        PetscArraycpy(history + MATERIAL_HISTORY * i + parts[part].at, from + parts[part].n * record, parts[part].n));
+  }
+  PetscCall(PlasticGridDestroy(&grid));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Copies one part of the history from all records of the file to the points of all ranks. Each rank in turn broadcasts
+   the records that it has read. nearest: NULL to find the points in the file; else places of this rank's points, of
+   which those that were not found take the nearest records.
+*/
+static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpoint, const PetscReal nearest[],
+  PlasticIndex *index, PetscReal history[])
 {
   const CheckpointField *places, *field;
   const PetscInt         width = parts[part].n;
@@ -141,6 +168,7 @@ static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpo
   PetscCall(CheckpointFindField(checkpoint, parts[part].name, &field));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  for (PetscInt i = 0; i < index->n; ++i) index->square[i] = PETSC_INFINITY;
   for (PetscMPIInt r = 0; r < size; ++r) {
     PetscInt   n = places->n;
     PetscReal *at, *from;
@@ -153,34 +181,44 @@ static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpo
     }
     PetscCallMPI(MPI_Bcast(at, (PetscMPIInt)(4 * n), MPIU_REAL, r, comm));
     PetscCallMPI(MPI_Bcast(from, (PetscMPIInt)(width * n), MPIU_REAL, r, comm));
-    PlasticTake(index, part, n, at, from, history);
+    if (nearest) PetscCall(PlasticTakeNearest(index, part, n, at, from, nearest, history));
+    else PlasticTake(index, part, n, at, from, history);
     PetscCall(PetscFree2(at, from));
   }
   PetscFunctionReturn(0);
 }
 
+/* Collective. Returns the number of points of all ranks that are neither found nor near a record of their body */
+static PetscErrorCode PlasticCountMissing(MPI_Comm comm, const PlasticIndex *index, PetscInt *missing)
+{
+  PetscFunctionBegin;
+  *missing = 0;
+  for (PetscInt i = 0; i < index->n; ++i) *missing += !index->found[i] && index->square[i] == PETSC_INFINITY;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, missing, 1, MPIU_INT, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode CheckpointGetPlastic(Scene scene, MPI_Comm comm, Elasticity elasticity, Checkpoint checkpoint)
 {
+  const int    nparts = CheckpointPlasticParts(scene);
   PlasticIndex index;
-  PetscInt     n, counts[2] = {0, 0};
+  PetscInt     n, missing;
   PetscReal   *places, *history;
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetHistory(elasticity, &n, &places, &history));
   if (!places) PetscFunctionReturn(0);
   PetscCall(PlasticIndexCreate(comm, n, places, &index));
-  for (int p = 0; p < CheckpointPlasticParts(scene); ++p)
-    PetscCall(PlasticTakeAll(comm, p, checkpoint, &index, history));
-  for (PetscInt i = 0; i < n; ++i) counts[0] += !index.found[i];
-  counts[1] = n;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, comm));
+  for (int p = 0; p < nparts; ++p) PetscCall(PlasticTakeAll(comm, p, checkpoint, NULL, &index, history));
+  PetscCall(PlasticCountMissing(comm, &index, &missing));
+  for (int p = 0; missing && p < nparts; ++p) PetscCall(PlasticTakeAll(comm, p, checkpoint, places, &index, history));
+  PetscCall(PlasticCountMissing(comm, &index, &missing));
   PetscCall(PetscFree(index.keys));
-  PetscCall(PetscFree(index.found));
+  PetscCall(PetscFree2(index.found, index.square));
   PetscCall(PetscFree(places));
-  PetscCheck(!counts[0], comm, PETSC_ERR_USER_INPUT,
-    "the run cannot continue from the checkpoint: plastic strains cannot be transferred to another mesh, and "
-    "%" PetscInt_FMT " of the %" PetscInt_FMT
-    " quadrature points are not in the checkpoint; use the mesh of the checkpoint",
-    counts[0], counts[1]);
+  PetscCheck(!missing, comm, PETSC_ERR_FILE_UNEXPECTED,
+    "the run cannot continue from the checkpoint: it has no plastic strains of the bodies of %" PetscInt_FMT
+    " quadrature points",
+    missing);
   PetscFunctionReturn(0);
 }

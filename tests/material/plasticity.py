@@ -67,6 +67,11 @@ for ranks in (1, 3):
     off = max(abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain"))
     say("restarted on %d ranks: the same" % ranks, len(pairs) == 2 and off < 1e-9, (len(pairs), off))
 
+finer = load("finer")["steps"]
+pairs = [(step, other) for step in finer for other in whole if other["step"] == step["step"]]
+off = [abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain")]
+say("restarted on a refined mesh, 2 ranks: the same, since the strain is uniform", len(pairs) == 2 and max(off) < 1e-7, (len(pairs), off))
+
 k, a, b, G = 1.0, 1.0, 2.0, 1000 / 2 / 1.4999
 
 
@@ -99,6 +104,9 @@ residual = outside[3] - k * a * a / (2 * G * b) * 1.3 / 0.75
 say("residual widening", abs(outside[4] / residual - 1) < 1e-2, (outside[4], residual))
 say("unloading does no plastic work", abs(tube[4]["plastic_work"] / tube[3]["plastic_work"] - 1) < 1e-9, (tube[4]["plastic_work"], tube[3]["plastic_work"]))
 say("balance: work is stored or plastic, to 2 %", all(abs((s["energy"] + s["plastic_work"]) / s["work"] - 1) < 0.02 for s in tube[:4]), [(s["energy"], s["plastic_work"], s["work"]) for s in tube])
+refined, fine = load("refined")["steps"], load("fine")["steps"]
+ends = [[steps[-1][key] for key in ("plastic_work", "plastic_strain")] + steps[-1]["probes"][0]["displacement"][:1] for steps in (refined, tube, fine)]
+say("plastic strains on a refined mesh: after unloading as on the first mesh to 1 %", len(refined) == 1 and all(abs(x / y - 1) < 1e-2 for x, y in zip(*ends[:2])), ends)
 with h5py.File("tube_0004.h5") as file:
     strain, equivalent = file["plastic_strain"][:], file["equivalent_plastic_strain"][:]
 say("fields: plastic strain without volume, zero outside the plastic zone", abs(strain[:, 0] + strain[:, 3] + strain[:, 5]).max() < 1e-12 and (equivalent > 0).mean() > 0.5 and equivalent.min() == 0 and equivalent.max() <= tube[3]["plastic_strain"], (equivalent.min(), equivalent.max()))

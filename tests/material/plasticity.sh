@@ -1,4 +1,4 @@
-# Metals that yield: bars in cycles on every element, Hill's tube up to its collapse, a clamped bar that is heated; ranks, restart, cuts; what is wrong with the constants.
+# Metals that yield: bars in cycles on every element, Hill's tube up to its collapse, a clamped bar that is heated; ranks, restart, also on a refined mesh, cuts; what is wrong with the constants.
 contact=$AMGF_DIR/bin/contact
 options="-quiet -tao_ipfilter_tol 1e-11"
 linear="material: j2, young: 200, poisson: 0.3, yield: 0.2, hardening: 10, kinematic: 20"
@@ -49,8 +49,10 @@ done
 "$contact" bars.yaml $options -checkpoint bars.h5 -checkpoint_every 3 -load_steps 5 -summary whole.json
 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part1.json
 mpiexec --oversubscribe -n 3 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part3.json
-"$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 2>&1 | sed 's/[0-9]* of the [0-9]* quad/N of the N quad/'
-"$contact" tube.yaml $options -output tube -summary tube.json || echo "tube: exit code $?"
+mpiexec --oversubscribe -n 2 "$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 -summary finer.json
+"$contact" tube.yaml $options -checkpoint tube.h5 -checkpoint_every 4 -output tube -summary tube.json || echo "tube: exit code $?"
+"$contact" tube.yaml $options -refine 1 -restart tube.h5 -summary refined.json
+"$contact" tube.yaml $options -refine 1 -summary fine.json
 "$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"; echo "collapse: exit code ${PIPESTATUS[0]}"
 sed 's/element: bbar/element: incompatible/; s/0.4999/0.3/' collapse.yaml > modes.yaml
 "$contact" modes.yaml $options -summary modes.json 2> /dev/null; echo "incompatible modes: exit code $?"
