@@ -141,16 +141,20 @@ def row(factor, name, result):
 def page(rows, bars):
     return "\n".join([
         "# Comparison with CalculiX", "",
-        "`make bench-calculix` makes this page. CalculiX uses the solver SPOOLES. Times are user seconds of the whole run on one core, memory is the peak.", "",
+        "`make bench-calculix` makes this page. CalculiX uses the solver SPOOLES. Times are user seconds of",
+        "the whole run on one core. Memory is the peak of the run.", "",
         "## An exact solution", "",
-        f"Two bars of the same section, Young's moduli 1 and 1,000, lengths 1, are pushed together by 0.2. The force is 0.2/(1 + 1/1000) = {BAR_FORCE:.6g}.", "",
+        "Two bars of the same section and of length 1 are pushed together by 0.2. Their Young's moduli are 1", f"and 1,000. The force is 0.2/(1 + 1/1000) = {BAR_FORCE:.6g}.", "",
         "| CalculiX | force | error |", "| --- | --- | --- |", *bars, "",
-        "With hard contact CalculiX uses a contact stiffness of 50 times the smaller Young's modulus, in its mortar method too, so that the faces penetrate. This is",
-        "why its forces on the two blocks were 12 to 24 % lower than ours. With a contact stiffness of 1e6 CalculiX computes the exact force. `contact` computes the",
-        "exact force up to rounding.", "",
+        "For hard contact CalculiX uses a contact stiffness of 50 times the smaller Young's modulus, in its",
+        "mortar method too. The faces therefore penetrate, and its forces on the two blocks below are 12 to",
+        "24 % lower than ours. With a contact stiffness of 1e6 CalculiX computes the exact force. `contact`",
+        "computes the exact force up to rounding.", "",
         "## Two blocks", "",
-        "Both programs use the same mesh of hexahedra with full integration, and small displacements. `contact` linearizes the gap once per load step, as the scene",
-        "specifies, or updates it until it is consistent. At the edges of the block stresses are singular, and full integration locks, so that forces decrease with the mesh size in both programs.", "",
+        "Both programs use the same mesh of hexahedra, full integration, and small displacements. \"contact\"",
+        "linearizes the gap once per load step, as the scene specifies; \"consistent gap\" updates it until it",
+        "is consistent. The stresses at the edges of the block are singular, and full integration locks.",
+        "Forces therefore decrease with the cell size in both programs.", "",
         "| mesh | program | time [s] | memory [MB] | force, step 1 | force, step 2 |", "| --- | --- | --- | --- | --- | --- |", *rows]) + "\n"
 
 
@@ -162,7 +166,7 @@ def main():
     parser.add_argument("--page", help="file to write; else the page is printed")
     arguments = parser.parse_args()
     if not shutil.which("ccx"):
-        print("ccx, of Debian's calculix-ccx, is not on the path: nothing is compared")
+        print("bench-calculix: ccx is not on the path. Install Debian's calculix-ccx.")
         return 0
     os.makedirs(arguments.folder, exist_ok=True)
     rows = [row(factor, name, run(name, factor, arguments.folder, arguments.limit)) for factor in arguments.meshes for name in (*OURS, *PAIRS)]

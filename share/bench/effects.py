@@ -73,7 +73,7 @@ def run(args, contact, scene, folder, options=()):
     report = read_summary(base)
     on = [effect["name"] for effect in report["effects"] if effect["on"] and effect["name"] != "error estimate"]
     if on:
-        sys.exit("effects.py: %s: switched on: %s" % (scene, ", ".join(on)))
+        sys.exit("effects.py: %s: effects must be off, but these are on: %s" % (scene, ", ".join(on)))
     cost = report["time"]["total"]
     if args.instructions:
         _, said, _ = execute(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command], None)
@@ -95,32 +95,32 @@ def table(args, folder):
     plain = functools.partial(run, args, args.contact, never, folder)
     if args.instructions:
         plain = functools.cache(plain)
-    dofs, unit = plain()[2], "million instructions" if args.instructions else "s"
-    print("%d unknowns, medians of %d runs each, in turn\n" % (dofs, args.repeat))
-    print("| %-20s | %12s | %12s | %8s | %8s |\n|%s" % ("switched off", "off", "never", "ratio", "memory", " --- |" * 5))
+    dofs, unit = plain()[2], "10^6 instructions" if args.instructions else "s"
+    print("%d unknowns. Medians of %d runs; runs of both scenes alternate.\n" % (dofs, args.repeat))
+    print("| %-20s | off [%s] | never [%s] | off / never | memory, off / never |\n|%s" % ("switched off", unit, unit, " --- |" * 5))
     worst = 0.0
     for effect, (body, rest) in EFFECTS.items():
         off = write(folder, "off", body, rest)
         worst = max(worst, compare(args, effect, lambda off=off: run(args, args.contact, off, folder), plain))
     for effect, options in OPTIONS.items():
         worst = max(worst, compare(args, effect, lambda options=options: run(args, args.contact, never, folder, options), plain))
-    print("\nOff and never in %s; largest difference: %.2f %%" % (unit, 100 * worst))
+    print("\nLargest difference: %.2f %%" % (100 * worst))
     if args.before:
-        print("\n| %-20s | %12s | %12s | %8s | %8s |\n|%s" % ("plain scene", "now", "before", "ratio", "memory", " --- |" * 5))
+        print("\n| %-20s | %12s | %12s | %8s | %8s |\n|%s" % ("plain scene", "now", "before", "now / before", "memory", " --- |" * 5))
         compare(args, "another build", plain, lambda: run(args, args.before, never, folder))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--contact", default="bin/contact")
-    parser.add_argument("--before", help="another build of it")
-    parser.add_argument("--instructions", action="store_true", help="in place of time")
+    parser.add_argument("--before", help="another build, which is compared with --contact")
+    parser.add_argument("--instructions", action="store_true", help="count instructions instead of measuring time")
     parser.add_argument("--refine", type=int, default=2)
     parser.add_argument("--repeat", type=int)
     args = parser.parse_args()
     args.repeat = args.repeat or (1 if args.instructions else 5)
     if args.instructions and not shutil.which("valgrind"):
-        sys.exit("effects.py: instructions are counted by valgrind, which is not here")
+        sys.exit("effects.py: --instructions needs valgrind, which is not installed")
     with tempfile.TemporaryDirectory() as folder:
         table(args, folder)
 

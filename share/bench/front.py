@@ -162,7 +162,7 @@ def percent(value):
 
 def price_table(found):
     """The cheapest run at each target, its mesh and setting"""
-    yield "| problem | unknowns, default, first mesh | error | time [s] | " + " | ".join(f"to {percent(t)} you pay [s]" for t in TARGETS) + " |"
+    yield "| problem | unknowns, default, first mesh | error | time [s] | " + " | ".join(f"time for {percent(t)} [s]" for t in TARGETS) + " |"
     yield "| --- | --- | --- | --- |" + " --- |" * len(TARGETS)
     for name, rows in found.items():
         default = find(rows, "default")
@@ -198,24 +198,47 @@ def same_unknowns(found):
 def rules(found):
     r = lambda a, b, key: mean_ratio(found, a, b, key)  # noqa: E731
     error, seconds = same_unknowns(found)
-    yield f"1. Do not name an element in the scene. On the same mesh `auto` has {r('default', 'full', 'error'):.2g} times the error of `full`, in {r('default', 'full', 'seconds'):.2g} times its time."
-    yield f"2. For an error of 1 % or less use `order: 2` with `bbar` on a coarser mesh. It has {error:.2g} times the error of order 1 on the next finer mesh, in {seconds:.2g} times its time."
-    yield f"3. Let contact updates continue until the gap is consistent. One contact update per load step takes {r('one contact update', 'default', 'seconds'):.2g} times the time, and has {r('one contact update', 'default', 'error'):.2g} times the error."
-    yield f"4. Do not change the solver's tolerance. The tolerance 1e-10 takes {r('tolerance 1e-10', 'default', 'seconds'):.2g} times the time, with {r('tolerance 1e-10', 'default', 'error'):.2g} times the error: the mesh decides."
-    yield "5. If contact ends at a sharp edge, the error is proportional to the cell size for elements of either order. Compute two meshes and extrapolate: [sharp edges](elements/sharp.md)."
+    yield "1. Do not name an element in the scene."
+    yield "2. For an error of 1 % or less use `order: 2` with `bbar` on a coarser mesh."
+    yield "3. Let contact updates continue until the gap is consistent."
+    yield "4. Do not change the solver's tolerance. The mesh decides the error."
+    yield "5. If contact ends at a sharp edge, compute two meshes and extrapolate. The error is proportional"
+    yield "   to the cell size for elements of either order: [sharp edges](elements/sharp.md).\n"
+    yield "| rule | compared | ratio of errors | ratio of times |"
+    yield "| --- | --- | --- | --- |"
+    for rule, text, above, below in ((1, "`auto` and `full` on the same mesh", "default", "full"), (3, "one contact update per load step and consistent gap", "one contact update", "default"), (4, "tolerance 1e-10 and default", "tolerance 1e-10", "default")):
+        yield f"| {rule} | {text} | {r(above, below, 'error'):.2g} | {r(above, below, 'seconds'):.2g} |"
+    yield f"| 2 | order 2 with `bbar`, and order 1 on the next finer mesh | {error:.2g} | {seconds:.2g} |"
+
+
+
+REFERENCES = """Errors are relative to these references:
+
+| problem | reference | its uncertainty |
+| --- | --- | --- |
+| Hertz cylinder | Hertz's formula | |
+| Hertz sphere | elements of order 2 on a fine mesh; the force is 0.2 % larger than that of Hertz's half-space | |
+| two-block | value extrapolated from fine meshes | 0.4 % |
+| cantilever | value extrapolated from fine meshes | 0.3 % |
+| punch, ring | elements of order 2 on a fine mesh | |
+""".split("\n")
 
 
 def page(found, pages):
     where = machine.describe()
     yield "# What accuracy costs in time\n"
-    yield f"`make bench-front` made this page on {datetime.date.today()}, sources {source_version()}: {where['processor']}, one core; " + ", ".join(f"{n} {v}" for n, v in where["versions"].items()) + "."
-    yield "Times are user CPU seconds of whole runs. Other programs were running on the machine. Contact gaps are consistent, unless a setting says otherwise. References: Hertz's"
-    yield "formula for the cylinder; values extrapolated from fine meshes for two blocks and cantilever, with an uncertainty of 0.4 and 0.3 %; results with order 2 on fine"
-    yield "meshes for sphere, punch and ring. Hertz's force is that of a half-space; the force of this ball is 0.2 % larger.\n"
+    yield f"`make bench-front` made this page on {datetime.date.today()} from commit {source_version()}.\n"
+    yield "| | |"
+    yield "| --- | --- |"
+    yield f"| machine | {where['processor']}, one core; other programs were running |"
+    yield "| libraries | " + ", ".join(f"{n} {v}" for n, v in where["versions"].items()) + " |"
+    yield "| times | user CPU seconds of whole runs |"
+    yield "| contact gaps | consistent, unless a setting says otherwise |\n"
+    yield from REFERENCES
     yield "![error against time, six problems](front.png)\n"
     yield "## Time for a given error\n"
     yield from price_table(found)
-    yield "\nTo repeat a run, create its scene from the problem, the mesh and the setting in the table, and add the options of the setting:\n"
+    yield "\nTo repeat a run, create its scene from problem, mesh and setting in the table. Then add the options\nof the setting:\n"
     yield '    share/bench/front.py --scene "hertz_cylinder, coarse, order 2, bbar" > scene.yaml'
     yield "    bin/contact scene.yaml -contact_updates 20\n"
     yield "| setting | further options |"
@@ -225,7 +248,7 @@ def page(found, pages):
     yield "## Five rules\n"
     yield from rules(found)
     yield "\n## Ratios to the published configuration\n"
-    yield "Time with `published.opts` and the element `full`, divided by the time with the default settings, on the first mesh:\n"
+    yield "The table compares `published.opts` and the element `full` with the default settings on the first\nmesh:\n"
     yield "| problem | published.opts [s] | its error | default [s] | its error | ratio of times |"
     yield "| --- | --- | --- | --- | --- | --- |"
     for name, rows in found.items():

@@ -1,4 +1,4 @@
-"""The page: every figure with what it says in numbers, and the tables. The sentences come from the rows, so they hold for the run at hand."""
+"""The pages: a figure and tables for each study. All text that depends on the results is made from the rows of the runs."""
 import math
 import os
 
@@ -29,35 +29,28 @@ def field(key, digits=3):
 
 
 def lead_error(row):
-    """The quantity that the sentences speak of: the first there is of contact force and energy"""
+    """Error and name of the quantity that runs are compared by: contact force if it is known, else energy"""
     for quantity in ("contact force", "energy"):
         if row.get(f"error {quantity}") is not None:
             return row[f"error {quantity}"], quantity
     if row.get("same mesh energy") is not None:
-        return row["same mesh energy"], "energy, against the same mesh"
+        return row["same mesh energy"], "energy, same mesh"
     return None, None
 
 
-def span_sentence(panel, runs):
-    first, final = runs[0], runs[-1]
-    name = lambda row: " ".join(part for part in (row["series"], row["value"]) if part)  # noqa: E731
-    error, quantity = lead_error(first)
-    text = f"{panel.title}: the first run, {name(first)}, takes {number(first['seconds'])} s, the last, {name(final)}, {number(final['seconds'])} s;"
-    text += f" AMG applications: {first['applications']:,} and {final['applications']:,}"
-    return text + (f"; error in {quantity}: {percent(error)} and {percent(lead_error(final)[0])}." if error is not None else ".")
+def label(row):
+    return " ".join(part for part in (row["series"], row["value"]) if part)
 
 
-def floor_sentence(runs):
-    """The cheapest of those that are no worse than the best"""
-    known = [(row, lead_error(row)[0]) for row in runs if lead_error(row)[0] is not None]
+def best_row(panel, runs):
+    """Compares the runs whose error is at most NEAR times the smallest one; None if fewer than two errors are known"""
+    known = [(row, *lead_error(row)) for row in runs if lead_error(row)[0] is not None]
     if len(known) < 2:
-        return ""
-    least = min(error for _, error in known)
-    name = lambda row: " ".join(part for part in (row["series"], row["value"]) if part)  # noqa: E731
-    good = [row for row, error in known if error <= NEAR * least]
-    cheap, dear = min(good, key=lambda r: r["seconds"]), max(good, key=lambda r: r["seconds"])
-    text = f"The smallest error is {percent(least)}. The quickest run with an error at most 10 % larger is {name(cheap)}, {number(cheap['seconds'])} s"
-    return text + (f"; the slowest such run is {name(dear)}, {number(dear['seconds'] / cheap['seconds'])} times as long." if dear is not cheap else "; there is no other such run.")
+        return None
+    least = min(error for _, error, _ in known)
+    good = [row for row, error, _ in known if error <= NEAR * least]
+    quickest, slowest = min(good, key=lambda r: r["seconds"]), max(good, key=lambda r: r["seconds"])
+    return {"panel": panel.title, "quantity": known[0][2], "least": percent(least), "quickest": label(quickest), "seconds": quickest["seconds"], "slowest": label(slowest), "ratio": slowest["seconds"] / quickest["seconds"]}
 
 
 def failed_sentence(runs):
@@ -66,13 +59,12 @@ def failed_sentence(runs):
 
 
 def knob_words(study, rows):
-    paragraphs = []
-    for panel in study.panels:
-        runs = of_panel(rows, study, panel)
-        good = converged(runs)
-        sentences = [span_sentence(panel, good), floor_sentence(good)] if len(good) > 1 else []
-        paragraphs.append(" ".join(s for s in sentences + [failed_sentence(runs)] if s))
-    return "\n\n".join(p for p in paragraphs if p)
+    """A table of the best runs of each panel, and the runs that did not converge"""
+    runs = [of_panel(rows, study, panel) for panel in study.panels]
+    best = [row for row in (best_row(panel, converged(r)) for panel, r in zip(study.panels, runs)) if row]
+    columns = [("problem", field("panel")), ("error in", field("quantity")), ("smallest error", field("least")), ("quickest run", field("quickest")), ("its time [s]", field("seconds")), ("slowest run", field("slowest")), ("its time relative to the quickest", field("ratio"))]
+    parts = ["Runs with an error at most 10 % above the smallest error of the problem:\n\n" + table(columns, best) + "\nAll runs:"] if best else []
+    return "\n\n".join([p for p in map(failed_sentence, runs) if p] + parts)
 
 
 def knob_table(study, rows):
@@ -80,15 +72,15 @@ def knob_table(study, rows):
     columns = [("problem", lambda r: PROBLEMS[r["problem"]].title), ("mesh", field("mesh")), ("unknowns", field("unknowns"))]
     columns += [("", field("series"))] if any(row["series"] for row in runs) else []
     columns += [(study.knob, field("value"))] if study.knob != "mesh" else []
-    columns += [("time [s]", field("seconds")), ("Newton", field("newton")), ("AMG applications", field("applications")), ("memory [MB]", lambda r: number(r["memory"] / 1e6) if r.get("memory") else "")]
+    columns += [("time [s]", field("seconds")), ("Newton steps", field("newton")), ("AMG applications", field("applications")), ("memory [MB]", lambda r: number(r["memory"] / 1e6) if r.get("memory") else "")]
     for quantity in ("energy", "contact force", "peak pressure", "contact radius"):
         if any(f"error {quantity}" in row for row in runs):
             columns.append((f"error in {quantity}", field(f"error {quantity}", 2)))
     if any("same mesh energy" in row for row in runs):
-        columns.append(("energy, same mesh", field("same mesh energy", 2)))
+        columns.append(("error in energy, same mesh", field("same mesh energy", 2)))
     if study.knob == "mesh":
-        columns.append(("energy, estimated", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2)))
-    columns += [("out of balance", field("equilibrium", 1)), ("ended", field("status"))]
+        columns.append(("estimated error in energy", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2)))
+    columns += [("equilibrium residual", field("equilibrium", 1)), ("status", field("status"))]
     return table(columns, runs)
 
 
@@ -104,7 +96,7 @@ def mean_ratio(runs, ours, key):
 
 
 def default_rows(studies, rows):
-    """What every other value of a knob costs, in units of what is built in"""
+    """Time of every other value of a parameter, relative to the default"""
     entries = []
     for study in (s for s in studies if s.default):
         runs = select(rows, study=study.name)
@@ -120,9 +112,7 @@ def default_section(studies, rows):
     entries = default_rows(studies, rows)
     if not entries:
         return ""
-    better = [e for e in entries if e["time"] < 0.95]
-    text = "For parameters that do not change the result, the default should be the quickest value on average over the problems. "
-    text += "It is, to within 5 % of the time." if not better else "Exceptions: " + ", ".join(f"{e['value']} takes {e['time']:.2f} times the time of {e['default']} ({e['study']})" for e in better) + "."
+    text = "A time below 1 means that the other value is quicker than the default."
     columns = [("parameter", field("study")), ("default", field("default")), ("other value", field("value")), ("time relative to the default, geometric mean", field("time")), ("AMG applications relative to the default", field("applications")), ("converged", field("converged"))]
     return "## The defaults\n\n" + text + "\n\n" + table(columns, entries)
 
@@ -137,8 +127,8 @@ def best_at(rows, row, series):
 def accuracy_table(rows):
     """What was asked for, what came of it, and what the sweeps needed for the same"""
     runs = select(rows, study="accuracy")
-    columns = [("problem", lambda r: PROBLEMS[r["problem"]].title), ("begun with mesh", field("mesh")), ("unknowns", field("unknowns")), ("target", field("value")), ("attained", lambda r: number(lead_error(r)[0], 2)), ("energy, estimated", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2))]
-    columns += [("time [s]", field("seconds")), ("best of the sweeps at that error, same element [s]", lambda r: number(best_at(rows, r, ("full",)))), ("any element [s]", lambda r: number(best_at(rows, r, ("full", "bbar"))))]
+    columns = [("problem", lambda r: PROBLEMS[r["problem"]].title), ("first mesh", field("mesh")), ("unknowns", field("unknowns")), ("requested error", field("value")), ("true error", lambda r: number(lead_error(r)[0], 2)), ("estimated error in energy", lambda r: number((r["error_estimate"] or math.nan) ** 2, 2))]
+    columns += [("time [s]", field("seconds")), ("best time in the other studies at that error, same element [s]", lambda r: number(best_at(rows, r, ("full",)))), ("the same, any element [s]", lambda r: number(best_at(rows, r, ("full", "bbar"))))]
     return table(columns, runs)
 
 
@@ -155,58 +145,50 @@ def step_ratio(row, ours):
     return f"{sum(row['step_seconds']) / sum(ours['step_seconds'][:done]):.2g} (of {done})" if ours and done else ""
 
 
+BASELINES = """"Time for load steps" compares the solve times of the load steps that both runs completed; their
+number is in parentheses. After a `time limit`, the time of the whole run is a lower bound.
+"""
+
+
 def baseline_table(study, rows):
     text = []
     for panel in study.panels:
         runs = of_panel(rows, study, panel)
         ours = next((row for row in runs if row["series"] == "defaults" and row["status"] == "converged"), None)
-        columns = [(panel.title, field("series")), ("time [s]", field("seconds")), ("of the defaults'", lambda r: time_ratio(r, ours)), ("in load steps", lambda r: step_ratio(r, ours))]
-        columns += [("Newton", field("newton")), ("PCG", field("pcg")), ("AMG applications", field("applications")), ("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else "")]
-        columns += [("energy, same mesh", field("same mesh energy", 2)), ("ended", lambda r: r["status"] + (f": {r['said']}".replace("|", "/") if r["status"] != "converged" else ""))]
+        columns = [(panel.title, field("series")), ("time [s]", field("seconds")), ("time relative to the defaults", lambda r: time_ratio(r, ours)), ("time for load steps relative to the defaults", lambda r: step_ratio(r, ours))]
+        columns += [("Newton steps", field("newton")), ("PCG iterations", field("pcg")), ("AMG applications", field("applications")), ("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else "")]
+        columns += [("error in energy, same mesh", field("same mesh energy", 2)), ("status", lambda r: r["status"] + (f": {r['said']}".replace("|", "/") if r["status"] != "converged" else ""))]
         text.append(table(columns, runs))
     return "\n".join(text)
 
 
-def baseline_words(study, rows):
-    sentences = []
-    for panel in study.panels:
-        runs = converged(of_panel(rows, study, panel))
-        ours = next((row for row in runs if row["series"] == "defaults"), None)
-        others = [f"{row['series']} {number(row['seconds'] / ours['seconds'], 2)}" for row in runs if ours and row is not ours]
-        if others:
-            sentences.append(f"{panel.title}: time divided by that of the default settings, which is {number(ours['seconds'])} s: " + ", ".join(others) + ".")
-    return " ".join(sentences)
-
-
 def growth_words(entries):
-    if not entries:
-        return ""
-    sentences = [f"{e['series']}: time grows like n^{e['seconds']:.2f}, applications like n^{e['applications']:.2f}." for e in entries if math.isfinite(e["seconds"]) and "MUMPS" not in e["series"]]
-    for e in (e for e in entries if "MUMPS" in e["series"]):
-        where = {0.0: "the defaults are the quicker on every mesh that both were run on", math.inf: "the defaults are the slower on every mesh that both were run on"}
-        sentences.append(f"{e['series']}: time grows like n^{e['seconds']:.2f}; " + where.get(e["crossover"], f"the defaults are the quicker from {e['crossover']:,.0f} unknowns on") + ".")
-    return " ".join(sentences)
+    """Exponents of a power law of the unknowns n, and the size from which the defaults are quicker than another method"""
+    crossing = {None: "", 0.0: "on all meshes", math.inf: "on no mesh"}
+    columns = [("method", field("series")), ("time grows like n to the power", field("seconds")), ("AMG applications grow like n to the power", field("applications")), ("the defaults are quicker from [unknowns]", lambda e: crossing.get(e["crossover"]) or number(round(e["crossover"] or 0) or ""))]
+    return table(columns, [e for e in entries if math.isfinite(e["seconds"])]) if entries else ""
 
 
 def growth_rows(rows):
     columns = [("", field("series")), ("unknowns", field("unknowns")), ("time [s]", field("seconds")), ("time per unknown [ms]", lambda r: number(1e3 * r["seconds"] / r["unknowns"]) if r.get("unknowns") else ""), ("AMG applications", field("applications"))]
-    columns += [("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else ""), ("AMG set-up and apply", lambda r: percent(r["amg_share"]) if r.get("amg_share") is not None else ""), ("neither AMG nor filter", lambda r: percent(r["own_share"]) if r.get("own_share") is not None else ""), ("ended", field("status"))]
+    columns += [("memory per unknown [kB]", lambda r: number(r["memory_an_unknown"] / 1e3) if r.get("memory_an_unknown") else ""), ("time in AMG", lambda r: percent(r["amg_share"]) if r.get("amg_share") is not None else ""), ("time outside AMG and filter", lambda r: percent(r["own_share"]) if r.get("own_share") is not None else ""), ("status", field("status"))]
     return table(columns, select(rows, study="growth"))
 
 
-def roofline_words(entries):
-    if not entries:
-        return ""
-    last = max((e for e in entries if e["cycle"] == "fbf"), key=lambda e: e["unknowns"])
-    text = f"At {last['unknowns']:,.0f} unknowns a product with the condensed matrix moves {number(last['product_rate'] / 1e9)} GB/s, {percent(last['product_share'])} of the triad's {number(last['triad'] / 1e9)} GB/s in a working set of that size. "
-    text += f"A V-cycle, of operator complexity {last['operator_complexity']:.2f}, is counted as {number(last['cycle_rate'] / 1e9)} GB/s, {percent(last['cycle_share'])}; it costs as much as {number(last['cycle_products'])} products. "
-    return text + f"An application of AMGF (fbf) costs {number(last['application_products'])} products; V-cycle and filter solves, counted as documented, make {number(last['model_products'])}."
+ROOFLINE = """| column | meaning |
+| --- | --- |
+| triad | bandwidth of the triad a = b + c d in a working set of that size |
+| product | bandwidth of a product with the condensed matrix; share: of the triad |
+| V-cycle | bandwidth of a V-cycle, with its memory traffic counted from the operator complexity; share: of the triad |
+| V-cycle, filter solve, application [products] | time, in units of a product with the matrix; application: of the whole preconditioner |
+| documented count | application as the documentation counts it: V-cycles and filter solves |
+"""
 
 
 def roofline_rows(entries):
     rate = lambda key: lambda r: number(r[key] / 1e9)  # noqa: E731
     columns = [("unknowns", lambda r: f"{r['unknowns']:,.0f}"), ("cycle", field("cycle")), ("triad [GB/s]", rate("triad")), ("product [GB/s]", rate("product_rate")), ("share", lambda r: percent(r["product_share"])), ("V-cycle [GB/s]", rate("cycle_rate")), ("share", lambda r: percent(r["cycle_share"]))]
-    columns += [("operator complexity", field("operator_complexity")), ("V-cycle [products]", field("cycle_products")), ("filter solve [products]", field("filter_products")), ("application [products]", field("application_products")), ("as documented", field("model_products"))]
+    columns += [("operator complexity", field("operator_complexity")), ("V-cycle [products]", field("cycle_products")), ("filter solve [products]", field("filter_products")), ("application [products]", field("application_products")), ("documented count [products]", field("model_products"))]
     return table(columns, entries)
 
 
@@ -221,14 +203,20 @@ def head(results):
     versions = ", ".join(f"{name} {version}" for name, version in m["versions"].items())
     memory = f"{m['memory_bytes'] / 2**30:.0f} GiB" if m["memory_bytes"] else "unknown memory"
     command = {"full": "make bench-full", "quick": "make bench"}.get(results["size"], f"share/bench/run.py --size {results['size']}")
-    small = "" if results["size"] == "full" else "\nThese are the figures of a small run; `make bench-full` makes those of the problems at full size.\n"
+    small = "" if results["size"] == "full" else "\nThese pages are of small meshes. `make bench-full` makes those of the meshes at full size.\n"
     return f"""# One page per setting
 {small}
-`{command}` made this page on {results["date"]}: {m["processor"]}, {m["cores"]} cores, {memory}; {versions}; sources {results["version"]}.
-Runs are on one rank unless stated otherwise. Times are of the whole run, including mesh and assembly; runs below {results["short"]:g} s are
-repeated three times, and the shortest time is given. Errors are relative to Hertz's solution, or to values extrapolated from
-fine meshes (last section). Force and energy of Hertz's solution, for a half-space, differ from those of this ball by about 0.2 %.
-Data of all runs: `bench.csv`, `bench.json`.
+`{command}` made this page on {results["date"]} from commit {results["version"]}.
+
+| | |
+| --- | --- |
+| machine | {m["processor"]}, {m["cores"]} cores, {memory} |
+| libraries | {versions} |
+| ranks | one, unless stated otherwise |
+| times | of the whole run, including mesh and assembly; the shortest of three runs if it is below {results["short"]:g} s |
+| errors | relative to Hertz's solution, or to values extrapolated from fine meshes (last section) |
+| Hertz's ball | force and energy of Hertz's half-space differ from those of the ball by about 0.2 % |
+| data of all runs | `bench.csv`, `bench.json` |
 
     make bench             # at most an hour on two cores: the accuracy page, and these pages of small problems
     make bench-full        # these pages at full size, three hours; an interrupted bench continues where it stopped
@@ -238,7 +226,7 @@ Data of all runs: `bench.csv`, `bench.json`.
 
 
 def section(study, results, drawn):
-    rows, text = results["rows"], [f"# {study.title}\n", f"Made on {results['date']}, sources {results['version']}. Back to [the accuracy page](../README.md) and [all pages](README.md).\n"]
+    rows, text = results["rows"], [f"# {study.title}\n", f"Runs of {results['date']}, commit {results['version']}. Back to [the accuracy page](../README.md) and [all pages](README.md).\n"]
     if not select(rows, study=study.name):
         return ""
     if study.name in drawn:
@@ -246,11 +234,11 @@ def section(study, results, drawn):
     if study.kind == "knob":
         text += [knob_words(study, rows) + "\n", accuracy_table(rows) if study.name == "accuracy" else knob_table(study, rows)]
     elif study.kind == "baselines":
-        text += [baseline_words(study, rows) + "\n", baseline_table(study, rows)]
+        text += [BASELINES, baseline_table(study, rows)]
     elif study.kind == "growth":
         text += [growth_words(results["growth"]) + "\n", growth_rows(rows)]
     else:
-        text += [roofline_words(results["roofline"]) + "\n", roofline_rows(results["roofline"])]
+        text += [ROOFLINE, roofline_rows(results["roofline"])]
     return "\n".join(text)
 
 
@@ -265,9 +253,9 @@ def write(path, studies, results, drawn, skipped):
             parts[-1] += f"\n| [{study.name}]({study.name}.md) | {study.title} |"
     parts[-1] += "\n"
     if "pareto" in drawn:
-        parts.append("## All together\n\n![front](pareto.png)\n")
+        parts.append("## All studies\n\n![front](pareto.png)\n")
     parts += [text] if (text := default_section(studies, results["rows"])) else []
-    parts.append('## References\n\nExtrapolated from three meshes or more; `make bench-full BENCH="--only references"` computes them again.\n\n' + reference_table(results["references"]))
+    parts.append('## References\n\nExtrapolated from at least three meshes. `make bench-full BENCH="--only references"` computes them again.\n\n' + reference_table(results["references"]))
     parts += ["## Not run\n\n" + "".join(f"- {line}\n" for line in skipped)] if skipped else []
     with open(path, "w") as file:
         file.write("\n".join(parts))

@@ -117,7 +117,7 @@ def mesh_studies(size):
             continue
         lines = [Series(element, [(level, Case(problem, level, body=body, limit=1200)) for level in levels[: 3 if size == "full" else 2]]) for element, body in (("full", ()), ("bbar", (("element", "bbar"),)))]
         panels.append(Panel(problem, "", lines))
-    yield Study("element", "Element: full integration against mean dilatation (bbar)", "mesh", panels, costs=("time", "applications", "memory"))
+    yield Study("element", "Element: full integration and mean dilatation (bbar)", "mesh", panels, costs=("time", "applications", "memory"))
 
 
 # name: keys of every body, and options; a target in place of a mesh refines by itself
@@ -131,15 +131,15 @@ ELEMENT_MESHES = {
 
 
 def element_studies(size):
-    """Every element on the same meshes; one mesh refined everywhere, where the error is, or raised to order 2"""
+    """All elements on the same meshes; one mesh refined everywhere, where the error is, or raised to order 2"""
     panels = [Panel(p, "", [Series(name, [(level, Case(p, level, body=body)) for level in levels]) for name, body in ELEMENTS.items()]) for p, levels in ELEMENT_MESHES[size].items()]
-    yield Study("elements", "Every element", "mesh", panels, costs=("time", "memory"))
+    yield Study("elements", "All elements", "mesh", panels, costs=("time", "memory"))
     targets = ("1e-2", "3e-3", "1e-3") if size == "full" else ("1e-2",)
     panels = []
     for problem, levels in ELEMENT_MESHES[size].items():
         lines = [Series(name, [(target, Case(problem, levels[0], ("-accuracy", target, *options), work=8)) for target in targets]) for name, options in REFINED_BY.items()]
         panels.append(Panel(problem, levels[0], lines))
-    yield Study("refined", "Refinement: everywhere, where the error is, by order", "target", panels, costs=("time", "memory"), needs="-accuracy_order")
+    yield Study("refined", "Refinement: uniform, adaptive, elements of order 2", "target", panels, costs=("time", "memory"), needs="-accuracy_order")
 
 
 def algebraic_studies(size):
@@ -155,24 +155,24 @@ def path_studies(size):
     true = ("-contact_updates", "20" if size == "full" else "10", "-contact_gap_tol", "1", IP + "tol", "1e-9")
     yield Study("load_steps", "Load steps", "load steps", turn(size, ("two_block", "beam_sphere_linear"), values("-load_steps", "1", "2", "4", *(("8",) if size == "full" else ())), careful=true, work=1.5))
     three = ("hertz_sphere", "two_block", "beam_sphere_linear")
-    yield Study("gap_updates", "Updates of the gap in a load step", "linearizations", turn(size, few(size, three), [(n, ("-contact_updates", n, "-contact_gap_tol", "1")) for n in ("1", "2", "3", *(("5", "10") if size == "full" else ()))], careful=true, work=1.5))
+    yield Study("gap_updates", "Contact updates per load step", "contact updates", turn(size, few(size, three), [(n, ("-contact_updates", n, "-contact_gap_tol", "1")) for n in ("1", "2", "3", *(("5", "10") if size == "full" else ()))], careful=true, work=1.5))
 
 
 def formulation_studies(size):
     two = ("hertz_sphere", "two_block")
-    yield Study("gap", "Gap: mortar against node to segment", "gap", turn(size, two, values("-contact_gap", "mortar", "node")), costs=("time",))
+    yield Study("gap", "Contact gap: mortar and node to segment", "gap", turn(size, two, values("-contact_gap", "mortar", "node")), costs=("time",))
     degrees = values("-contact_quadrature", "1", "2", "4", "5", "8")
-    yield Study("mortar_quadrature", "Degree to which the mortar integrals are exact", "degree", turn(size, two, degrees, careful=(IP + "tol", "1e-11")), costs=("time",))
+    yield Study("mortar_quadrature", "Degree of exactness of the mortar integrals", "degree", turn(size, two, degrees, careful=(IP + "tol", "1e-11")), costs=("time",))
     yield Study("quadrature", "Gauss points per axis of a hexahedron", "points", turn(size, two, values("-elasticity_quadrature", "2", "3")), costs=("time",))
     materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"),))]
-    yield Study("material", "Material: linear against neo-Hookean", "material", turn(size, two, materials, work=4))
+    yield Study("material", "Material: linear and neo-Hookean", "material", turn(size, two, materials, work=4))
     rubbing = [("none", ()), ("0.3", (), (("friction", "0.3"),))]
-    yield Study("friction", "Friction: none against a coefficient of 0.3", "friction", turn(size, few(size, ("two_block", "beam_sphere_linear", "hertz_sphere")), rubbing, work=2), costs=("time", "applications"))
+    yield Study("friction", "Coefficient of friction: 0 and 0.3", "friction", turn(size, few(size, ("two_block", "beam_sphere_linear", "hertz_sphere")), rubbing, work=2), costs=("time", "applications"))
     models = values("-model", "quadratic", "energy")
     steps, updates = ("12", "3") if size == "full" else ("6", "2")
     true = ("-model", "energy", "-load_steps", steps, "-contact_updates", updates, "-contact_gap_tol", "1")
     panels = turn(size, ("beam_sphere_neo_hookean",), models, careful=true, work=4)
-    yield Study("model", "Load step at finite strain: quadratic model against true energy", "model", panels)
+    yield Study("model", "Load step at finite strain: quadratic model and true energy", "model", panels)
 
 
 def preconditioner_studies(size):
@@ -184,20 +184,20 @@ def preconditioner_studies(size):
         ("GAMG", (AMG + "pc_type", "gamg", *AIJ)),
         ("ML", (AMG + "pc_type", "ml", *AIJ)),
     ]
-    yield Study("amg", "AMG inside the filter", "AMG", turn(size, two if size == "full" else two[:1], amg, work=2, always=BY_AMG), costs=all_costs, default="tuned l1-GS")
+    yield Study("amg", "AMG of the preconditioner", "AMG", turn(size, two if size == "full" else two[:1], amg, work=2, always=BY_AMG), costs=all_costs, default="tuned l1-GS")
     thresholds = values(THRESHOLD, *(("0.25",) if size == "full" else ()), "0.5", "0.7", "0.9", also=(ELASTIC_THRESHOLD,))
     panels = turn(size, few(size, ("hertz_sphere", "two_block", "beam_sphere_linear")), thresholds, work=1.5, always=BY_AMG) + turn(size, ("two_block", "cantilever"), thresholds, work=1.5, meshes=REFINED, always=(*BY_AMG, "-elasticity_pc_amgf_factor", "false"))
     yield Study("threshold", "Strength threshold of BoomerAMG", "threshold", panels, costs=all_costs, default=BUILT_IN[THRESHOLD])
     yield Study("cycle", "Order of AMG and filter", "cycle", turn(size, two, values(IP + "pc_amgf_cycle", "fbf", "bfb", *(("additive",) if size == "full" else ())), work=1.5, always=INTERIOR), default=BUILT_IN[IP + "pc_amgf_cycle"])
-    yield Study("lag", "Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5, always=INTERIOR), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
+    yield Study("lag", "Number of Newton systems between set-ups of the AMG", "lag", turn(size, two, values(IP + "pc_amgf_amg_lag", "auto", "1", *(("2", "4") if size == "full" else ()), "-1"), work=1.5, always=INTERIOR), default=BUILT_IN[IP + "pc_amgf_amg_lag"])
 
 
 def subspace_studies(size):
     problems = few(size, ("two_block", "hertz_sphere", "beam_sphere_linear"))
     ways = [("chosen", ()), ("AMG", BY_AMG), ("MUMPS", (IP + "pc_amgf_factor", "true")), ("interior point", INTERIOR)]
-    yield Study("subspace", "Filtered subspace by AMG and by a factorization, against the interior point method", "method", turn(size, problems, ways, work=2), costs=("time", "applications", "memory"), default="chosen")
+    yield Study("subspace", "Filtered subspace method with AMG or MUMPS, and interior point method", "method", turn(size, problems, ways, work=2), costs=("time", "applications", "memory"), default="chosen")
     directions = values(IP + "subspace_max", "20", "40", "80", *(("160", "320") if size == "full" else ()))
-    yield Study("directions", "Directions that the filtered subspace method keeps", "directions", turn(size, problems, directions, work=1.5, always=BY_AMG), costs=("time", "applications", "memory"))
+    yield Study("directions", "Number of directions of the filtered subspace method", "directions", turn(size, problems, directions, work=1.5, always=BY_AMG), costs=("time", "applications", "memory"))
 
 
 def rank_study(size):
@@ -225,7 +225,7 @@ def accuracy_study(size):
         work = {target: 10 * (1e-2 / float(target)) ** 2 for target in targets}  # a mesh twice as fine has a quarter of the error and costs 16 times as much
         points = [(target, Case(problem, level, ("-accuracy", target, "-accuracy_max_dofs", most), limit=1200, work=work[target])) for target in targets]
         panels.append(Panel(problem, level, [Series("", points)]))
-    yield Study("accuracy", "One knob: -accuracy", "target", panels, needs="-accuracy")
+    yield Study("accuracy", "Accuracy as input: -accuracy", "target", panels, needs="-accuracy")
 
 
 # name: options and how many times the default's time they may take
@@ -263,7 +263,7 @@ def baseline_study(size):
     for problem, level, limits in meshes[size]:
         careful = Case(problem, level, (IP + "tol", "1e-11")) if "MUMPS Cholesky" in limits else None
         panels.append(Panel(problem, level, ways(problem, level, limits), careful))
-    yield Study("baselines", "Against other ways to the same answer", "mesh", panels, kind="baselines")
+    yield Study("baselines", "Comparison with other methods", "mesh", panels, kind="baselines")
 
 
 def growth_study(size):
