@@ -134,11 +134,15 @@ def limit_of(found):
 
 def page(results):
     yield "# Order 2 where contact ends at an edge\n"
-    yield "`share/bench/elements/sharp.py` creates this page. The element is `bbar`, and contact updates continue until the gap is consistent. Forces of plane"
-    yield "problems are those of a layer of thickness 0.2. The limit is extrapolated from the last three meshes. If there are only two, the error is assumed to"
-    yield "be proportional to the cell size.\n"
-    yield "For faces of order 2 that are plane before they deform, the gap is measured between facets. With smooth surfaces through their deformed nodes no"
-    yield "consistent gap was found, because these surfaces overshoot where the face bends sharply beside an edge of the other body.\n"
+    yield from ("`share/bench/elements/sharp.py` makes this page. The element is `bbar`. Contact updates continue",
+      "until the gap is consistent. Forces of plane problems are those of a layer of thickness 0.2. The",
+      "limit is extrapolated from the last three meshes. If there are only two, the error is assumed to be",
+      "proportional to the cell size.",
+      "",
+      "For faces of order 2 that are plane before they deform, the gap is measured between facets. Smooth",
+      "surfaces through their deformed nodes overshoot where the face bends sharply beside an edge of the",
+      "other body. No consistent gap was found with them.",
+      "")
     yield "| problem | order | refinement | unknowns | force | contact updates, last load step | user time [s] | exit code | limit of the force |"
     yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for (problem, order), found in results.items():
