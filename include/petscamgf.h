@@ -122,5 +122,6 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, PetscInt, PetscReal, Vec, Vec, PetscInt *,
   PetscBool *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetInterrupt(Tao, PetscErrorCode (*)(void *, PetscBool *), void *);
 
 #endif

@@ -15,6 +15,7 @@ import subprocess
 
 HOLES = 46.0  # radius of the circle of bolts
 SEAM = 36.0  # radius of the housing
+CLEARANCE = 0.01  # between housing and cover before the bolts are tightened; they then clamp shaft and gear
 
 
 class Deck:
@@ -138,7 +139,7 @@ def assemble(nbolts, size):
     sectors = range(0, 6, 6 // nbolts)
     holes = [(HOLES * math.cos(math.pi / 3 * k), HOLES * math.sin(math.pi / 3 * k)) for k in sectors]
     base = deck.plate("base", (14, 56), (0, 12), sectors, 4.5, 4)
-    deck.plate("housing", (SEAM, 56), (12, 52), sectors, 4.5, 7)
+    deck.plate("housing", (SEAM, 56), (12, 52 - CLEARANCE), sectors, 4.5, 7)
     deck.plate("cover", (14, 56), (52, 62), sectors, 4.5, 4)
     for k, (x, y) in enumerate(holes, 1):
         shank, core = deck.disc(x, y, 64, 4, n)

@@ -39,6 +39,15 @@ PetscErrorCode SimulationCatchSignals(void)
   PetscFunctionReturn(0);
 }
 
+/* Finds whether this rank has received a signal. Not collective. ctx: unused */
+PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop)
+{
+  PetscFunctionBegin;
+  (void)ctx;
+  *stop = caught ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 /* Collective. *stop: true on all ranks as soon as any rank has received a signal. */
 PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
 {

@@ -86,6 +86,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
+  PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
   if (sim->control->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->control->observer.optimizer, sim, NULL));
   PetscFunctionReturn(0);
 }

@@ -120,7 +120,7 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
 PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   const Bodies    bodies    = SimulationBodies(p->sim);
-  const PetscReal tolerance = PetscMax(1e-2 * PetscMax(p->sim->control->tolerances.optimizer, p->tolerance), 1e-10);
+  const PetscReal tolerance = PetscMax(1e-1 * PetscMax(p->sim->control->tolerances.optimizer, p->tolerance), 1e-9);
   PetscBool       changes   = PETSC_FALSE;
   const char     *failed;
   char            sentence[192];

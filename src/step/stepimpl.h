@@ -11,6 +11,7 @@
 
 /* interrupt.c: ends the run after a signal */
 PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
+PETSC_INTERN PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop);
 PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
 PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
 

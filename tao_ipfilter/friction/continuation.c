@@ -175,14 +175,28 @@ static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s
   PetscFunctionReturn(0);
 }
 
+/* Solves the convex problem from the begin. If that succeeds, later solves for the same rows begin with it. */
+static PetscErrorCode ContinuationConvex(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
+  PetscInt *steps, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+  PetscCall(IPTermConvexSolve(set, s, first, steps, solved));
+  *solved     = (PetscBool)(*solved && set->met);
+  set->convex = *solved;
+  PetscFunctionReturn(0);
+}
+
 /*
    Solves after Newton's method has failed: by Newton's method with computed compliances, by continuation, or by the
-   convex problem. begin: forces, motions and y at the start.
+   convex problem, which is the first choice for many rows. begin: forces, motions and y at the start.
 */
 static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
   PetscInt *steps, PetscBool *solved)
 {
   PetscFunctionBegin;
+  if (set->convex_next) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
+  if (*solved) PetscFunctionReturn(0);
   PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationPivot(set, s, begin, first, steps, solved));
   if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));
@@ -205,16 +219,21 @@ PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBoo
 {
   const PetscInt limit = 60, few = 400; /* largest number of rows for which compliances are computed before W is
                                            extended */
+  const PetscInt many = 400; /* number of rows above which dense matrices of all rows cost more than sparse systems of
+                                the convex problem */
   PetscReal      first, *begin;
 
   PetscFunctionBegin;
   *steps             = 0;
   set->system.spring = s->spring;
+  set->convex_next   = (PetscBool)(set->system.m > many);
   PetscCall(ContinuationStart(set, s));
   PetscCall(IPTermSetOff(set, s, &first));
   PetscCall(PetscMalloc1(2 * s->m + s->k, &begin));
   PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
-  PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  *solved = PETSC_FALSE;
+  if (set->convex) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
+  if (!*solved) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
   if (!*solved && simply && set->system.m <= few)
     PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   set->met = *solved;

@@ -7,6 +7,10 @@
      lambda = max(0, lambda' - rho v_n),  tau = P_b(tau' - rho v_t),
    where f' = (lambda', tau') are the multipliers of the last round. Newton's method with a line search finds its
    minimum from any start. The equations of sticking rows are linear.
+
+   A body that no constraint holds at present would move without limit. Springs between the coordinates y and their
+   values at the start of the round hold it (Rockafellar calls this the proximal method of multipliers). They exert no
+   force at the end, since y no longer changes from round to round. A body that nothing ever presses stays where it is.
 */
 #include "frictionimpl.h"
 
@@ -15,6 +19,7 @@ typedef struct {
   PetscReal *bound;      /* bounds b of all terms [force] */
   PetscReal *p;          /* forces p(v) of all rows [force] */
   PetscReal *f, *v, *y;  /* forces, motions and coefficients at the start of a Newton step */
+  PetscReal *centre;     /* coefficients at the start of the round */
   PetscReal  largest;    /* largest compliance of a row [length/force] */
 } TermConvex;
 
@@ -163,6 +168,15 @@ static PetscReal ConvexFarthest(const IPTermSet *set, const IPReducedSystem *s, 
   return largest > much * set->length ? much * set->length / largest : 1.0;
 }
 
+/* Computes the residual set->Fy of the directions' equations, with the forces that hold y at its centre */
+static PetscErrorCode ConvexResidualOfDirections(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex)
+{
+  PetscFunctionBegin;
+  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  for (PetscInt j = 0; j < s->k; j++) set->Fy[j] += set->system.hold * s->G[j] * (s->y[j] - convex->centre[j]);
+  PetscFunctionReturn(0);
+}
+
 /*
    Moves the state to the minimum of the augmented Lagrangian along the Newton step, at the fraction *alpha. *fell:
    minus the derivative at the start of the step.
@@ -176,7 +190,7 @@ static PetscErrorCode ConvexSearch(IPTermSet *set, const IPReducedSystem *s, con
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(2 * s->m, &trial));
-  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  PetscCall(ConvexResidualOfDirections(set, s, convex));
   for (PetscInt j = 0; j < s->k; j++) set->Fy[j] -= Fy[j];
   *fell  = -ConvexSlope(set, s, convex, Fy, set->Fy, 0.0, trial);
   end    = ConvexSlope(set, s, convex, Fy, set->Fy, high, trial);
@@ -212,7 +226,7 @@ static PetscErrorCode ConvexStep(IPTermSet *set, const IPReducedSystem *s, TermC
   ConvexForces(set, convex, s->gap, convex->p);
   for (PetscInt r = 0; r < s->m; r++) PetscCall(ConvexAssembleRow(set, s, convex, r));
   PetscCall(IPTermSystemAssemble(&set->system));
-  PetscCall(IPTermLawsResidualOfDirections(set, s));
+  PetscCall(ConvexResidualOfDirections(set, s, convex));
   PetscCall(PetscMalloc1(s->k, &Fy));
   PetscCall(PetscArraycpy(Fy, set->Fy, s->k));
   PetscCall(PetscArraycpy(convex->f, s->lambda, s->m));
@@ -238,40 +252,38 @@ static PetscErrorCode ConvexMinimize(IPTermSet *set, const IPReducedSystem *s, T
 {
   const PetscInt  limit = 40;
   const PetscReal rtol = 1e-6, rounding = 1e-6, exact = 1e-12;
-  PetscReal       fell = PETSC_INFINITY, least = PETSC_INFINITY, most = 0.0, alpha = 1.0;
+  PetscReal       fell = PETSC_INFINITY, most = 0.0, alpha = 1.0;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < limit; k++) {
     PetscCall(ConvexStep(set, s, convex, rtol, &fell, &alpha, solved));
     (*steps)++;
-    *solved = (PetscBool)(*solved && fell >= -rounding * least);
+    *solved = (PetscBool)(*solved && fell >= -PetscMax(energy, rounding * most));
     if (!*solved) PetscFunctionReturn(0);
-    least = PetscMin(least, PetscAbsReal(fell));
-    most  = PetscMax(most, fell);
+    most = PetscMax(most, fell);
     if (fell <= energy) break;
   }
   *solved = (PetscBool)(fell <= PetscMax(energy, exact * most));
-  ConvexForces(set, convex, s->gap, s->lambda);
-  PetscCall(IPTermLawsMove(set, s));
   PetscFunctionReturn(0);
 }
 
 /*
-   Sets the bounds b from the present forces. At the beginning, if there are no forces yet, all terms stick. late:
+   Sets the bounds b from the multipliers. At the beginning, if there are no forces yet, all terms stick. late:
    bounds of terms with a very large coefficient are not increased any more, since such a row might alternate between
    stick and open without end.
 */
-static void ConvexSetBounds(const IPTermSet *set, const IPReducedSystem *s, TermConvex *convex, PetscBool begin,
-  PetscBool late)
+static void ConvexSetBounds(const IPTermSet *set, TermConvex *convex, PetscBool begin, PetscBool late)
 {
   const PetscReal large = 100.0;
   PetscBool       known = PETSC_FALSE;
 
-  for (PetscInt i = 0; i < set->m; i++) known = (PetscBool)(known || s->lambda[i] > 0.0);
+  for (PetscInt i = 0; i < set->m; i++) known = (PetscBool)(known || convex->multiplier[i] > 0.0);
   for (PetscInt i = 0; i < set->n; i++) {
-    const PetscReal bound = known || !begin || set->coefficient[i] < 0.0 ? IPTermLawsBound(set, s, i)
-                            : set->coefficient[i] == 0.0                 ? 0.0
-                                                                         : set->limit[i];
+    const PetscReal force = set->coefficient[i] < 0.0 ? 0.0 : convex->multiplier[i];
+    const PetscReal bound = known || !begin || set->coefficient[i] < 0.0
+                              ? IPTermBound(set->limit[i], set->coefficient[i], force)
+                            : set->coefficient[i] == 0.0 ? 0.0
+                                                         : set->limit[i];
 
     convex->bound[i] = late && set->coefficient[i] >= large ? PetscMin(bound, convex->bound[i]) : bound;
   }
@@ -287,12 +299,10 @@ static PetscErrorCode ConvexOff(IPTermSet *set, const IPReducedSystem *s, PetscR
 }
 
 /* Marks constraints with positive force as closed, and updates the list of active rows */
-static PetscErrorCode ConvexMarkClosed(IPTermSet *set, const IPReducedSystem *s)
+static void ConvexMarkClosed(IPTermSet *set, const IPReducedSystem *s)
 {
-  PetscFunctionBegin;
   for (PetscInt i = 0; i < set->m; i++) set->closed[i] = (PetscBool)(s->lambda[i] > 0.0);
-  PetscCall(IPTermLawsRenew(set, s));
-  PetscFunctionReturn(0);
+  IPTermLawsList(set, s);
 }
 
 /*
@@ -305,6 +315,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
 {
   const PetscInt  rounds = 20;
   const PetscReal enough = 1e-3, fine = 1e-2, fair = 0.5;
+  const PetscReal hold   = 1e-6; /* relative to the stiffness of the bodies; rounding errors limit smaller values */
   const PetscReal wanted = PetscSqr(enough * first);
   PetscReal       off = PETSC_INFINITY, least = PETSC_INFINITY;
   PetscBool       late = PETSC_FALSE, end = PETSC_FALSE;
@@ -312,23 +323,29 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(s->m, &convex.multiplier, set->n, &convex.bound, s->m, &convex.p));
-  PetscCall(PetscMalloc3(s->m, &convex.f, s->m, &convex.v, s->k, &convex.y));
+  PetscCall(PetscMalloc4(s->m, &convex.f, s->m, &convex.v, s->k, &convex.y, s->k, &convex.centre));
   for (PetscInt r = 0; r < s->m; r++) convex.largest = PetscMax(convex.largest, set->system.compliance[r]);
   for (PetscInt i = 0; i < set->m; i++) s->lambda[i] = PetscMax(s->lambda[i], 0.0);
   PetscCall(IPTermLawsMove(set, s));
-  *solved = PETSC_TRUE;
+  *solved           = PETSC_TRUE;
+  set->system.dense = (PetscBool)(set->system.dense || set->convex_next);
+  set->system.hold  = hold;
   for (PetscInt k = 0; k < rounds && *solved && !end; k++) {
-    ConvexSetBounds(set, s, &convex, (PetscBool)!k, late);
-    PetscCall(PetscArraycpy(convex.multiplier, s->lambda, s->m));
+    if (k) ConvexForces(set, &convex, s->gap, convex.p);
+    PetscCall(PetscArraycpy(convex.multiplier, k ? convex.p : s->lambda, s->m));
+    ConvexSetBounds(set, &convex, (PetscBool)!k, late);
+    PetscCall(PetscArraycpy(convex.centre, s->y, s->k));
     PetscCall(ConvexMinimize(set, s, &convex, fine * PetscMax(wanted, k ? off : 0.0), steps, solved));
-    PetscCall(ConvexMarkClosed(set, s));
+    ConvexMarkClosed(set, s);
     PetscCall(ConvexOff(set, s, &off));
+    if (off <= wanted) *solved = PETSC_TRUE;
     end   = (PetscBool)(off <= wanted || (late && off > fair * least));
     late  = (PetscBool)(late || (k > 1 && off > fair * least));
     least = PetscMin(least, off);
   }
-  set->met = (PetscBool)(off <= wanted);
+  set->met         = (PetscBool)(off <= wanted);
+  set->system.hold = 0.0;
   PetscCall(PetscFree3(convex.multiplier, convex.bound, convex.p));
-  PetscCall(PetscFree3(convex.f, convex.v, convex.y));
+  PetscCall(PetscFree4(convex.f, convex.v, convex.y, convex.centre));
   PetscFunctionReturn(0);
 }

@@ -78,52 +78,6 @@ static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const Pe
 }
 
 /*
-   Finds the n rows whose equation contains more than their own force. The equation of any other row is b_f x = r_f,
-   which gives its force x. x is zero in the n rows.
-*/
-static PetscErrorCode TermDenseFindCoupled(const IPTermSystem *t, const PetscReal rf[], PetscInt *n, PetscInt rows[],
-  PetscReal x[])
-{
-  PetscFunctionBegin;
-  *n = 0;
-  for (PetscInt i = 0; i < t->m; i++) {
-    const PetscInt    *columns;
-    const PetscScalar *values;
-    PetscInt           nc;
-    PetscReal          own = 0.0, others = 0.0;
-
-    PetscCall(MatGetRow(t->Bv, i, &nc, NULL, &values));
-    for (PetscInt c = 0; c < nc; c++) others += PetscAbsScalar(values[c]);
-    PetscCall(MatRestoreRow(t->Bv, i, &nc, NULL, &values));
-    PetscCall(MatGetRow(t->Bf, i, &nc, &columns, &values));
-    for (PetscInt c = 0; c < nc; c++) {
-      if (columns[c] == i) own = PetscRealPart(values[c]);
-      else others += PetscAbsScalar(values[c]);
-    }
-    PetscCall(MatRestoreRow(t->Bf, i, &nc, &columns, &values));
-    x[i] = 0.0;
-    if (others > 0.0) rows[(*n)++] = i;
-    else x[i] = rf[i] / own;
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Computes a = scale B_v a for an array a with an entry per row */
-static PetscErrorCode TermDenseMultiply(IPTermSystem *t, PetscReal a[])
-{
-  PetscScalar *z;
-
-  PetscFunctionBegin;
-  PetscCall(VecPlaceArray(t->r, a));
-  PetscCall(MatMult(t->Bv, t->r, t->z));
-  PetscCall(VecResetArray(t->r));
-  PetscCall(VecGetArray(t->z, &z));
-  for (PetscInt i = 0; i < t->m; i++) a[i] = t->scale[i] * PetscRealPart(z[i]);
-  PetscCall(VecRestoreArray(t->z, &z));
-  PetscFunctionReturn(0);
-}
-
-/*
    Assembles row i of the scaled dense matrix N. N has n rows of the system, followed by the directions, and columns of
    length n + k. place: position of each of the system's rows among the n, or negative.
 */
@@ -173,33 +127,9 @@ static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *
     for (PetscInt j = 0; j < ld; j++)
       N[n + i + (size_t)j * (size_t)ld] =
         j < n ? t->scale[rows[j]] * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
+    N[n + i + (size_t)(n + i) * (size_t)ld] += t->hold * s->G[i];
   }
   PetscCall(PetscFree(place));
-  PetscFunctionReturn(0);
-}
-
-/* Subtracts the contribution of the known forces x from r_f and r_y */
-static PetscErrorCode TermDenseSubtract(IPTermSystem *t, const IPReducedSystem *s, const PetscReal x[], PetscReal rf[],
-  PetscReal ry[])
-{
-  PetscBool any = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < t->m; i++) any = (PetscBool)(any || x[i] != 0.0);
-  if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscArraycpy(t->f, x, t->m));
-  PetscCall(IPTermSystemApplyCompliance(t, t->f, t->v));
-  PetscCall(TermDenseMultiply(t, t->v));
-  for (PetscInt i = 0; i < t->m; i++) {
-    rf[i] -= t->v[i] / t->scale[i];
-    for (PetscInt j = 0; j < s->k; j++) ry[j] -= s->JZ[i + (size_t)j * (size_t)t->m] * x[i];
-  }
-  PetscCall(VecPlaceArray(t->r, x));
-  PetscCall(VecPlaceArray(t->z, t->v));
-  PetscCall(MatMult(t->Bf, t->r, t->z));
-  PetscCall(VecResetArray(t->z));
-  PetscCall(VecResetArray(t->r));
-  for (PetscInt i = 0; i < t->m; i++) rf[i] -= t->v[i];
   PetscFunctionReturn(0);
 }
 
@@ -214,13 +144,13 @@ PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, Petsc
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
   PetscCall(PetscMalloc2(t->m, &rows, t->m, &known));
-  PetscCall(TermDenseFindCoupled(t, rf, &n, rows, known));
+  PetscCall(IPTermSystemFindCoupled(t, rf, &n, rows, known));
   if (n + s->k > most) {
     PetscCall(PetscFree2(rows, known));
     PetscFunctionReturn(0);
   }
   PetscCall(TermDenseMakeColumns(t, n, rows));
-  PetscCall(TermDenseSubtract(t, s, known, rf, ry));
+  PetscCall(IPTermSystemSubtract(t, s, known, rf, ry));
   PetscCall(PetscBLASIntCast(n + s->k, &nb));
   PetscCall(PetscMalloc3((size_t)nb * (size_t)nb, &N, nb, &x, nb, &pivots));
   PetscCall(TermDenseAssemble(t, s, n, rows, N));
@@ -238,6 +168,15 @@ PetscErrorCode IPTermDenseSolve(IPTermSystem *t, const IPReducedSystem *s, Petsc
   PetscCall(PetscFree3(N, x, pivots));
   PetscCall(PetscFree2(rows, known));
   PetscFunctionReturn(0);
+}
+
+/* Returns whether all columns of C are computed */
+PetscBool IPTermDenseIsComplete(const IPTermSystem *t)
+{
+  if (!t->C) return PETSC_FALSE;
+  for (PetscInt i = 0; i < t->m; i++)
+    if (!t->computed[i]) return PETSC_FALSE;
+  return PETSC_TRUE;
 }
 
 /*

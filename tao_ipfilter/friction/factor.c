@@ -140,7 +140,7 @@ static PetscErrorCode TermFactorDirections(IPTermSystem *t, const IPReducedSyste
   if (!s->k) PetscFunctionReturn(0);
   for (PetscInt j = 0; j < s->k; j++) {
     for (PetscInt i = 0; i < s->k; i++) t->H[i + j * s->k] = s->T[i + j * s->kmax] + t->ZV[i + j * s->kmax];
-    t->H[j + j * s->k] += shift * s->G[j];
+    t->H[j + j * s->k] += (shift + t->hold) * s->G[j];
   }
   PetscCall(PetscBLASIntCast(s->k, &k));
   PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&k, &k, t->H, &k, t->pivots, &info));

@@ -29,7 +29,8 @@ typedef struct {
   Vec              r, z, w, Kw; /* work vectors: r, z with an entry per row; w, Kw with an entry per unknown of W */
   PetscInt         fresh;       /* number of GMRES iterations when the factors were new */
   PetscBool        stale;       /* the factors must be computed again */
-  PetscBool        dense;       /* GMRES has failed, so that dense.c solves systems of all sizes */
+  PetscBool        dense;       /* GMRES has failed, so that factors solve systems of all sizes */
+  PetscReal        hold;        /* stiffness added to the diagonal of T, relative to G; see convex.c */
   PetscReal       *C;           /* columns of C, of length m; NULL: none is computed */
   PetscBool       *computed;    /* which columns of C are computed */
 } IPTermSystem;
@@ -49,6 +50,8 @@ typedef struct {
   PetscBool   *active, listed; /* active: rows that may carry a force; listed: whether `active` is up to date */
   PetscInt     na;             /* number of active rows */
   PetscInt     nreleased;      /* number of terms released so far, see stick.c */
+  PetscBool    convex_next;    /* Newton's method ends if the residual becomes large; the convex problem follows */
+  PetscBool    convex;         /* the convex problem was solved after Newton's method had failed */
   PetscBool    met;            /* whether the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
@@ -59,21 +62,22 @@ typedef struct {
 
 /* The tableau of tableau.c */
 typedef struct {
-  PetscInt   m, n, rows;      /* number of constraints; number of terms; number of rows, m + 2 n */
-  PetscReal *A, *q;           /* basic variables = A (nonbasic variables) + q; A has rows + 1 columns */
-  PetscInt  *basic, *others;  /* the basic variable of each row; the nonbasic variable of each column */
-  PetscInt  *place;           /* of each variable: its row, or -1 - its column */
-  PetscReal *scale;           /* per row: the force is scale times the variable, the motion the variable over scale */
-  PetscReal *axis;            /* two entries per term: the first axis of its frame */
-  PetscReal *mu, *limit;      /* per term: b = mu lambda + limit */
-  PetscReal *sign;            /* two entries per term: s */
-  PetscBool *sticks;          /* two entries per term: whether the component sticks */
-  PetscBool *closed;          /* whether each constraint is closed */
-  PetscBool *dropped;         /* whether a row never carries a force */
-  PetscReal  length;          /* size of the motions, for tolerances [length] */
-  PetscInt   driving;         /* the nonbasic variable that moves; -1: none does */
-  PetscReal  direction, last; /* its direction, 1 or -1; its value at the end of the path */
-  PetscInt64 seed;            /* of the numbers that separate rows */
+  PetscInt               m, n, rows;     /* number of constraints; number of terms; number of rows, m + 2 n */
+  PetscReal             *A, *q;          /* basic variables = A (nonbasic variables) + q; A has rows + 1 columns */
+  PetscInt              *basic, *others; /* the basic variable of each row; the nonbasic variable of each column */
+  PetscInt              *place;          /* of each variable: its row, or -1 - its column */
+  PetscReal             *scale; /* per row: the force is scale times the variable, the motion the variable over scale */
+  PetscReal             *axis;  /* two entries per term: the first axis of its frame */
+  PetscReal             *mu, *limit;      /* per term: b = mu lambda + limit */
+  PetscReal             *sign;            /* two entries per term: s */
+  PetscBool             *sticks;          /* two entries per term: whether the component sticks */
+  PetscBool             *closed;          /* whether each constraint is closed */
+  PetscBool             *dropped;         /* whether a row never carries a force */
+  PetscReal              length;          /* size of the motions, for tolerances [length] */
+  PetscInt               driving;         /* the nonbasic variable that moves; -1: none does */
+  PetscReal              direction, last; /* its direction, 1 or -1; its value at the end of the path */
+  PetscInt64             seed;            /* of the numbers that separate rows */
+  const IPReducedSystem *s;               /* the reduced problem */
 } IPTableau;
 
 static inline PetscReal *IPTableauColumn(const IPTableau *p, PetscInt column)
@@ -96,6 +100,11 @@ PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, Pet
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
 PETSC_INTERN PetscErrorCode IPTermSystemAssemble(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *, const PetscReal f[], PetscReal v[]);
+PETSC_INTERN PetscErrorCode IPTermSystemFindCoupled(const IPTermSystem *, const PetscReal rf[], PetscInt *n,
+  PetscInt rows[], PetscReal x[]);
+PETSC_INTERN PetscErrorCode IPTermSystemMultiplyMotions(IPTermSystem *, PetscReal a[]);
+PETSC_INTERN PetscErrorCode IPTermSystemSubtract(IPTermSystem *, const IPReducedSystem *, const PetscReal x[],
+  PetscReal rf[], PetscReal ry[]);
 
 /* factor.c */
 PETSC_INTERN PetscErrorCode IPTermFactorPrepare(IPTermSystem *, const IPReducedSystem *, PetscBool *ready);
@@ -103,9 +112,14 @@ PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[
 
 /* dense.c */
 PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);
+PETSC_INTERN PetscBool      IPTermDenseIsComplete(const IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermDenseMeasure(IPTermSystem *, PetscBool held, PetscBool *measured);
 PETSC_INTERN PetscErrorCode IPTermDenseSolve(IPTermSystem *, const IPReducedSystem *, PetscInt most, PetscReal rf[],
   PetscReal ry[], PetscBool *solved);
+
+/* sparse.c */
+PETSC_INTERN PetscErrorCode IPTermSparseSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved);
 
 /* solve.c */
 PETSC_INTERN PetscErrorCode IPTermSolve(IPTermSystem *, const IPReducedSystem *, PetscReal rtol, PetscReal rf[],

@@ -230,14 +230,18 @@ static PetscBool PivotEnds(const IPTableau *p, PivotLimit *limit)
 /* Follows the path from its begin. *reached: whether the parameter reaches 1. */
 static PetscErrorCode PivotFollow(IPTableau *p, PetscInt *steps, PetscBool *reached)
 {
-  const PetscInt most = 4 * p->rows + 100;
-  PivotLimit     limit;
+  const PetscInt most  = 4 * p->rows + 100;
+  PivotLimit     limit = {.row = -1};
 
   PetscFunctionBegin;
   *reached     = PETSC_FALSE;
   p->driving   = 2 * p->rows;
   p->direction = 1.0;
   for (PetscInt k = 0; k < most; k++) {
+    PetscBool stop;
+
+    PetscCall(IPReducedInterrupted(p->s, &stop));
+    if (stop) break;
     PivotFindLimit(p, &limit);
     *reached = PivotEnds(p, &limit);
     if (*reached || limit.row == -1 || (limit.row >= 0 && p->basic[limit.row] == 2 * p->rows)) break;
@@ -277,7 +281,7 @@ PetscErrorCode IPTermPivotFollow(IPTermSet *set, const IPReducedSystem *s, Petsc
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  if (!set->system.C || s->spring || PivotIsEndless(set)) PetscFunctionReturn(0);
+  if (!IPTermDenseIsComplete(&set->system) || s->spring || PivotIsEndless(set)) PetscFunctionReturn(0);
   PetscCall(IPTableauCreate(set, &p));
   for (PetscInt i = 0; i < set->m && open; i++) set->closed[i] = PETSC_FALSE;
   IPTableauChoose(set, s, &p);

@@ -361,7 +361,7 @@ static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, Pe
   TermSetState *state, PetscInt *steps, PetscBool *solved)
 {
   const PetscInt  patience = 15;
-  const PetscReal enough = 1e-3, coarse = 1e-1, fine = 1e-10;
+  const PetscReal enough = 1e-3, coarse = 1e-1, fine = 1e-10, far = 1e4;
   PetscReal       before = PETSC_INFINITY, halved = PETSC_INFINITY;
   PetscInt        futile = 0;
   TermSetCount    count  = {.fewest = set->m + 1};
@@ -377,7 +377,7 @@ static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, Pe
       state->off = off;
       PetscCall(TermSetCopy(set, s, state, PETSC_FALSE));
     }
-    if (*solved || k == limit) PetscFunctionReturn(0);
+    if (*solved || k == limit || (off > far * first && set->convex_next)) PetscFunctionReturn(0);
     PetscCall(TermSetExchange(set, s, &count, &changed));
     largest = TermSetResidual(set, s);
     *solved = (PetscBool)(k > 0 && off <= 0.1 * first && TermSetIsExact(set, largest, before));

@@ -1,5 +1,6 @@
 /* Solves the systems of system.c by GMRES without forming C, or by dense factors if GMRES fails */
 #include "frictionimpl.h"
+#include "pc_amgf/mumps.h"
 #include <petscblaslapack.h>
 
 /* Context of the shell matrix and of the shell preconditioner */
@@ -46,6 +47,7 @@ static PetscErrorCode TermSolveMult(Mat shell, Vec in, Vec out)
   PetscCall(TermSolveCouple(solve->s, -1.0, x + t->m, t->v, NULL, NULL));
   if (k)
     PetscCallBLAS("BLASgemv", BLASgemv_("N", &k, &k, &one, solve->s->T, &kmax, x + t->m, &inc, &zero, b + t->m, &inc));
+  for (PetscInt j = 0; j < solve->s->k; j++) b[t->m + j] += t->hold * solve->s->G[j] * x[t->m + j];
   PetscCall(TermSolveCouple(solve->s, 1.0, NULL, NULL, t->f, b + t->m));
   PetscCall(VecPlaceArray(t->r, t->v));
   PetscCall(VecPlaceArray(t->z, b));
@@ -185,24 +187,43 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
 }
 
 /*
+   Solves by factors if GMRES fails: by dense ones if there are few rows, otherwise by sparse ones, or by dense ones if
+   MUMPS is not available
+*/
+static PetscErrorCode TermSolveByFactors(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved)
+{
+  const PetscInt few = 500;
+
+  PetscFunctionBegin;
+  PetscCall(IPTermDenseSolve(t, s, few, rf, ry, solved));
+  if (!*solved) PetscCall(IPTermSparseSolve(t, s, rf, ry, solved));
+  if (!*solved && IPTermDenseFits(t)) PetscCall(IPTermDenseSolve(t, s, PETSC_MAX_INT, rf, ry, solved));
+  PetscFunctionReturn(0);
+}
+
+/*
    Overwrites r_f and r_y with the solution, to the relative residual rtol. Small systems are solved by dense factors;
-   large ones only if GMRES has failed. If dense factors do not fit into memory, the result of GMRES is returned.
-   *solved: false if there is no solution.
+   large ones by factors only if GMRES has failed. If no factors fit into memory, the result of GMRES is returned.
+   *solved: false if there is no solution, or if the user wants to end the solve.
 */
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {
-  const PetscInt  small = t->spring ? 1000 : 200; /* springs: W is large, and GMRES converges slowly */
-  const PetscBool fits  = IPTermDenseFits(t);
-  TermSolveShell  solve = {.system = t, .s = s};
+  const PetscInt small = t->spring ? 1000 : 200; /* springs: W is large, and GMRES converges slowly */
+  TermSolveShell solve = {.system = t, .s = s};
+  PetscBool      fits, stop;
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  if (fits) PetscCall(IPTermDenseSolve(t, s, t->dense ? PETSC_MAX_INT : small, rf, ry, solved));
-  if (*solved || t->dense) PetscFunctionReturn(0);
-  PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!fits, solved));
+  PetscCall(IPReducedInterrupted(s, &stop));
+  if (stop) PetscFunctionReturn(0);
+  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_LU, &fits));
+  fits = (PetscBool)(fits || IPTermDenseFits(t));
+  PetscCall(IPTermDenseSolve(t, s, small, rf, ry, solved));
+  if (!*solved && !t->dense) PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!fits, solved));
   if (*solved || !fits) PetscFunctionReturn(0);
-  PetscCall(IPTermDenseSolve(t, s, PETSC_MAX_INT, rf, ry, solved));
+  PetscCall(TermSolveByFactors(t, s, rf, ry, solved));
   t->dense = *solved;
   PetscFunctionReturn(0);
 }

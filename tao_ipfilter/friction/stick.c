@@ -77,7 +77,10 @@ static PetscErrorCode StickClose(IPTableau *p, PetscBool follow, PetscBool ever[
   PetscFunctionBegin;
   for (PetscInt k = 0; k < most && worst > 0.0; k++) {
     PetscReal largest = 0.0;
+    PetscBool stop;
 
+    PetscCall(IPReducedInterrupted(p->s, &stop));
+    if (stop) break;
     worst = 0.0;
     for (PetscInt i = 0; i < p->m; i++)
       if (p->closed[i]) largest = PetscMax(largest, PetscAbsReal(p->q[p->place[i]]));
@@ -131,7 +134,7 @@ static PetscErrorCode StickRelease(IPTableau *p, PetscBool ever[], PetscReal wor
 /* Returns whether all terms stick where their constraints are closed, or are free, and C is computed */
 PetscBool IPTermStickApplies(const IPTermSet *set, const IPReducedSystem *s)
 {
-  if (!set->system.C || s->spring) return PETSC_FALSE;
+  if (!IPTermDenseIsComplete(&set->system) || s->spring) return PETSC_FALSE;
   for (PetscInt i = 0; i < set->n; i++) {
     if (i >= set->m || set->coefficient[i] < 0.0 || set->limit[i] < PETSC_INFINITY) return PETSC_FALSE;
     if (set->coefficient[i] > 0.0 && set->coefficient[i] < IP_TERM_STICKS) return PETSC_FALSE;

@@ -189,3 +189,74 @@ PetscErrorCode IPTermSystemApplyCompliance(IPTermSystem *t, const PetscReal f[],
   PetscCall(VecResetArray(t->z));
   PetscFunctionReturn(0);
 }
+
+/*
+   Finds the n rows whose equation contains more than their own force. The equation of any other row is b_f x = r_f,
+   which gives its force x. x is zero in the n rows.
+*/
+PetscErrorCode IPTermSystemFindCoupled(const IPTermSystem *t, const PetscReal rf[], PetscInt *n, PetscInt rows[],
+  PetscReal x[])
+{
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt i = 0; i < t->m; i++) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           nc;
+    PetscReal          own = 0.0, others = 0.0;
+
+    PetscCall(MatGetRow(t->Bv, i, &nc, NULL, &values));
+    for (PetscInt c = 0; c < nc; c++) others += PetscAbsScalar(values[c]);
+    PetscCall(MatRestoreRow(t->Bv, i, &nc, NULL, &values));
+    PetscCall(MatGetRow(t->Bf, i, &nc, &columns, &values));
+    for (PetscInt c = 0; c < nc; c++) {
+      if (columns[c] == i) own = PetscRealPart(values[c]);
+      else others += PetscAbsScalar(values[c]);
+    }
+    PetscCall(MatRestoreRow(t->Bf, i, &nc, &columns, &values));
+    x[i] = 0.0;
+    if (others > 0.0) rows[(*n)++] = i;
+    else x[i] = rf[i] / own;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Computes a = scale B_v a for an array a with an entry per row */
+PetscErrorCode IPTermSystemMultiplyMotions(IPTermSystem *t, PetscReal a[])
+{
+  PetscScalar *z;
+
+  PetscFunctionBegin;
+  PetscCall(VecPlaceArray(t->r, a));
+  PetscCall(MatMult(t->Bv, t->r, t->z));
+  PetscCall(VecResetArray(t->r));
+  PetscCall(VecGetArray(t->z, &z));
+  for (PetscInt i = 0; i < t->m; i++) a[i] = t->scale[i] * PetscRealPart(z[i]);
+  PetscCall(VecRestoreArray(t->z, &z));
+  PetscFunctionReturn(0);
+}
+
+/* Subtracts the contribution of the known forces x from r_f and r_y */
+PetscErrorCode IPTermSystemSubtract(IPTermSystem *t, const IPReducedSystem *s, const PetscReal x[], PetscReal rf[],
+  PetscReal ry[])
+{
+  PetscBool any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < t->m; i++) any = (PetscBool)(any || x[i] != 0.0);
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(t->f, x, t->m));
+  PetscCall(IPTermSystemApplyCompliance(t, t->f, t->v));
+  PetscCall(IPTermSystemMultiplyMotions(t, t->v));
+  for (PetscInt i = 0; i < t->m; i++) {
+    rf[i] -= t->v[i] / t->scale[i];
+    for (PetscInt j = 0; j < s->k; j++) ry[j] -= s->JZ[i + (size_t)j * (size_t)t->m] * x[i];
+  }
+  PetscCall(VecPlaceArray(t->r, x));
+  PetscCall(VecPlaceArray(t->z, t->v));
+  PetscCall(MatMult(t->Bf, t->r, t->z));
+  PetscCall(VecResetArray(t->z));
+  PetscCall(VecResetArray(t->r));
+  for (PetscInt i = 0; i < t->m; i++) rf[i] -= t->v[i];
+  PetscFunctionReturn(0);
+}

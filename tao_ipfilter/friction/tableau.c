@@ -192,6 +192,7 @@ static void TableauScale(const IPTermSet *set, IPTableau *p)
 PetscErrorCode IPTableauSetUp(const IPTermSet *set, const IPReducedSystem *s, IPTableau *p, PetscBool *made)
 {
   PetscFunctionBegin;
+  p->s = s;
   PetscCall(TableauMakeCompliance(set, s, p, made));
   if (!*made) PetscFunctionReturn(0);
   for (PetscInt j = 0; j < p->rows; j++) TableauRotate(p, IPTableauColumn(p, j), 1, PETSC_FALSE);

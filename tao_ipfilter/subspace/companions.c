@@ -57,7 +57,7 @@ PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *compliance, PetscBool 
 */
 static PetscErrorCode CompanionsPivots(Mat K, Vec scale, PetscReal raise, Vec pivots)
 {
-  const PetscReal nothing = 1e-8;
+  const PetscReal nothing = 1e-6;
   MatFactorInfo   info;
   IS              rows, columns;
   Mat             S, F;

@@ -369,7 +369,9 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(ISDestroy(&places));
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedFactor(r, definite));
-  s->kmax = r->companions.n + basis->max;
+  s->kmax        = r->companions.n + basis->max;
+  s->ncompanions = r->companions.n;
+  s->companion   = r->companions.row;
   PetscCall(PetscMalloc3(s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
   PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Z, r->n, &r->g, r->n, &r->x, r->n, &r->z));
   r->K_id = ((PetscObject)K)->id;

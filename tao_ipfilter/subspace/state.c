@@ -401,6 +401,17 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetInterrupt_IPFilter(Tao tao, PetscErrorCode (*interrupt)(void *, PetscBool *),
+  void                                                    *ctx)
+{
+  IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
+
+  PetscFunctionBegin;
+  given->interrupt     = interrupt;
+  given->interrupt_ctx = ctx;
+  PetscFunctionReturn(0);
+}
+
 /* Composes the implementations with the Tao, or removes them if `attach` is false */
 PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
 {
@@ -411,6 +422,8 @@ PetscErrorCode IPSubspaceStateCompose(Tao tao, PetscBool attach)
   PetscCall(PetscObjectComposeFunction(o, "TaoIPFilterSetSubspace_C", attach ? TaoIPFilterSetSubspace_IPFilter : NULL));
   PetscCall(
     PetscObjectComposeFunction(o, "TaoIPFilterSetSolvesToCome_C", attach ? TaoIPFilterSetSolvesToCome_IPFilter : NULL));
+  PetscCall(
+    PetscObjectComposeFunction(o, "TaoIPFilterSetInterrupt_C", attach ? TaoIPFilterSetInterrupt_IPFilter : NULL));
   PetscFunctionReturn(0);
 }
 
@@ -607,5 +620,37 @@ PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscI
     if (extended) PetscCall(IPReducedSolveActive(&kept->reduced, &kept->basis, f, c, x, lambda, solved));
   }
   PetscCall(VecDestroy(&left));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+  TaoIPFilterSetInterrupt - Sets a function that tells whether the user wants to end the solve
+
+  Logically Collective
+
+  Input Parameters:
++ tao       - the `TAOIPFILTER`
+. interrupt - the function; `NULL`: none
+- ctx       - its context
+
+  Calling sequence of interrupt:
++ ctx  - the context
+- stop - set to `PETSC_TRUE` if the solve should end
+
+  Level: advanced
+
+  Notes:
+  The function is called on the first rank only, between the linear systems of a reduced problem with norm terms, which
+  can be many in a single iteration. It must not communicate. If *stop is true, the reduced problem ends without a
+  solution. A test set by `TaoSetConvergenceTest()`, or a monitor, must then end the solve.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`
+@*/
+PetscErrorCode TaoIPFilterSetInterrupt(Tao tao, PetscErrorCode (*interrupt)(void *ctx, PetscBool *stop), void *ctx)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscTryMethod(tao, "TaoIPFilterSetInterrupt_C", (Tao, PetscErrorCode(*)(void *, PetscBool *), void *),
+    (tao, interrupt, ctx));
   PetscFunctionReturn(0);
 }

@@ -95,7 +95,7 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
 */
 static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
 {
-  const PetscInt   most = 10000;
+  const PetscInt   most = 60000;
   IPSubspaceState *kept;
   PetscInt         n;
 
@@ -115,6 +115,8 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
+  f->reduced->system.interrupt     = ip->given->interrupt;
+  f->reduced->system.interrupt_ctx = ip->given->interrupt_ctx;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms->n ? ip->terms->force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));

@@ -51,16 +51,19 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
    two rows per norm term.
 */
 typedef struct {
-  PetscInt   m, k, kmax;       /* number of rows; number of coordinates y (companions and directions); largest number
+  PetscInt   m, k, kmax;     /* number of rows; number of coordinates y (companions and directions); largest number
                                   of coordinates */
-  PetscReal *JZ, *T, *h, *t;   /* JZ, with columns of length m; T, with columns of length kmax; right-hand sides h
+  PetscReal *JZ, *T, *h, *t; /* JZ, with columns of length m; T, with columns of length kmax; right-hand sides h
                                   and t */
-  PetscReal *G;                /* diagonal of P^T K P */
-  PetscReal *lambda, *gap, *y; /* forces of the rows; their motions; coordinates */
-  PetscReal *base;             /* forces that h and t already contain, since without them bodies held by constraints
+  PetscReal *G;              /* diagonal of P^T K P */
+  PetscInt   ncompanions, *companion; /* number of companions; the unknown of W to which each belongs */
+  PetscReal *lambda, *gap, *y;        /* forces of the rows; their motions; coordinates */
+  PetscReal *base;   /* forces that h and t already contain, since without them bodies held by constraints
                                   only would move far; zero without norm terms */
-  PetscReal  length;           /* size of the terms of a gap, for tolerances */
-  PetscReal *spring, *start;   /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the
+  PetscReal  length; /* size of the terms of a gap, for tolerances */
+  PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve; may be NULL */
+  void      *interrupt_ctx;
+  PetscReal *spring, *start; /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the
                                   spring is relaxed. NULL: no springs */
 } IPReducedSystem;
 
@@ -70,6 +73,15 @@ static inline PetscReal IPReducedForce(const IPReducedSystem *s, PetscInt row)
   const PetscReal spring = s->spring ? s->spring[row] * (s->gap[row] - s->start[row]) : 0.0;
 
   return s->lambda[row] - s->base[row] + spring;
+}
+
+/* Finds whether the user wants to end the solve. Only on the first rank. */
+static inline PetscErrorCode IPReducedInterrupted(const IPReducedSystem *s, PetscBool *stop)
+{
+  PetscFunctionBegin;
+  *stop = PETSC_FALSE;
+  if (s->interrupt) PetscCall(s->interrupt(s->interrupt_ctx, stop));
+  PetscFunctionReturn(0);
 }
 
 /* The active constraints, and the factors for them */
