@@ -237,7 +237,7 @@ typedef struct {
   PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
-/* A spring between a point of a body and the ground, or a point of another body */
+/* A spring and damper between a point of a body and the ground, or a point of another body */
 typedef struct {
   char     *name;
   size_t    line;        /* of the scene file; 0: not known */
@@ -246,6 +246,8 @@ typedef struct {
   PetscBool axial;       /* the spring acts along the line between the points, not along the axes */
   PetscReal stiffness;   /* stiffness along that line, if `axial` is true [force/length] */
   PetscReal value[3];    /* stiffness along x, y and z, if `axial` is false [force/length] */
+  PetscReal damping;     /* force per relative velocity: along the line if `axial` is true, else in any direction [force
+                            time/length] */
 } SceneConnector;
 
 /* Pretension of a bolt: a section through a body, with a force or a shortening */

@@ -159,7 +159,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscCall(TiesCreateHanging(c, prescribed, &ties->hanging, follows));
   PetscCall(CyclicCreate(c, prescribed, &cyclic, follows));
   PetscCall(RigidCreate(c, prescribed, follows));
-  if (cyclic || planes || joints || ties->hanging || c->rigid->R || c->springs->between) {
+  if (cyclic || planes || joints || ties->hanging || c->rigid->R || c->springs->between || c->springs->dampers) {
     PetscCall(TiesCompose(joints, planes, cyclic, ties->hanging, c->rigid->R ? &ties->joined : &ties->C));
     PetscCall(TiesJoinRigid(c));
     if (!ties->C) PetscCall(TiesCreateDiagonal(c->bodies.mass, 1.0, &ties->C));

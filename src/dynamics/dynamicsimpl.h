@@ -1,7 +1,8 @@
 /*
    Inertia. In a time step the term c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u -
-   viscous) is added to the energy of the bodies, where E is the elastic energy. The gradient of this term is the sum of
-   the inertia and damping forces. Each file uses only the files listed before it.
+   viscous) + rate/2 (u - viscous)^T D (u - viscous) is added to the energy of the bodies, where E is the elastic energy
+   and D the matrix of dampers. The gradient of this term is the sum of the inertia and damping forces. Each file uses
+   only the files listed before it.
 */
 #ifndef DYNAMICSIMPL_H
 #define DYNAMICSIMPL_H
@@ -23,7 +24,9 @@ typedef struct {
   Vec       centre;      /* centre of the current time step [length] */
   PetscReal viscosity;   /* factor of the elastic energy of u - viscous in the current time step, for damping in
                           proportion to stiffness; 0 without such damping */
-  Vec       viscous;     /* displacement at which that damping vanishes [length]; NULL without such damping */
+  Vec       viscous;     /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
+                            such damping */
+  Springs  *springs;     /* springs and dampers; their `rate` is set here; owned by the caller */
   Elasticity elasticity; /* owned by the caller */
   PetscReal  kinetic;    /* kinetic energy at time 0 [force length] */
   PetscReal  damped;     /* energy that damping has dissipated [force length] */
@@ -48,7 +51,7 @@ PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, V
   PetscReal momentum[3], PetscReal spin[3]);
 
 /* start.c: velocities and accelerations at time 0 */
-PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Dynamics *);
+PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Springs *, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsDestroy(Dynamics *);
 

@@ -58,7 +58,8 @@ static PetscErrorCode SchemeSetViscous(const SceneDynamics *scene, SchemeNumbers
 
   PetscFunctionBegin;
   if (!d->viscous) PetscFunctionReturn(0);
-  d->viscosity = scene->damping_stiffness / way;
+  d->viscosity     = scene->damping_stiffness / way;
+  d->springs->rate = 1.0 / way;
   PetscCall(SchemeContinue(dt, 0.5 - s.beta, u, d->velocity, d->auxiliary, d->viscous));
   PetscCall(VecAXPY(d->viscous, -way, d->velocity));
   PetscCall(VecAXPY(d->viscous, -way * dt * (1.0 - s.gamma), d->auxiliary));
@@ -84,13 +85,17 @@ PetscErrorCode SchemeBegin(const SceneDynamics *scene, PetscReal dt, Vec u, Dyna
   PetscFunctionReturn(0);
 }
 
-/* Adds the term of damping in proportion to stiffness to the energy, and its gradient to `force`, which may be NULL */
+/* Adds the terms of damping in proportion to stiffness and of dampers to the energy, and their gradients to `force`,
+   which may be NULL */
 static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
   PetscReal stored;
   Vec       way, product;
 
   PetscFunctionBegin;
+  if (d->springs->dampers)
+    PetscCall(CentredAdd(d->springs->rate, d->springs->dampers, NULL, d->viscous, u, energy, force));
+  if (d->viscosity == 0.0) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &way));
   PetscCall(VecWAXPY(way, -1.0, d->viscous, u));
   PetscCall(ElasticityEnergy(d->elasticity, way, &stored));
@@ -148,7 +153,7 @@ static PetscErrorCode SchemeFollow(const Dynamics *d, PetscReal dt, Vec from, Ve
   PetscFunctionReturn(0);
 }
 
-/* Computes the damping force (damping_mass M + damping_stiffness K) velocity */
+/* Computes the damping force (damping_mass M + damping_stiffness K + D) velocity, with the matrix D of dampers */
 PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, Vec velocity, Vec force)
 {
   Vec elastic;
@@ -156,7 +161,8 @@ PetscErrorCode SchemeGetDamping(const SceneDynamics *scene, const Dynamics *d, V
   PetscFunctionBegin;
   PetscCall(MatMult(d->mass, velocity, force));
   PetscCall(VecScale(force, scene->damping_mass));
-  if (!d->viscous) PetscFunctionReturn(0);
+  if (d->springs->dampers) PetscCall(MatMultAdd(d->springs->dampers, velocity, force, force));
+  if (scene->damping_stiffness == 0.0) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(force, &elastic));
   PetscCall(ElasticityForce(d->elasticity, velocity, elastic));
   PetscCall(VecAXPY(force, scene->damping_stiffness, elastic));

@@ -131,7 +131,7 @@ PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, Pet
 
 /* Creates the data of a dynamic analysis. Must be called after the ties, and before the stiffness, which contains the
    mass term of the first time step. */
-PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dynamics *d)
+PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Springs *springs, Dynamics *d)
 {
   const SceneDynamics *scene = &c->bodies.scene->dynamics;
   PetscReal            momentum[3], spin[3];
@@ -146,7 +146,8 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Dyna
   PetscCall(VecDuplicate(c->bodies.mass, &d->auxiliary));
   PetscCall(VecDuplicate(c->bodies.mass, &d->centre));
   d->elasticity = c->bodies.elasticity;
-  if (scene->damping_stiffness > 0.0) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
+  d->springs    = springs;
+  if (scene->damping_stiffness > 0.0 || springs->dampers) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
   if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->rest));
   PetscCall(StartVelocity(c, d));
   PetscCall(StartAcceleration(c, loads, d));

@@ -105,15 +105,21 @@ PetscErrorCode CouplingsCreate(const Bodies *bodies, Mat *stiffness)
   PetscFunctionReturn(0);
 }
 
-/* Adds C^T S C to the stiffness, where S is the matrix of springs between unknowns and u = C x */
+/* Adds C^T S C to the stiffness, where S is the matrix of springs between unknowns and, in a time step, `rate` times
+   that of dampers, and u = C x */
 PetscErrorCode CouplingsAddStiffness(const Springs *springs, Mat C, Mat stiffness)
 {
-  Mat product;
+  const Mat       parts[]   = {springs->between, springs->dampers};
+  const PetscReal factors[] = {1.0, springs->rate};
 
   PetscFunctionBegin;
-  if (!springs->between) PetscFunctionReturn(0);
-  PetscCall(MatPtAP(springs->between, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
-  PetscCall(MatAXPY(stiffness, 1.0, product, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatDestroy(&product));
+  for (int p = 0; p < 2; ++p) {
+    Mat product;
+
+    if (!parts[p]) continue;
+    PetscCall(MatPtAP(parts[p], C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+    PetscCall(MatAXPY(stiffness, factors[p], product, DIFFERENT_NONZERO_PATTERN));
+    PetscCall(MatDestroy(&product));
+  }
   PetscFunctionReturn(0);
 }

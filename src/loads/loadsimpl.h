@@ -45,12 +45,13 @@ PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
 PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
 PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
 
-/* connectors.c: a spring between points. The nodes of the cells of both points, and the values of their shape
-   functions, are known on all ranks. */
+/* connectors.c: a spring and damper between points. The nodes of the cells of both points, and the values of their
+   shape functions, are known on all ranks. */
 typedef struct {
   PetscInt  n[2], node[2][MESH_MAX_NODES]; /* numbers of nodes, and global numbers of the nodes, at both ends */
   PetscReal N[2][MESH_MAX_NODES];
   PetscReal k[3][3]; /* stiffness: derivative of the force with respect to the offset [force/length] */
+  PetscReal d[3][3]; /* damping: derivative with respect to the rate of the offset [force time/length] */
 } Connector;
 
 /* springs.c: springs of the scene, and weak springs */
@@ -59,6 +60,9 @@ typedef struct {
                                  [force/length]; NULL if there are none */
   Mat        between; /* stiffness of springs between faces and of connectors [force/length]; NULL if there are none */
   Connector *connectors; /* [connectors of the scene] */
+  Mat        dampers;    /* damping matrix of connectors [force time/length]; NULL if there are no dampers */
+  PetscReal  rate;       /* derivative of the velocity at the end of a time step with respect to the displacement, by
+                            which tangents contain the dampers [1/time] */
   PetscInt   nweak;      /* number of bodies with weak springs */
 } Springs;
 
@@ -100,8 +104,8 @@ PETSC_INTERN PetscErrorCode CouplingsAddStiffness(const Springs *, Mat C, Mat st
 
 /* connectors.c: springs between points */
 PETSC_INTERN PetscErrorCode ConnectorsCreate(const Bodies *, Springs *);
-PETSC_INTERN PetscErrorCode ConnectorMeasure(const Bodies *, const Springs *, PetscInt c, Vec u, PetscReal offset[3],
-  PetscReal force[3]);
+PETSC_INTERN PetscErrorCode ConnectorMeasure(const Bodies *, const Springs *, PetscInt c, Vec u, Vec velocity,
+  PetscReal offset[3], PetscReal force[3]);
 
 /* centred.c: quadratic terms of the energy */
 PETSC_INTERN PetscErrorCode CentredAdd(PetscReal sign, Mat A, Vec diagonal, Vec centre, Vec x, PetscReal *energy,

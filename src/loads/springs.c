@@ -151,6 +151,7 @@ PetscErrorCode SpringsDestroy(Springs *springs)
   PetscCall(VecDestroy(&springs->stiffness));
   PetscCall(VecDestroy(&springs->weak));
   PetscCall(MatDestroy(&springs->between));
+  PetscCall(MatDestroy(&springs->dampers));
   PetscCall(PetscFree(springs->connectors));
   PetscFunctionReturn(0);
 }

@@ -328,7 +328,8 @@ static PetscErrorCode ForcesMeasureConnectors(Simulation sim, Vec u, StepReport 
     ConnectorReport *connector = &report->connectors[c];
 
     connector->name = sim->scene->connectors[c].name;
-    PetscCall(ConnectorMeasure(&bodies, &sim->springs, c, u, connector->offset, connector->force));
+    PetscCall(
+      ConnectorMeasure(&bodies, &sim->springs, c, u, sim->dynamics.velocity, connector->offset, connector->force));
   }
   PetscFunctionReturn(0);
 }

@@ -44,7 +44,7 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(StiffnessSetType(sim));
   constraints = SimulationConstraints(sim);
   PetscCall(TiesCreate(&constraints));
-  PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->dynamics));
+  PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->springs, &sim->dynamics));
   if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path->outside));
   PetscFunctionReturn(0);
 }

@@ -258,10 +258,12 @@ static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  connector %s: %s to %s, ", here->name, scene->bodies[here->body].name,
       here->to < 0 ? "the ground" : scene->bodies[here->to].name));
     if (here->axial)
-      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness %.6g along the line\n", (double)here->stiffness));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness %.6g along the line", (double)here->stiffness));
     else
-      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness (%.6g, %.6g, %.6g)\n", (double)here->value[0],
+      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness (%.6g, %.6g, %.6g)", (double)here->value[0],
         (double)here->value[1], (double)here->value[2]));
+    if (here->damping > 0.0) PetscCall(PetscViewerASCIIPrintf(viewer, ", damping %.6g", (double)here->damping));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
   for (PetscInt b = 0; b < scene->nbolts; ++b) {
     const SceneBolt *here = &scene->bolts[b];

@@ -150,11 +150,15 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, const char file[],
 
 /*
    Checks that damping by stiffness is used only if the stiffness is constant, since the damping matrix is a multiple of
-   it.
+   it, and that damping of connectors is used only in dynamics.
 */
 static PetscErrorCode SceneValidateDamping(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
+  for (PetscInt c = 0; c < scene->nconnectors; ++c)
+    SceneRequire(scene->connectors[c].damping == 0.0 || SceneIsDynamic(scene),
+      "%s: connector \"%s\" has damping, but the scene has no dynamics, so that there are no velocities", file,
+      scene->connectors[c].name);
   if (scene->dynamics.damping_stiffness == 0.0) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const MaterialLaw *law;

@@ -1,6 +1,7 @@
 """Scenes of connectors.sh, and what must hold of their results."""
 import csv
 import json
+import math
 import sys
 
 LEVER = """bodies:
@@ -31,6 +32,16 @@ body_forces:
 load: {steps: 1}
 """
 
+# two blocks as stiff as rigid ones, of mass 8 and 4, with a spring and a damper between them; one is hit
+DAMPED = """bodies:
+  - left: {lower: [0, 0, 0], upper: [2, 2, 2], cells: [2, 1, 1], young: 1e9, poisson: 0, density: 1, initial_velocity: [1, 0, 0]}
+  - right: {lower: [3, 0, 0], upper: [4, 2, 2], cells: [2, 1, 1], young: 1e9, poisson: 0, density: 1}
+symmetry: [left.ymin, left.zmin, right.ymin, right.zmin]
+connectors:
+  - strut: {body: left, point: [2, 0, 0], to: right, to_point: [3, 0, 0], stiffness: 8000, damping: 40}
+dynamics: {time_step: 0.001, end_time: 0.1}
+"""
+
 
 def load(name):
     with open(name + ".json") as file:
@@ -39,6 +50,23 @@ def load(name):
 
 def say(what, off, allowed):
     print(f"{what}: {'sound' if abs(off) <= allowed else f'off by {off:g}'}")
+
+
+def judge_damped(name):
+    """The distance x of the blocks: m x'' + 40 x' + 8000 x = 0 with the reduced mass m, x = 0 and x' = -1 at the start"""
+    mass, stiffness, damping = 8 * 4 / (8 + 4), 8000, 40
+    decay = damping / (2 * mass)
+    omega = math.sqrt(stiffness / mass - decay**2)
+    with open(name + ".csv") as file:
+        rows = list(csv.DictReader(file))
+    def error(row):
+        t = float(row["time"])
+        x = -math.exp(-decay * t) * math.sin(omega * t) / omega
+        v = -math.exp(-decay * t) * (math.cos(omega * t) - decay / omega * math.sin(omega * t))
+        return max(abs(float(row["strut.offset_x"]) - x) * omega, abs(float(row["strut.force_x"]) - stiffness * x - damping * v) / stiffness * omega)
+    say(f"{name}: offset and force of a damped oscillation", max(map(error, rows)), 5e-3)
+    say(f"{name}: the energy that is left and the work of damping are the energy at the start", max(abs(float(row["dynamics.total_energy"]) + float(row["dynamics.damping_work"]) - 4) for row in rows), 1e-6)
+    say(f"{name}: momentum", max(abs(float(row["dynamics.momentum_x"]) - 8) for row in rows), 1e-7)
 
 
 def judge():
@@ -55,6 +83,8 @@ def judge():
         say(f"{name}: springs carry the weight", max(abs(springs[0]), abs(springs[1]), abs(springs[2] - 16)), 1e-6)
         say(f"{name}: forces are stiffness times offset",
             max(abs(c["force"][2] + 40 * -c["offset"][2]) for c in step["connectors"]), 1e-9)
+    for name in ("damped", "damped_3"):
+        judge_damped(name)
     # all four springs along z have the same stiffness, and stand around the middle of the cube
     say("hung: each carries a quarter", max(abs(c["force"][2] - 4) for c in load("hung")["connectors"]), 1e-6)
     with open("lever.csv") as file:
@@ -63,7 +93,7 @@ def judge():
 
 
 if sys.argv[1] == "write":
-    for scene, text in (("lever", LEVER), ("hung", HUNG)):
+    for scene, text in (("lever", LEVER), ("hung", HUNG), ("damped", DAMPED)):
         with open(scene + ".yaml", "w") as out:
             out.write(text)
 else:

@@ -29,7 +29,7 @@ PetscErrorCode SceneFinishConnector(SceneKeys keys, Scene scene, const char owne
   if (connector->axial && VectorNorm(line) == 0.0)
     PetscCall(
       SceneKeysError(keys, "%s_stiffness needs a to_point that is not the point: they give its direction", owner));
-  if (value && VectorNorm(connector->value) == 0.0)
+  if (value && VectorNorm(connector->value) == 0.0 && connector->damping == 0.0)
     PetscCall(SceneKeysError(keys, "%s_value is (0, 0, 0): such a connector holds nothing", owner));
   if (connector->to == connector->body)
     PetscCall(

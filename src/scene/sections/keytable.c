@@ -47,7 +47,7 @@ static const SceneKey top_rows[] = {
   SECTION("tractions", "none", "list of loads per undeformed area on faces, with fixed direction"),
   SECTION("forces", "none", "list of resultant forces and moments on faces and rigid bodies, with fixed direction"),
   SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
-  SECTION("connectors", "none", "list of springs between points of bodies, or points and the ground"),
+  SECTION("connectors", "none", "list of springs and dampers between points of bodies, or points and the ground"),
   SECTION("bolts", "none", "list of bolts with pretension"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
     "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
@@ -171,6 +171,9 @@ static const SceneKey connector_rows[] = {
     "stiffness along the undeformed line between the points. Required without `value`"),
   REALS("value", NULL, 3, SceneConnector, value, SHOWN, FROM_0, "F/L", "",
     "stiffness along x, y, z, instead of `stiffness`"),
+  REALS("damping", NULL, 1, SceneConnector, damping, OPTIONAL, FROM_0, "F T/L", "0",
+    "in `dynamics`: force per relative velocity of the points, along the line between them; with `value`: in every "
+    "direction"),
   {NULL}};
 
 static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "required", "the body that is cut"),
