@@ -60,8 +60,8 @@ PETSC_EXTERN const char *const PCAMGFFactorUses[];
 typedef struct {
   PetscInt amg_setups;     /* set-ups of the AMG, or factorizations that replace it */
   PetscInt amg_applies;    /* applications of the AMG, or solves with the factors */
-  PetscInt filter_setups;  /* numerical factorizations of the filtered matrix */
-  PetscInt filter_applies; /* solves with the filtered matrix */
+  PetscInt filter_setups;  /* numerical factorizations of the matrix on the filtered subspace */
+  PetscInt filter_applies; /* solves with the matrix on the filtered subspace */
 } PCAMGFCounts;
 
 /* What a TaoSolve() did for Newton systems that a Krylov method alone did not solve */

@@ -1,4 +1,4 @@
-/* Chooses the direct solver of the filtered matrix */
+/* Chooses the direct solver for the matrix on the filtered subspace */
 #include "amgfimpl.h"
 #include "mumps.h"
 

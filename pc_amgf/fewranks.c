@@ -1,7 +1,7 @@
 /*
-   Solves the system of the filtered matrix A_w on the first few ranks only. A_w is small: on all ranks communication
-   would take longer than arithmetic. The filter's KSP gets a PCSHELL, which sends A_w and the vectors to those ranks.
-   The direct solver on those ranks has the options prefix of the filter.
+   Solves systems with A_w, the matrix on the filtered subspace, on the first few ranks only. A_w is small: on all ranks
+   communication would take longer than arithmetic. The filter's KSP gets a PCSHELL, which sends A_w and the vectors to
+   those ranks. The direct solver on those ranks has the options prefix of the filter.
 */
 #include "amgfimpl.h"
 #include "mumps.h"
@@ -124,7 +124,7 @@ static PetscErrorCode FewRanksShareFailure(PC shell, const AMGFFewRanks *few)
   code = (int)reason;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)shell)));
   PetscCheck(!code || !shell->erroriffailure, PetscObjectComm((PetscObject)shell), PETSC_ERR_NOT_CONVERGED,
-    "The factorization of the filtered matrix failed: %s", PCFailedReasons[code]);
+    "The factorization of the matrix on the filtered subspace failed: %s", PCFailedReasons[code]);
   PetscCall(PCSetFailedReason(shell, (PCFailedReason)code));
   PetscFunctionReturn(0);
 }

@@ -86,7 +86,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
     "Tolerance of the linear solver: derived from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings,
     (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling",
-    "Scaling of the constants: free of units, by gradients at the start as in IPOPT, or in the problem's units",
+    "Units of tolerances and constants: scales of the problem, gradients at the start as in IPOPT, or none",
     TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_equality",
     "Equality constraints: in an augmented system factored by MUMPS, or condensed with proximal updates", TAOIPFILTER,
@@ -102,9 +102,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Filtered subspace method instead of the interior point method",
     TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
   PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max",
-    "Largest number of directions that the "
-    "filtered subspace method keeps; 0: by memory",
-    TAOIPFILTER, opt->subspace_max, &opt->subspace_max, NULL, 0));
+    "Largest number of directions that the filtered subspace method keeps; 0: by memory", TAOIPFILTER,
+    opt->subspace_max, &opt->subspace_max, NULL, 0));
   PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),
     PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT,
     fewest, opt->subspace_max);

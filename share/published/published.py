@@ -352,12 +352,12 @@ def page(cases, records):
     yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published, and uses the program's own V-cycle if the table below has no other. Its curve ends where the time limit ended the run.\n"
     yield "![PCG iterations and ratio of the weights against the Newton system](curves.png)\n"
     yield "## Speed-up of AMGF over AMG\n"
-    yield "Published: 4 to more than 10. The PCG iterations are summed over the last ten systems of each load step.\n"
+    yield "The paper reports speed-ups of 4 to more than 10. The PCG iterations are summed over the last ten systems of each load step.\n"
     yield from speed_table(records)
     if "speed" in explanations:
         yield "\n" + explanations["speed"]
     yield "\n## Where the time goes\n"
-    yield "Published: AMG about 90 %, filter 3 to 7 %.\n"
+    yield "The paper reports about 90 % for AMG and 3 to 7 % for the filter.\n"
     yield from share_table(cases, records)
     if any(mesh > 1 for _, mesh in cases):
         yield "\n## Growth with the mesh\n"

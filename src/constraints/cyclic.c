@@ -6,10 +6,10 @@
 #include "constraintsimpl.h"
 #include <vector3.h>
 
-/* The nodes of one second face and their images on the first one, and R - 1 */
+/* The second face of one cyclic symmetry */
 typedef struct {
-  PetscInt  n, *nodes, *images;
-  PetscReal turn[3][3];
+  PetscInt  n, *nodes, *images; /* number of its nodes; nodes; nodes of the first face whose images they are */
+  PetscReal turn[3][3];         /* R minus the identity */
 } CyclicImages;
 
 /* Inserts the rows u2 = R u1 of one pair of faces into Y, except for nodes on the axis */

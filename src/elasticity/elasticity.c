@@ -157,8 +157,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
     e->bodies[b].type  = elements ? elements[b] : ELEMENT_FULL;
     PetscCheck(!m->law->finite || e->bodies[b].type != ELEMENT_INCOMPATIBLE, PetscObjectComm((PetscObject)dm),
       PETSC_ERR_SUP,
-      "Body %" PetscInt_FMT
-      ": incompatible modes are for small strain; under compression at finite strain they are unstable",
+      "Body %" PetscInt_FMT ": incompatible modes are for small strain; under compression at finite strain they are "
+      "unstable",
       b);
     PetscCheck(materials[b].type != MATERIAL_SAINT_VENANT || e->bodies[b].type != ELEMENT_BBAR,
       PetscObjectComm((PetscObject)dm), PETSC_ERR_SUP,

@@ -112,7 +112,9 @@ static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
 }
 
 /*
-   Writes a text for the motion of a body that nothing holds: it turns over, moves away, or moves neither way as a whole
+   Writes a text for the motion of a body that nothing holds: the axis if it mainly rotates, the direction if it mainly
+   translates, and only the distance if it deforms by more than a tenth of its motion. distance: largest displacement
+   [length]
 */
 static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length)
 {

@@ -80,9 +80,8 @@ PetscErrorCode StrainTest(Simulation sim, StepReport *report)
     if (sim->results->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
     sim->results->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
-      "body \"%s\" is %s by %.3g %s on average in load step %" PetscInt_FMT
-      ", but its material law is for small strains: its forces have an error of about that size; use material: "
-      "neohookean or another finite-strain law",
+      "body \"%s\" is %s by %.3g %s on average in load step %" PetscInt_FMT ", but its material law is for small "
+      "strains: its forces have an error of about that size; use material: neohookean or another finite-strain law",
       scene->bodies[b].name, turned ? "rotated" : "strained",
       (double)(turned ? values[b][1] * 180.0 / PETSC_PI : 100.0 * values[b][0]), turned ? "degrees" : "%",
       report->step));

@@ -551,8 +551,7 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
       "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name,
       scene->bodies[b].name);
     PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" is not held against %s: prescribe a displacement, or add springs, a "
-      "tie or a contact pair",
+      "%s: body \"%s\" is not held against %s: prescribe a displacement, or add springs, a tie or a contact pair",
       scene->name, scene->bodies[b].name, modes[mode]);
   }
   PetscFunctionReturn(0);

@@ -82,9 +82,8 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
   finecells = *ncells;
   for (PetscInt l = 0; l < refine; ++l) {
     PetscCheck(finecells <= PETSC_MAX_INT / 8, comm, PETSC_ERR_ARG_OUTOFRANGE,
-      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT
-      " level 0 cells are too many for PETSc's integer type: refine "
-      "less often, or use PETSc with 64-bit indices",
+      "%" PetscInt_FMT " refinements of %" PetscInt64_FMT " level 0 cells are too many for PETSc's integer type: "
+      "refine less often, or use PETSc with 64-bit indices",
       refine, *ncells);
     finecells *= 8;
   }

@@ -70,9 +70,8 @@ static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCallMPI(MPI_Allreduce(&local64, &sum, 1, MPIU_INT64, MPI_SUM, comm));
   PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP,
-    "The graph for METIS has %" PetscInt64_FMT
-    " entries, which exceeds the size of an MPI message: distribute a coarser "
-    "mesh",
+    "The graph for METIS has %" PetscInt64_FMT " entries, which exceeds the size of an MPI message: start from a "
+    "coarser mesh and refine it with -refine, which is done after the distribution",
     sum);
   PetscCall(PetscMPIIntCast(n, &count));
   PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));

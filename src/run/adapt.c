@@ -36,8 +36,7 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
     scene->ties[0].name);
   PetscCheck(!scene->ncyclic, sim->comm, PETSC_ERR_SUP,
     "-accuracy_adaptive: the faces of the cyclic symmetry \"%s\" would be finer in one place than in another: leave "
-    "the "
-    "option out",
+    "the option out",
     scene->cyclic[0].name);
   sim->run->marks = marks;
   PetscFunctionReturn(0);

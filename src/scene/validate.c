@@ -215,9 +215,8 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   SceneRequire(scene->refine >= 0, "%s: refine = %" PetscInt_FMT ", which must be at least 0", file, scene->refine);
   SceneRequire(!scene->displacement_bounds ||
                  (scene->displacement_bounds >= 2 && scene->displacement_bounds <= scene->nsteps),
-    "%s: displacement_bounds = %" PetscInt_FMT
-    "; it is 0 for none, or the first bounded load step, at least 2 (the largest increment before it is the bound) and "
-    "at most the last, %" PetscInt_FMT,
+    "%s: displacement_bounds = %" PetscInt_FMT "; it is 0 for none, or the first bounded load step, at least 2 (the "
+    "largest increment before it is the bound) and at most the last, %" PetscInt_FMT,
     file, scene->displacement_bounds, scene->nsteps);
   SceneRequire(scene->contact_updates >= 1, "%s: contact_updates = %" PetscInt_FMT ", which must be at least 1", file,
     scene->contact_updates);

@@ -484,8 +484,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
   *end = (PetscBool)(is_true && !*slid);
   if (sim->control->monitor && sim->scene->contact_updates > 1)
     PetscCall(PetscPrintf(sim->comm,
-      "Contact update %" PetscInt_FMT
-      ": error %.3g, penetration %.3g, gap changes by %.3g, normals turn by %.3g, slip changes by %.3g\n",
+      "Contact update %" PetscInt_FMT ": error %.3g, penetration %.3g, gap changes by %.3g, normals turn by %.3g, slip "
+      "changes by %.3g\n",
       report->contact_updates, (double)report->update_error, (double)PetscMax(0.0, -report->gap_true),
       (double)report->gap_change, (double)report->normals_turn, (double)report->slip_change));
   PetscFunctionReturn(0);

@@ -217,8 +217,7 @@ static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *repo
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
-    "last "
-    "equilibrium is at time %g",
+    "last equilibrium is at time %g",
     (double)p->time, p->flowing, (double)p->sim->path->time));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);

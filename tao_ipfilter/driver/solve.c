@@ -254,8 +254,7 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (!solved)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "no direction with enough curvature was found with the Hessian shifted by up to %g; last result of the linear "
-      "solver: "
-      "%s",
+      "solver: %s",
       (double)ip->shift->delta, KSPConvergedReasons[ip->lin->reason]));
   else if (violated)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
@@ -466,9 +465,8 @@ static PetscErrorCode EndTerms(Tao tao)
       (double)ip->rec->best_error));
   else
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "friction: no equilibrium with stick and slip consistent everywhere was found. "
-      "The method needs inequality constraints alone and a Hessian that is positive definite on the unknowns with "
-      "friction"));
+      "friction: no equilibrium with stick and slip consistent everywhere was found. The method needs inequality "
+      "constraints alone and a Hessian that is positive definite on the unknowns with friction"));
   PetscFunctionReturn(0);
 }
 

@@ -204,10 +204,10 @@ static void TermSetBlend(PetscInt n, PetscReal alpha, const PetscReal x0[], Pets
 }
 
 /*
-   Line search: moves from the end of a Newton step back towards its start (f, v, y) by halving, to the point of
-   smallest violation. If no point is better than the start, the whole step is taken, since many short steps would make
-   no progress. directions: norm of the residual of the directions' equations at the start. v is linear along the step,
-   so that no system is solved.
+   Line search: halves a Newton step from its start (f, v, y) repeatedly and takes the length with the smallest
+   violation of the laws. If no length is better than the start, the whole step is taken, since many short steps would
+   make no progress. directions: norm of the residual of the subspace directions' equations at the start; it decreases
+   linearly along the step. v is linear along the step too, so that no system is solved.
 */
 static PetscErrorCode TermSetSearch(IPTermSet *set, const IPReducedSystem *s, const PetscReal f[], const PetscReal v[],
   const PetscReal y[], PetscReal directions)

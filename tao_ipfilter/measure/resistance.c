@@ -38,9 +38,9 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
 }
 
 /*
-   Computes the direction `dead` in which a term has almost no compliance; zeros if there is none. first, second:
-   compliances of the term's two rows; both: that of their sum. Together they give the 2 x 2 matrix of compliances,
-   whose smallest eigenvalue is tested.
+   Computes dead, the unit direction in which a term has almost no compliance; zeros if there is none. It is the
+   eigenvector of the smallest eigenvalue of the 2 x 2 matrix of compliances. first, second: diagonal entries of that
+   matrix, the compliances of the term's two rows; both: the compliance of the sum of the rows.
 */
 static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
 {

@@ -111,7 +111,7 @@ PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
                      (!ip->mi || ip->given->warm_s));
 }
 
-/* Returns the size of an unknown and its bound. If both are zero, returns `all`, the size of all unknowns, or 1. */
+/* Returns max(|x|, |bound|). If this is zero, returns `all`, the size of all unknowns; if that is zero too, 1. */
 static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 {
   const PetscReal size = PetscMax(PetscAbsReal(bound), PetscAbsReal(x));

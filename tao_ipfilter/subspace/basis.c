@@ -1,6 +1,6 @@
 /*
    The directions P of the filtered subspace, which later solves reuse. They are zero on the constraints' unknowns W.
-   Directions are stored in single precision. The Gram matrix P^T K P and the entries W of K P are computed in double
+   Directions are stored in single precision. The Gram matrix P^T K P and the rows W of K P are computed in double
    precision from the rounded directions. The reduced problem is therefore exact for the rounded directions.
 
    Directions are not made orthogonal. They are preconditioned residuals, which are almost K-orthogonal to each other
@@ -23,7 +23,7 @@ PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Frees the entries W of K times the directions */
+/* Frees the rows W of K P */
 static PetscErrorCode BasisForgetW(IPBasis *b)
 {
   PetscFunctionBegin;
@@ -75,7 +75,7 @@ PetscErrorCode IPBasisAdd(const IPBasis *b, const PetscReal y[], Vec v)
   PetscFunctionReturn(0);
 }
 
-/* Copies the entries W of K times direction j to q. The other entries of q are unchanged. */
+/* Copies the rows W of K times direction j to q. The other entries of q are unchanged. */
 PetscErrorCode IPBasisGetForces(const IPBasis *b, PetscInt j, Vec q)
 {
   const PetscInt *w;
@@ -123,7 +123,7 @@ static PetscErrorCode BasisStore(IPBasis *b, PetscInt j, Vec v, PetscBool *store
   PetscFunctionReturn(0);
 }
 
-/* Computes b->Kd = K b->d and stores its entries W for direction j */
+/* Computes b->Kd = K b->d and stores its rows W for direction j */
 static PetscErrorCode BasisMultiply(IPBasis *b, Mat K, PetscInt j)
 {
   const PetscInt    *w;
@@ -377,7 +377,7 @@ static PetscErrorCode BasisCombine(IPBasis *b, PetscInt n, PetscInt k, const Pet
 }
 
 /*
-   Replaces the entries W of K times the first k of n directions by their combinations with the columns of T, in blocks
+   Replaces the rows W of K times the first k of n directions by their combinations with the columns of T, in blocks
    of entries that stay in the cache
 */
 static PetscErrorCode BasisCombineForces(IPBasis *b, PetscInt n, PetscInt k, const PetscReal T[])
@@ -452,7 +452,7 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Computes the entries W of K P, and the Gram matrix */
+/* Computes the rows of K P that belong to W, and the Gram matrix P^T K P */
 static PetscErrorCode BasisMultiplyAll(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
@@ -486,7 +486,7 @@ static PetscErrorCode BasisCut(IPBasis *b, IS set, PetscBool *cut)
   PetscFunctionReturn(0);
 }
 
-/* Selects the entries W of K P from those of the W before. *found: false if W has other entries on this rank */
+/* Selects the rows W of K P from those of the previous W. *found: false if W has other unknowns on this rank */
 static PetscErrorCode BasisSelectForces(IPBasis *b, IS W, PetscBool *found)
 {
   const PetscInt *old, *now;
@@ -512,7 +512,7 @@ static PetscErrorCode BasisSelectForces(IPBasis *b, IS W, PetscBool *found)
 }
 
 /*
-   Sets the directions to zero on W and on the unknowns `fixed` (NULL: none). The Gram matrix and the entries W of K P
+   Sets the directions to zero on W and on the unknowns `fixed` (NULL: none). The Gram matrix and the rows W of K P
    are computed again if K is new, if a direction changed, or if W has entries that the W before did not have.
 */
 PetscErrorCode IPBasisUpdate(IPBasis *b, Mat K, PetscBool new_K, IS fixed, IS W)

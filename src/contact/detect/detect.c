@@ -181,8 +181,7 @@ static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const Sce
   }
   PetscCheck(*tied > 0.0 || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
     "contact rule \"%s\": only parts of the faces %s and %s are within the distance tie = %g of each other: define "
-    "faces "
-    "that consist of these parts, and list the tie of these faces",
+    "faces that consist of these parts, and list the tie of these faces",
     rule->name, s->name[found->surface[0]], s->name[found->surface[1]], (double)rule->tie);
   pair->nonmortar = s->name[found->surface[side]];
   pair->mortar    = s->name[found->surface[1 - side]];

@@ -1,9 +1,10 @@
 /* Decides which of two surfaces is nonmortar. Rules are tried in turn until the surfaces differ in one. */
 #include "detectimpl.h"
 
-#define SIDES_FINER  2.25 /* smallest ratio of the mean areas of the facets, which is a ratio of 1.5 in edge lengths */
-#define SIDES_SOFTER 2.0  /* smallest ratio of Young's moduli */
-#define SIDES_LARGER 1.25 /* smallest ratio of the areas of the surfaces */
+/* The smallest ratios of two surfaces at which a rule decides: */
+#define SIDES_FINER  2.25 /* of the mean areas of the facets; edge lengths then differ by 1.5 */
+#define SIDES_SOFTER 2.0  /* of Young's moduli */
+#define SIDES_LARGER 1.25 /* of the areas of the surfaces */
 
 /* Returns the mean area of the facets of one side that face the other surface [length^2], or of all its facets if none
    do. A facet of order 2 counts as four. */

@@ -112,9 +112,8 @@ static PetscErrorCode HexesAddVertex(MeshHexes *hexes, PetscInt n, const PetscIn
   PetscFunctionBegin;
   if (hexes->nvertices == hexes->maxvertices) {
     PetscCheck(hexes->maxvertices < PETSC_MAX_INT / 16, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "Local refinement creates more than %" PetscInt_FMT
-      " vertices, too many for PETSc's integer type: refine less, or "
-      "use PETSc with 64-bit indices",
+      "Local refinement creates more than %" PetscInt_FMT " vertices, too many for PETSc's integer type: refine less, "
+      "or use PETSc with 64-bit indices",
       hexes->maxvertices);
     hexes->maxvertices = 2 * hexes->maxvertices + 64;
     PetscCall(PetscRealloc(3 * hexes->maxvertices * sizeof(PetscReal), &hexes->x));
@@ -260,9 +259,8 @@ PetscErrorCode MeshHexesRefine(MeshHexes *hexes, PetscBool marked[])
   PetscCall(HexesBalance(hexes, marked));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     PetscCheck(n < PETSC_MAX_INT / 64, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-      "Local refinement creates more than %" PetscInt_FMT
-      " cells, too many for PETSc's integer type: refine less, or use "
-      "PETSc with 64-bit indices",
+      "Local refinement creates more than %" PetscInt_FMT " cells, too many for PETSc's integer type: refine less, or "
+      "use PETSc with 64-bit indices",
       n);
     n += marked[c] ? 8 : 1;
   }

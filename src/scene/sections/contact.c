@@ -164,8 +164,7 @@ static PetscErrorCode FinishSides(SceneKeys keys, Scene scene, const char owner[
   if (!any && pair->except) PetscCall(SceneKeysErrorOf(keys, owner, "except", "is only for the entry auto of contact"));
   if (pair->tie > 0.0 && !PairIsRule(pair))
     PetscCall(SceneKeysErrorOf(keys, owner, "tie",
-      "is only for the entry auto of contact, and for pairs of bodies; "
-      "two faces are tied under ties"));
+      "is only for the entry auto of contact, and for pairs of bodies; two faces are tied under ties"));
   PetscFunctionReturn(0);
 }
 
@@ -251,8 +250,7 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
 
     PetscCheck(!within || !whole, comm, PETSC_ERR_USER_INPUT,
       "%s: contact pair \"%s\" with self: %s is the whole surface of the body, which includes the faces of contact "
-      "pair "
-      "\"%s\": leave one of the pairs out",
+      "pair \"%s\": leave one of the pairs out",
       file, pair->name, pair->self, other->name);
   }
   PetscFunctionReturn(0);

@@ -68,9 +68,8 @@ static const SceneKey top_rows[] = {
     "objective of a load step. `energy`: the exact energy. `quadratic`: its quadratic model at the state before "
     "the step, with one tangent per load step"),
   INTS("contact_updates", NULL, 1, struct _n_Scene, contact_updates, SHOWN, "20",
-    "largest number of contact updates (linearizations of the gap) per load step. They end when the gap changes "
-    "by less than 1e-6 of the largest "
-    "displacement. With 1 the gap is not checked"),
+    "largest number of contact updates (linearizations of the gap) per load step. They end when the gap changes by "
+    "less than 1e-6 of the largest displacement. With 1 the gap is not checked"),
   INTS("displacement_bounds", NULL, 1, struct _n_Scene, displacement_bounds, OPTIONAL, "0: none",
     "number (2 or more) of the first load step in which no displacement may change by more than the largest "
     "earlier increment"),

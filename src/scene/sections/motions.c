@@ -39,13 +39,11 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
       "one does not",
       file, a->name, b->name, a->released[i] ? "frees" : "holds", i < 3 ? "along" : "about", "xyz"[i % 3]);
   for (PetscInt i = 0; i < 3; ++i)
-    PetscCheck(!SceneTurnsFreely(a) || a->center[i] == b->center[i], comm, PETSC_ERR_USER_INPUT,
-      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers", file,
-      a->name, b->name);
-  for (PetscInt i = 0; i < 3; ++i)
-    PetscCheck(!SceneRotates(a) || !SceneRotates(b) || a->center[i] == b->center[i], comm, PETSC_ERR_USER_INPUT,
-      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers", file,
-      a->name, b->name);
+    PetscCheck((!SceneTurnsFreely(a) && !(SceneRotates(a) && SceneRotates(b))) || a->center[i] == b->center[i], comm,
+      PETSC_ERR_USER_INPUT,
+      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers: give both "
+      "the same center",
+      file, a->name, b->name);
   PetscFunctionReturn(0);
 }
 
