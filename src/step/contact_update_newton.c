@@ -32,7 +32,10 @@ typedef struct {
   StepProblem         *p;
   ContactLinearization at_u;
   Vec                  u, mask;          /* mask: 0 in prescribed rows, 1 in other rows */
-  Vec                  lambda;           /* forces of the rows of sim->solved->linearization [force] */
+  Vec                  lambda;           /* forces of the rows of sim->solved->linearization, 0 in rows that are not
+                                            followed [force] */
+  Vec                  followed;         /* 1 in rows under pressure that exist at u; 0 in the other rows, whose
+                                            differentials remain those of the linearization at x */
   Vec                  force, gap;       /* force: J(u)^T lambda [force]; gap: g(u) on the rows of
                                             sim->solved->linearization [length] */
   PetscReal            rtol;             /* relative tolerance of GMRES */
@@ -102,6 +105,28 @@ static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec 
   PetscFunctionReturn(0);
 }
 
+/* Sets s->followed and s->nrows, and sets s->lambda to 0 in the other rows */
+static PetscErrorCode NewtonFollow(GapNewton *s)
+{
+  Simulation   sim = s->p->sim;
+  PetscScalar *followed;
+  PetscInt    *row;
+
+  PetscFunctionBegin;
+  s->nrows = 0;
+  PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, s->at_u, &row));
+  PetscCall(VecGetArrayWrite(s->followed, &followed));
+  for (PetscInt r = 0; r < sim->solved->linearization->nlocal; ++r) {
+    followed[r] = row[r] < 0 ? 0.0 : 1.0;
+    s->nrows += row[r] >= 0;
+  }
+  PetscCall(VecRestoreArrayWrite(s->followed, &followed));
+  PetscCall(PetscFree(row));
+  PetscCall(VecPointwiseMult(s->lambda, s->lambda, s->followed));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->nrows, 1, MPIU_INT, MPI_SUM, sim->comm));
+  PetscFunctionReturn(0);
+}
+
 /*
    Copies z to s->d and s->lambdas; if `join`, copies s->d and s->lambdas to z. In z the multipliers are divided by
    s->scale.
@@ -161,8 +186,10 @@ static PetscErrorCode NewtonDifference(GapNewton *s)
   PetscCall(VecAXPBY(s->f, -1.0 / step, 1.0 / step, s->force));
   PetscCall(VecAXPBY(s->c, -1.0 / step, 1.0 / step, s->gap));
   PetscCall(MatMult(p->J, s->d, model));
+  PetscCall(VecPointwiseMult(model, model, s->followed));
   PetscCall(VecAXPY(s->c, -1.0, model));
-  PetscCall(MatMultTranspose(p->J, s->lambdas, v));
+  PetscCall(VecPointwiseMult(lambda, s->lambdas, s->followed));
+  PetscCall(MatMultTranspose(p->J, lambda, v));
   PetscCall(VecAXPY(s->f, -1.0, v));
   PetscCall(VecDestroy(&v));
   PetscCall(VecDestroy(&lambda));
@@ -231,9 +258,11 @@ static PetscErrorCode NewtonForce(GapNewton *s, Vec f)
 static PetscErrorCode NewtonBegin(GapNewton *s, Vec b, PetscBool *solved)
 {
   PetscReal forces, length;
+  PetscInt  n;
 
   PetscFunctionBegin;
-  PetscCall(NewtonEvaluate(s, s->at_u, s->lambda, s->force, s->gap, &s->nrows));
+  PetscCall(NewtonFollow(s));
+  PetscCall(NewtonEvaluate(s, s->at_u, s->lambda, s->force, s->gap, &n));
   PetscCall(NewtonForce(s, s->d));
   if (!s->gaps_only) PetscCall(VecCopy(s->d, s->force));
   PetscCall(MatMultTranspose(s->p->J, s->lambda, s->f));
@@ -261,6 +290,7 @@ static PetscErrorCode NewtonCreate(StepProblem *p, const ContactSolution *sol, V
   PetscCall(VecDuplicate(u, &s->d));
   PetscCall(VecDuplicate(u, &s->f));
   PetscCall(VecDuplicate(sol->pressure, &s->lambda));
+  PetscCall(VecDuplicate(sol->pressure, &s->followed));
   PetscCall(VecDuplicate(sol->pressure, &s->gap));
   PetscCall(VecDuplicate(sol->pressure, &s->lambdas));
   PetscCall(VecDuplicate(sol->pressure, &s->c));
@@ -282,6 +312,7 @@ static PetscErrorCode NewtonDestroy(GapNewton *s)
   PetscCall(VecDestroy(&s->d));
   PetscCall(VecDestroy(&s->f));
   PetscCall(VecDestroy(&s->lambda));
+  PetscCall(VecDestroy(&s->followed));
   PetscCall(VecDestroy(&s->gap));
   PetscCall(VecDestroy(&s->lambdas));
   PetscCall(VecDestroy(&s->c));
