@@ -500,20 +500,21 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
      change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
      may be the cause, and the tolerance is at most a tenth of the previous one.
 
-     The tolerance of the load step is used for the last update, for a start from a forecast, with weak springs (which
-     would carry the residual), and if the gap tolerance is near rounding, so that results are reproducible.
+     The tolerance of the load step is used for the last update, also if the error of the last two updates lets expect
+     that the next one is the last, for a start from a forecast, with weak springs (which would carry the residual), and
+     if the gap tolerance is near rounding, so that results are reproducible.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)
 {
   Simulation      sim   = p->sim;
   const PetscReal first = sim->solved->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5,
-                  before = p->tolerance;
+                  before = p->tolerance, allowed = sim->control->tolerances.gap_change;
   PetscReal size;
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (end || sim->springs.weak || sim->control->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON ||
+  if (end || sim->springs.weak || allowed < PETSC_SQRT_MACHINE_EPSILON ||
       report->contact_updates + 1 >= sim->scene->contact_updates)
     PetscFunctionReturn(0);
   p->tolerance = foreseen ? 0.0 : first;
@@ -523,6 +524,8 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   if (again) PetscFunctionReturn(0);
   if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
     p->tolerance = PetscMin(p->tolerance, fraction * before);
+  if (report->contact_updates > 1 && PetscSqr(report->update_error) <= allowed * size * p->gap_change)
+    p->tolerance = 0.0;
   p->gap_change = report->update_error;
   PetscFunctionReturn(0);
 }
