@@ -13,7 +13,7 @@ include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
-plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c pc_amgf/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
+plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c pc_amgf/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
 library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c))
 programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes

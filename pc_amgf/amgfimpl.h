@@ -54,7 +54,8 @@ typedef struct {
   PetscReal       share;  /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
                              memory */
   Mat             F;
-  AMGFStamp       analysed;               /* stamp of the operator that MUMPS analysed */
+  PetscBool       rounded;                /* F are factors of cholesky/, in single precision, instead of MUMPS's */
+  AMGFStamp       analysed;               /* stamp of the operator that was analysed */
   PetscReal       flops, entries, memory; /* MUMPS's estimates for the factors: operations, entries, memory [bytes] */
   char            why[160];               /* explanation of the last choice */
 } AMGFFactor;

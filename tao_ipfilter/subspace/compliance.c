@@ -3,7 +3,7 @@
    needed first. All data are on the first rank.
 */
 #include "subspaceimpl.h"
-#include "pc_amgf/mumps.h"
+#include "pc_amgf/cholesky.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)
@@ -15,50 +15,19 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/*
-   Finds whether a factorization has no negative pivot. Cholesky factorizations of indefinite matrices succeed as L D
-   L^T, without an error.
-*/
-static PetscErrorCode CompliancePositive(Mat F, PetscBool *positive)
-{
-  PetscInt negative;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetInertia(F, &negative, NULL, NULL));
-  *positive = (PetscBool)(negative == 0);
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the Cholesky factorization of K_WW by MUMPS, or without MUMPS by PETSc in SBAIJ format, which counts pivots.
-   *definite: false if K_WW is not positive definite.
-*/
+/* Computes the Cholesky factorization of K_WW. *definite: false if K_WW is not positive definite */
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
   MatFactorInfo  info;
-  PetscBool      mumps;
-  IS             rows = NULL, columns = NULL;
-  Mat            A;
 
   PetscFunctionBegin;
-  PetscCall(MatSetOption(K, MAT_SPD, PETSC_TRUE));
-  PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
-  if (mumps) {
-    PetscCall(PetscObjectReference((PetscObject)K));
-    A = K;
-  } else PetscCall(MatConvert(K, MATSEQSBAIJ, MAT_INITIAL_MATRIX, &A));
-  PetscCall(MatGetFactor(A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_CHOLESKY, F));
   PetscCall(MatFactorInfoInitialize(&info));
-  if (!mumps) PetscCall(MatGetOrdering(A, MATORDERINGNATURAL, &rows, &columns));
-  PetscCall(MatCholeskyFactorSymbolic(*F, A, rows, &info));
-  PetscCall(MatCholeskyFactorNumeric(*F, A, &info));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(ISDestroy(&columns));
-  PetscCall(MatDestroy(&A));
+  PetscCall(MatGetFactor(K, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
+  PetscCall(MatCholeskyFactorSymbolic(*F, K, NULL, &info));
+  PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
   PetscCall(MatFactorGetError(*F, &error));
   *definite = (PetscBool)(error == MAT_FACTOR_NOERROR);
-  if (*definite) PetscCall(CompliancePositive(*F, definite));
   PetscFunctionReturn(0);
 }
 

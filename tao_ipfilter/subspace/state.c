@@ -293,26 +293,15 @@ PetscErrorCode IPSubspaceStateHold(Tao tao, IPSubspaceState *kept, PetscBool *po
 }
 
 /*
-   Computes the largest number of directions to keep. The default is what fits into 4 % of the memory of AMG and
-   stiffness matrix, within fixed limits. Newton's method keeps fewer, since each direction needs a product with every
-   new K.
+   Returns the largest number of directions to keep. More directions save applications of the preconditioner, but each
+   application then takes longer. Newton's method keeps fewer, since each direction needs a product with every new K.
 */
-static PetscErrorCode KeptRoom(Tao tao, PetscInt *max)
+static PetscInt KeptRoom(Tao tao)
 {
-  const PetscReal held = 4300.0, share = 0.04, spare = 16e6,
-                  direction = sizeof(float); /* bytes per unknown: AMG and stiffness matrix; a direction */
-  const PetscReal fewest = 80.0, limit = 160.0;
-  const PetscInt  newton = 48;
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  PetscInt        n;
+  const PetscInt usual = 80, newton = 48, given = ((TAO_IPFILTER *)tao->data)->opt->subspace_max;
 
-  PetscFunctionBegin;
-  *max = ip->opt->subspace_max;
-  if (!*max && IPFilteredOf(tao)->newton) *max = newton;
-  if (*max) PetscFunctionReturn(0);
-  PetscCall(VecGetSize(tao->solution, &n));
-  *max = (PetscInt)PetscClipInterval((share * held * n + spare) / (direction * n), fewest, limit);
-  PetscFunctionReturn(0);
+  if (given) return given;
+  return IPFilteredOf(tao)->newton ? newton : usual;
 }
 
 /*
@@ -325,12 +314,11 @@ PetscErrorCode IPSubspaceStateUpdate(Tao tao, IPSubspaceState *kept, PetscBool *
   Mat              K  = ip->hess->H;
   PC               pc;
   PetscObjectState state;
-  PetscInt         max;
+  const PetscInt   max   = KeptRoom(tao);
   PetscBool        new_K = PETSC_FALSE;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
-  PetscCall(KeptRoom(tao, &max));
   PetscCall(PetscObjectStateGet((PetscObject)K, &state));
   PetscCall(KSPGetPC(tao->ksp, &pc));
   if (kept->K_id != ((PetscObject)K)->id || kept->pc != pc || kept->basis.max != max) {
@@ -471,9 +459,8 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 
   Options Database Keys:
 + -tao_ipfilter_subspace <auto> (false,true,auto) - the filtered subspace method in place of the interior point method
-- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, in single precision; 0: 80 to 160, as
-                                                     many as 16 MB and 4 % of an AMG's memory hold, 48 where the
-                                                     objective is not quadratic
+- -tao_ipfilter_subspace_max <0>                   - directions that it keeps, in single precision; 0: 80, or 48
+                                                     where the objective is not quadratic
 
   Level: advanced
 

@@ -354,18 +354,18 @@ static PetscErrorCode TestLimit(const char option[], PetscInt n, PetscInt leaves
   PetscFunctionReturn(0);
 }
 
-static PetscBool inertia_fails = PETSC_FALSE;
+static PetscBool factor_fails = PETSC_FALSE;
 
 /* In the place of PETSc's, which the library calls on the first rank alone: fails where it is to */
-PetscErrorCode MatGetInertia(Mat F, PetscInt *negative, PetscInt *zero, PetscInt *positive)
+PetscErrorCode MatFactorGetError(Mat F, MatFactorError *error)
 {
-  PetscErrorCode (*theirs)(Mat, PetscInt *, PetscInt *, PetscInt *);
+  PetscErrorCode (*theirs)(Mat, MatFactorError *);
 
   PetscFunctionBegin;
-  PetscCheck(!inertia_fails, PETSC_COMM_SELF, PETSC_ERR_LIB, "The first rank fails by itself");
-  *(void **)&theirs = dlsym(RTLD_NEXT, "MatGetInertia");
-  PetscCheck(theirs, PETSC_COMM_SELF, PETSC_ERR_LIB, "No MatGetInertia()");
-  PetscCall((*theirs)(F, negative, zero, positive));
+  PetscCheck(!factor_fails, PETSC_COMM_SELF, PETSC_ERR_LIB, "The first rank fails by itself");
+  *(void **)&theirs = dlsym(RTLD_NEXT, "MatFactorGetError");
+  PetscCheck(theirs, PETSC_COMM_SELF, PETSC_ERR_LIB, "No MatFactorGetError()");
+  PetscCall((*theirs)(F, error));
   PetscFunctionReturn(0);
 }
 
@@ -383,12 +383,12 @@ static PetscErrorCode TestFirstRank(PetscInt n)
   PetscCall(AssembleCap(n, 0.0, &m));
   PetscCall(VecDuplicate(m.q.b, &x));
   PetscCall(CreateTao(&m, x, "true", &tao));
-  inertia_fails = PETSC_TRUE;
+  factor_fails = PETSC_TRUE;
   PetscCall(AttemptBegin());
   error = TaoSolve(tao);
   PetscCall(AttemptEnd());
-  inertia_fails = PETSC_FALSE;
-  failed        = error == PETSC_ERR_LIB;
+  factor_fails = PETSC_FALSE;
+  failed       = error == PETSC_ERR_LIB;
   PetscCallMPI(MPI_Allreduce(&failed, &all, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error of the first rank: %s\n", all ? "one of all ranks" : "NOT OF ALL"));
   PetscCall(TaoDestroy(&tao));

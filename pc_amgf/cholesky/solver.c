@@ -1,0 +1,168 @@
+/* The factorization as two of PETSc's MatSolverType, for sequential AIJ matrices */
+#include "choleskyimpl.h"
+#include "solver.h"
+#include "pc_amgf/cholesky.h"
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <petsc/private/matimpl.h>
+#pragma GCC diagnostic pop
+
+typedef struct {
+  Cholesky   c;
+  PetscReal *x, *work; /* right-hand sides in the order of L; work */
+  PetscInt   room;     /* number of right-hand sides for which there is room */
+} CholeskyFactors;
+
+static PetscErrorCode FactorsMakeRoom(CholeskyFactors *f, PetscInt k)
+{
+  PetscFunctionBegin;
+  if (k <= f->room) PetscFunctionReturn(0);
+  PetscCall(PetscFree2(f->x, f->work));
+  PetscCall(PetscMalloc2((size_t)f->c.n * (size_t)k, &f->x, (size_t)f->c.tallest * (size_t)k, &f->work));
+  f->room = k;
+  PetscFunctionReturn(0);
+}
+
+/* Solves K x = b for k right-hand sides, with columns of length n */
+static PetscErrorCode FactorsSolve(CholeskyFactors *f, PetscInt k, const PetscScalar b[], PetscScalar x[])
+{
+  const Cholesky *c = &f->c;
+
+  PetscFunctionBegin;
+  PetscCall(FactorsMakeRoom(f, k));
+  for (PetscInt v = 0; v < k; v++)
+    for (PetscInt i = 0; i < c->n; i++)
+      f->x[i + (size_t)v * (size_t)c->n] = PetscRealPart(b[c->perm[i] + (size_t)v * (size_t)c->n]);
+  if (c->single || k == 1) {
+    for (PetscInt v = 0; v < k; v++) CholeskySolveOne(c, f->x + (size_t)v * (size_t)c->n, f->work);
+  } else {
+    PetscCall(CholeskyForward(c, k, f->x, f->work));
+    PetscCall(CholeskyBackward(c, k, f->x, f->work));
+  }
+  for (PetscInt v = 0; v < k; v++)
+    for (PetscInt i = 0; i < c->n; i++) x[c->perm[i] + (size_t)v * (size_t)c->n] = f->x[i + (size_t)v * (size_t)c->n];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatSolve_AMGF(Mat F, Vec b, Vec x)
+{
+  const PetscScalar *from;
+  PetscScalar       *to;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(b, &from));
+  PetscCall(VecGetArrayWrite(x, &to));
+  PetscCall(FactorsSolve((CholeskyFactors *)F->data, 1, from, to));
+  PetscCall(VecRestoreArrayWrite(x, &to));
+  PetscCall(VecRestoreArrayRead(b, &from));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatMatSolve_AMGF(Mat F, Mat B, Mat X)
+{
+  const PetscScalar *from;
+  PetscScalar       *to;
+  PetscInt           k;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(B, NULL, &k));
+  PetscCall(MatDenseGetArrayRead(B, &from));
+  PetscCall(MatDenseGetArrayWrite(X, &to));
+  PetscCall(FactorsSolve((CholeskyFactors *)F->data, k, from, to));
+  PetscCall(MatDenseRestoreArrayWrite(X, &to));
+  PetscCall(MatDenseRestoreArrayRead(B, &from));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatCholeskyFactorNumeric_AMGF(Mat F, Mat A, const MatFactorInfo *info)
+{
+  CholeskyFactors *f = (CholeskyFactors *)F->data;
+  PetscBool        positive;
+
+  PetscFunctionBegin;
+  (void)info;
+  PetscCall(CholeskyNumeric(A, &f->c, &positive));
+  PetscCall(PetscLogFlops(f->c.flops));
+  F->factorerrortype = positive ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  F->assembled       = PETSC_TRUE;
+  F->ops->solve      = MatSolve_AMGF;
+  F->ops->matsolve   = MatMatSolve_AMGF;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatCholeskyFactorSymbolic_AMGF(Mat F, Mat A, IS order, const MatFactorInfo *info)
+{
+  CholeskyFactors *f      = (CholeskyFactors *)F->data;
+  const PetscBool  single = f->c.single;
+
+  PetscFunctionBegin;
+  (void)order; /* the factorization chooses its own */
+  (void)info;
+  PetscCall(PetscFree2(f->x, f->work));
+  f->room = 0;
+  PetscCall(CholeskySymbolic(A, &f->c));
+  f->c.single                   = single;
+  F->ops->choleskyfactornumeric = MatCholeskyFactorNumeric_AMGF;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatDestroy_AMGF(Mat F)
+{
+  CholeskyFactors *f = (CholeskyFactors *)F->data;
+
+  PetscFunctionBegin;
+  PetscCall(CholeskyDestroy(&f->c));
+  PetscCall(PetscFree2(f->x, f->work));
+  PetscCall(PetscObjectComposeFunction((PetscObject)F, "MatFactorGetSolverType_C", NULL));
+  PetscCall(PetscFree(F->data));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatFactorGetSolverType_AMGF(Mat F, MatSolverType *type)
+{
+  PetscFunctionBegin;
+  *type = ((CholeskyFactors *)F->data)->c.single ? MATSOLVERAMGFSINGLE : MATSOLVERAMGF;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatGetFactor_AMGF(Mat A, MatFactorType type, Mat *F)
+{
+  CholeskyFactors *f;
+  PetscInt         n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetSize(A, &n, NULL));
+  PetscCall(PetscNew(&f));
+  PetscCall(MatCreate(PETSC_COMM_SELF, F));
+  PetscCall(MatSetSizes(*F, n, n, n, n));
+  PetscCall(PetscStrallocpy("amgf", &((PetscObject)*F)->type_name));
+  PetscCall(MatSetUp(*F));
+  (*F)->data                        = f;
+  (*F)->factortype                  = type;
+  (*F)->ops->destroy                = MatDestroy_AMGF;
+  (*F)->ops->choleskyfactorsymbolic = MatCholeskyFactorSymbolic_AMGF;
+  PetscCall(PetscObjectComposeFunction((PetscObject)*F, "MatFactorGetSolverType_C", MatFactorGetSolverType_AMGF));
+  PetscCall(PetscFree((*F)->solvertype));
+  PetscCall(PetscStrallocpy(MATSOLVERAMGF, &(*F)->solvertype));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode MatGetFactor_AMGFSingle(Mat A, MatFactorType type, Mat *F)
+{
+  PetscFunctionBegin;
+  PetscCall(MatGetFactor_AMGF(A, type, F));
+  ((CholeskyFactors *)(*F)->data)->c.single = PETSC_TRUE;
+  PetscCall(PetscFree((*F)->solvertype));
+  PetscCall(PetscStrallocpy(MATSOLVERAMGFSINGLE, &(*F)->solvertype));
+  PetscFunctionReturn(0);
+}
+
+/* Registers the factorization with PETSc */
+PetscErrorCode AMGFCholeskyRegister(void)
+{
+  PetscFunctionBegin;
+  PetscCall(MatInitializePackage()); /* PETSc 3.18 would forget the types that it registers after the first one */
+  PetscCall(MatSolverTypeRegister(MATSOLVERAMGF, MATSEQAIJ, MAT_FACTOR_CHOLESKY, MatGetFactor_AMGF));
+  PetscCall(MatSolverTypeRegister(MATSOLVERAMGFSINGLE, MATSEQAIJ, MAT_FACTOR_CHOLESKY, MatGetFactor_AMGFSingle));
+  PetscFunctionReturn(0);
+}
