@@ -54,7 +54,7 @@ typedef struct {
   PetscReal       share;  /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
                              memory */
   Mat             F;
-  PetscBool       rounded;                /* F are factors of cholesky/, in single precision, instead of MUMPS's */
+  PetscBool       own;                    /* F are factors of cholesky/, not of MUMPS */
   AMGFStamp       analysed;               /* stamp of the operator that was analysed */
   PetscReal       flops, entries, memory; /* MUMPS's estimates for the factors: operations, entries, memory [bytes] */
   char            why[160];               /* explanation of the last choice */

@@ -1,9 +1,8 @@
 /*
    Uses a Cholesky factorization of the operator instead of the AMG, if this is estimated to be faster for the expected
    number of applications. MUMPS computes it. On one rank, if the choice is automatic, the factorization of cholesky/ is
-   used, which is rounded to single precision: a solve with it takes two thirds of the time. The estimate uses the
-   operation counts of MUMPS's analysis and fixed rates, not measured times, so that repeated runs choose the same
-   solver.
+   used: a solve with it takes two thirds of the time. The estimate uses the operation counts of MUMPS's analysis and
+   fixed rates, not measured times, so that repeated runs choose the same solver.
 */
 #define _POSIX_C_SOURCE 200809L /* declares clock_gettime() */
 #include "amgfimpl.h"
@@ -19,7 +18,7 @@ PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&f->F));
   f->analysed = (AMGFStamp){.id = 0};
-  f->on = f->rounded = PETSC_FALSE;
+  f->on = f->own = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -63,7 +62,7 @@ static PetscErrorCode FactorAnalyse(PC pc, Mat A)
 
   PetscFunctionBegin;
   PetscCall(MatDestroy(&f->F));
-  f->rounded = PETSC_FALSE;
+  f->own = PETSC_FALSE;
   PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &f->F));
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(MatSetOptionsPrefix(f->F, prefix));
@@ -240,17 +239,19 @@ static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
 }
 
 /*
-   Factors the operator with rounded factors, if the choice of a factorization is automatic, on one rank. *factored:
-   false if not, or if the operator is not positive definite
+   Factors the operator by the factorization of cholesky/, if the choice of a factorization is automatic, on one rank.
+   The factors are rounded to single precision if they do not fit into the cache. *factored: false if the operator is
+   not factored here, or is not positive definite
 */
-static PetscErrorCode FactorRounded(PC pc, Mat A, PetscBool *factored)
+static PetscErrorCode FactorOwn(PC pc, Mat A, PetscBool *factored)
 {
-  AMGFFactor    *f = &((PC_AMGF *)pc->data)->factor;
-  MatFactorError error;
-  MatFactorInfo  info;
-  PetscMPIInt    size;
-  AMGFStamp      now;
-  Mat            rows;
+  const PetscReal cached = 1e6; /* entries of factors in double precision that fit into the cache */
+  AMGFFactor     *f      = &((PC_AMGF *)pc->data)->factor;
+  MatFactorError  error;
+  MatFactorInfo   info;
+  PetscMPIInt     size;
+  AMGFStamp       now;
+  Mat             rows;
 
   PetscFunctionBegin;
   *factored = PETSC_FALSE;
@@ -259,16 +260,17 @@ static PetscErrorCode FactorRounded(PC pc, Mat A, PetscBool *factored)
   PetscCall(MatConvert(A, MATSEQAIJ, MAT_INITIAL_MATRIX, &rows));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
-  if (!f->rounded || !AMGFStampSamePattern(&now, &f->analysed)) {
+  if (!f->own || !AMGFStampSamePattern(&now, &f->analysed)) {
     PetscCall(MatDestroy(&f->F));
-    PetscCall(MatGetFactor(rows, MATSOLVERAMGFSINGLE, MAT_FACTOR_CHOLESKY, &f->F));
+    PetscCall(
+      MatGetFactor(rows, f->entries > cached ? MATSOLVERAMGFSINGLE : MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, &f->F));
     PetscCall(MatCholeskyFactorSymbolic(f->F, rows, NULL, &info));
     f->analysed = now;
   }
   PetscCall(MatCholeskyFactorNumeric(f->F, rows, &info));
   PetscCall(MatFactorGetError(f->F, &error));
   PetscCall(MatDestroy(&rows));
-  f->rounded = *factored = (PetscBool)!error;
+  f->own = *factored = (PetscBool)!error;
   if (!*factored) PetscCall(MatDestroy(&f->F));
   PetscFunctionReturn(0);
 }
@@ -279,7 +281,7 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
   AMGFFactor    *f     = &amgf->factor;
   MatFactorError error = MAT_FACTOR_OTHER;
-  PetscBool      rounded;
+  PetscBool      own;
   AMGFStamp      now;
   Mat            A;
 
@@ -289,8 +291,8 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PetscCheck(A, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
     "-pc_amgf_factor needs real scalars, MUMPS, and an operator of type AIJ, BAIJ or SBAIJ");
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
-  PetscCall(FactorRounded(pc, A, &rounded));
-  if (rounded) error = MAT_FACTOR_NOERROR;
+  PetscCall(FactorOwn(pc, A, &own));
+  if (own) error = MAT_FACTOR_NOERROR;
   else {
     if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
     if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));

@@ -246,8 +246,8 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
   PetscFunctionBegin;
   *negative = -1;
   if (amgf->factor.on && amgf->factor.F) {
-    *negative = 0; /* rounded factors exist of positive definite operators only */
-    if (!amgf->factor.rounded) PetscCall(AMGFMumpsGetInfog(amgf->factor.F, 12, negative));
+    *negative = 0; /* factors of cholesky/ exist of positive definite operators only */
+    if (!amgf->factor.own) PetscCall(AMGFMumpsGetInfog(amgf->factor.F, 12, negative));
     PetscFunctionReturn(0);
   }
   PetscCall(KSPGetPC(amgf->filter, &inner));
