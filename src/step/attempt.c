@@ -547,11 +547,12 @@ static PetscErrorCode AttemptEndedEarly(const StepProblem *p, PetscBool end, Vec
 }
 
 /*
-   Tries whether the undeformed bodies are the solution of a load step to zero load. *rests: true if they are;
-   sim->solved->linearization and *at_u are then linearizations at u = 0.
+   Tries whether the undeformed bodies are the solution of a load step to zero load. vanishes: whether a solve has led
+   to u = 0 up to rounding. *rests: true if they are; sim->solved->linearization and *at_u are then linearizations at
+   u = 0.
 */
-static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
-  ContactLinearization *at_u, PetscBool *rests)
+static PetscErrorCode AttemptUndeformed(StepProblem *p, PetscBool vanishes, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
 {
   Simulation           sim = p->sim;
   ContactLinearization undeformed;
@@ -559,7 +560,7 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
 
   PetscFunctionBegin;
   *rests = PETSC_FALSE;
-  PetscCall(ZeroLoadStepIsDue(p, &due));
+  PetscCall(ZeroLoadStepIsDue(p, vanishes, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(u));
   PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_FALSE, &undeformed));
@@ -567,12 +568,33 @@ static PetscErrorCode AttemptUndeformed(StepProblem *p, Vec u, StepReport *repor
   if (*rests) {
     PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
     sim->solved->linearization = undeformed;
+    PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(AttemptLinearizeGap(sim, p->time, u, PETSC_FALSE, at_u));
     PetscCall(AttemptMeasureGap(p, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
     report->gap_unconverged                                                                = PETSC_FALSE;
     report->contact_updates                                                                = 1;
   } else PetscCall(ContactLinearizationDestroy(&undeformed));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Examines a solve with friction that led to u = 0 up to rounding. Relative to forces of the size of rounding errors,
+   its residuals and those of further contact updates are meaningless. Therefore the undeformed bodies are tried. Bodies
+   that friction holds in a deformed state do not lead there. *rests: true if the undeformed bodies are the solution
+*/
+static PetscErrorCode AttemptVanishing(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
+  ContactLinearization *at_u, PetscBool *rests)
+{
+  const PetscReal vanishing = 1e-4;
+  PetscReal       size, before;
+
+  PetscFunctionBegin;
+  *rests = PETSC_FALSE;
+  if (!p->friction.T || p->sim->control->interrupted) PetscFunctionReturn(0);
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  PetscCall(VecNorm(p->sim->path->u, NORM_INFINITY, &before));
+  if (size <= vanishing * before) PetscCall(AttemptUndeformed(p, PETSC_TRUE, u, report, sol, at_u, rests));
   PetscFunctionReturn(0);
 }
 
@@ -617,7 +639,7 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
 {
   Simulation           sim     = p->sim;
   ContactUpdateSecants secants = {0};
-  PetscBool            end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  PetscBool            end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE, rests;
   PetscReal            held;
   Vec                  u_linearized;
 
@@ -627,11 +649,13 @@ static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, 
   p->by_newton            = PETSC_FALSE;
   PetscCall(PetscArrayzero(sim->history->released, sim->history->npairs * sim->history->nowned));
   PetscCall(AttemptBegin(p, foreseen, u, report, &u_linearized));
-  PetscCall(AttemptUndeformed(p, u, report, sol, at_u, &end));
+  PetscCall(AttemptUndeformed(p, PETSC_FALSE, u, report, sol, at_u, &end));
   while (!end) {
     PetscCall(AttemptSetTolerance(p, foreseen, again, last, u, report));
     PetscCall(AttemptOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u, report,
       sol, at_u, &end, &slid));
+    PetscCall(AttemptVanishing(p, u, report, sol, at_u, &rests));
+    if (rests) break;
     PetscCall(AttemptEndedEarly(p, end, u, report, &again));
     last = (PetscBool)(again && end);
     if (again) {

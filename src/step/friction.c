@@ -178,3 +178,18 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(VecRestoreArrayRead(sol->shear, &f));
   PetscFunctionReturn(0);
 }
+
+/* Stores slips at u, and that there are no friction forces */
+PetscErrorCode FrictionKeepNone(const StepProblem *p, Vec u, ContactSolution *sol)
+{
+  ContactHistory *m = p->sim->history;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
+  if (!p->friction.T) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->friction.t, &sol->shear));
+  PetscCall(VecZeroEntries(sol->shear));
+  PetscCall(VecDuplicate(p->friction.t, &sol->slip));
+  PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
+  PetscFunctionReturn(0);
+}

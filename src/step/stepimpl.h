@@ -136,6 +136,7 @@ PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, V
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
 PETSC_INTERN PetscErrorCode FrictionReleaseOpen(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionKeepNone(const StepProblem *, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* energy.c: objectives of the optimizer */
@@ -185,8 +186,8 @@ PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolu
 PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
 
 /* zero_load_step.c: load steps that return to zero load */
-PETSC_INTERN PetscErrorCode ZeroLoadStepIsDue(const StepProblem *, PetscBool *);
-PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(const StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
+PETSC_INTERN PetscErrorCode ZeroLoadStepIsDue(const StepProblem *, PetscBool vanishes, PetscBool *);
+PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(StepProblem *, ContactLinearization undeformed, Vec u, StepReport *,
   ContactSolution *, PetscBool *rests);
 
 /* forecast.c: starts from states on another mesh */

@@ -8,10 +8,11 @@
 #include "src/state/path.h"
 
 /*
-   Finds whether u = 0 may be the solution. *due: true if loads, temperatures and prescribed displacements are zero at
-   this time, the last state is deformed, no metal has yielded, no bolt is shortened, and no pair has friction.
+   Finds whether u = 0 may be the solution. vanishes: true if a solve has led to u = 0 up to rounding. *due: true if
+   loads, temperatures and prescribed displacements are zero at this time, the last state is deformed, no metal has
+   yielded, and no bolt is shortened. If a pair has friction, which may hold bodies in a deformed state, u must vanish.
 */
-PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
+PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool vanishes, PetscBool *due)
 {
   PetscReal before, displacement, temperature, load = 0.0, moved = 0.0;
   PetscBool stays; /* true if something has slipped or yielded, which is not undone by zero load */
@@ -31,7 +32,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
   if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
   PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
   for (PetscInt b = 0; b < p->sim->bolts.n; ++b) stays = (PetscBool)(stays || p->sim->bolts.now[b] != 0.0);
-  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k)
+  for (PetscInt k = 0; !vanishes && k < p->sim->scene->npairs; ++k)
     stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->sim->scene->pairs[k]));
   *due =
     (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
@@ -42,7 +43,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool *due)
    Sets u = 0 as the solution if the undeformed bodies overlap by no more than rounding. undeformed: linearization at u
    = 0; *rests: true if u = 0 is the solution.
 */
-PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
+PetscErrorCode ZeroLoadStepSolve(StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
   ContactSolution *sol, PetscBool *rests)
 {
   const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->sim->path->largest_increment;
@@ -58,6 +59,10 @@ PetscErrorCode ZeroLoadStepSolve(const StepProblem *p, ContactLinearization unde
   PetscCall(ContactSolutionCreate(undeformed->g, sol));
   PetscCall(VecZeroEntries(sol->pressure));
   PetscCall(VecCopy(undeformed->g, sol->gap));
+  if (p->sim->history->shear) {
+    PetscCall(StepProblemSetContact(p, undeformed, u));
+    PetscCall(FrictionKeepNone(p, u, sol));
+  }
   PetscCall(ContactHistoryStore(p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
   PetscCall(ReportReason(report, PETSC_TRUE,

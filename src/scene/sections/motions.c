@@ -3,7 +3,7 @@
 
 /*
    Marks the displacements of a face as rigid motions (moves) if several of them prescribe all components, so that they
-   are added.
+   are added. A displacement is also added to rotations of the face.
 */
 PetscErrorCode SceneJoinMotions(Scene scene)
 {
@@ -19,7 +19,7 @@ PetscErrorCode SceneJoinMotions(Scene scene)
       PetscCall(PetscStrcmp(here->face, other->face, &same));
       for (PetscInt i = 0; i < 3; ++i) same = (PetscBool)(same && here->fixed[i] && other->fixed[i]);
       same = (PetscBool)(same && e != d && here->at == DISPLACEMENT_FACE);
-      if (same && !SceneRotates(here) && !SceneRotates(other)) here->moves = PETSC_TRUE;
+      if (same && !SceneRotates(here)) here->moves = PETSC_TRUE;
     }
   }
   PetscFunctionReturn(0);
