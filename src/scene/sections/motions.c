@@ -1,9 +1,10 @@
 /* Checks rigid motions. Several rigid motions of a face or body are added, and every rigid body needs one. */
 #include "sectionsimpl.h"
+#include <vector3.h>
 
 /*
    Marks the displacements of a face as rigid motions (moves) if several of them prescribe all components, so that they
-   are added. A displacement is also added to rotations of the face.
+   are added. A displacement is also added to rotations of the face, unless it holds the face in place.
 */
 PetscErrorCode SceneJoinMotions(Scene scene)
 {
@@ -19,7 +20,8 @@ PetscErrorCode SceneJoinMotions(Scene scene)
       PetscCall(PetscStrcmp(here->face, other->face, &same));
       for (PetscInt i = 0; i < 3; ++i) same = (PetscBool)(same && here->fixed[i] && other->fixed[i]);
       same = (PetscBool)(same && e != d && here->at == DISPLACEMENT_FACE);
-      if (same && !SceneRotates(here)) here->moves = PETSC_TRUE;
+      if (same && !SceneRotates(here) && (!SceneRotates(other) || VectorNorm(here->value) > 0.0))
+        here->moves = PETSC_TRUE;
     }
   }
   PetscFunctionReturn(0);
