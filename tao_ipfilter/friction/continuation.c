@@ -196,7 +196,7 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
 {
   PetscFunctionBegin;
   if (set->convex_next) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
-  if (*solved) PetscFunctionReturn(0);
+  if (*solved || (set->convex_next && set->slides)) PetscFunctionReturn(0);
   PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationPivot(set, s, begin, first, steps, solved));
   if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));

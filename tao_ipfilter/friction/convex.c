@@ -316,6 +316,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
   const PetscInt  rounds = 20;
   const PetscReal enough = 1e-3, fine = 1e-2, fair = 0.5;
   const PetscReal hold   = 1e-6; /* relative to the stiffness of the bodies; rounding errors limit smaller values */
+  const PetscReal most   = 0.9;  /* share of the springs' forces in the residual that shows a body without support */
   const PetscReal wanted = PetscSqr(enough * first);
   PetscReal       off = PETSC_INFINITY, least = PETSC_INFINITY;
   PetscBool       late = PETSC_FALSE, end = PETSC_FALSE;
@@ -344,6 +345,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
     least = PetscMin(least, off);
   }
   set->met         = (PetscBool)(off <= wanted);
+  set->slides      = (PetscBool)(!set->met && ConvexDot(s->k, set->Fy, set->Fy) > most * off);
   set->system.hold = 0.0;
   PetscCall(PetscFree3(convex.multiplier, convex.bound, convex.p));
   PetscCall(PetscFree4(convex.f, convex.v, convex.y, convex.centre));

@@ -52,6 +52,7 @@ typedef struct {
   PetscInt     nreleased;      /* number of terms released so far, see stick.c */
   PetscBool    convex_next;    /* Newton's method ends if the residual becomes large; the convex problem follows */
   PetscBool    convex;         /* the convex problem was solved after Newton's method had failed */
+  PetscBool    slides;         /* only the springs of the convex problem hold a body */
   PetscBool    met;            /* whether the last solution satisfies the laws to the requested tolerance */
   PetscReal   *F, *Fy;
   IPTermSystem system;
