@@ -1,41 +1,42 @@
-static char help[] = "Quasi-static contact of elastic bodies: contact SCENE.yaml [options].\n\
-  -refine N            uniform refinements of the scene's level 0\n\
-  -load_steps N        load steps of equal size\n\
-  -contact_updates N   linearizations of the gap a load step at most, until it is true (20); 1: one, true or not\n\
-  -output BASE         write BASE.xmf, BASE.h5 (mesh) and BASE_0001.h5, ... (one a load step) for ParaView,\n\
-                        BASE.csv (a line a load step)\n\
-  -output_gauss        also stress at the quadrature points, BASE_gauss.xmf\n\
-  -checkpoint_every N  after every N load steps write the state to go on from; a run that a signal ends always does\n\
-  -checkpoint FILE     where to; by default BASE_checkpoint.h5 of -output BASE, else <problem>_checkpoint.h5\n\
-  -restart FILE        go on from such a state, also on other ranks, with -refine, with a load program that\n\
-                        goes on otherwise\n\
-  -summary FILE.json   write the run's report\n\
-  -report FILE.html    write one page of the run for people: scene, pictures, curves, forces, accuracy, time; also\n\
-                        writes -output FILE and -summary FILE.json unless these are given\n\
-  -contact_free        also solve the first step without contact, for comparison\n\
-  -accuracy TARGET     choose tolerances, linearizations of the gap and refinement for this relative error in\n\
-                        energy and contact force\n\
-  -accuracy_adaptive   refine for it where the error is, in place of everywhere\n\
-  -accuracy_order 2    give the first mesh elements of that order before it is refined\n\
-  -accuracy_of WHAT    of what: energy; force, and energy (built in); pressure, the largest of each pair, too;\n\
-                        displacement, of the scene's probes, and energy\n\
-  -accuracy_view       what -accuracy chose and attained (part of the table unless -quiet)\n\
-  -effects_view        what the scene called for and what it did not, why, and its share of the time\n\
-  -scene_check         validate the scene, make its mesh, print what would be simulated, and stop\n\
-  -quiet               no line a Newton step and no table\n\
-  -scene_keys          alone: every key of a scene file, its type, unit, meaning and default\n\
-  -version, -help      alone: the release, or this text and every option of PETSc; --help: this text\n\
-  -traceback           PETSc's own error traceback instead of one sentence\n\
-Exit code:\n\
-  0  every load step converged, to a true gap (or one linearization of it was asked for), and an accuracy asked\n\
-     for was reached\n\
-  1  refused: the scene, an option or a file; \"contact: error: ...\"\n\
+static char help[] = "Contact of deformable bodies: contact SCENE.yaml [options]. SCENE.yaml describes the model.\n\
+  -refine N            number of uniform refinements of the mesh\n\
+  -load_steps N        number of load steps of equal size\n\
+  -contact_updates N   largest number of contact updates per load step (20); with 1 the gap is not checked\n\
+  -accuracy ERROR      choose mesh and tolerances for this relative error of energy and contact force\n\
+  -accuracy_adaptive   refine only where the error is large\n\
+  -accuracy_order 2    use elements of order 2 on the first mesh before the mesh is refined\n\
+  -accuracy_of WHAT    quantities of -accuracy, all with the energy: energy; force (default): force of each pair;\n\
+                       pressure: also the largest pressure of each pair; displacement: that of the probes\n\
+Results\n\
+  -output BASE         write fields for ParaView, BASE.xmf with BASE.h5 and BASE_0001.h5, ..., and a table with a\n\
+                       line per load step, BASE.csv\n\
+  -output_gauss        also write the stress at quadrature points, BASE_gauss.xmf\n\
+  -summary FILE.json   write all numbers of the run\n\
+  -report FILE.html    write a page with scene, pictures, curves, forces, accuracy and time. It also writes\n\
+                       -output FILE and -summary FILE.json unless these are given\n\
+  -checkpoint_every N  write a checkpoint after every N load steps. A run that is ended by a signal always does\n\
+  -checkpoint FILE     name of the checkpoint; default BASE_checkpoint.h5, or <problem>_checkpoint.h5 without -output\n\
+  -restart FILE        continue from a checkpoint; ranks, -refine and the later load program may differ\n\
+What is printed\n\
+  -accuracy_view       the meshes that -accuracy chose and their errors, also with -quiet\n\
+  -effects_view        which effects the scene uses, why, and their share of the time\n\
+  -contact_free        a comparison with the first load step without contact\n\
+  -quiet               no line per iteration and no tables\n\
+  -traceback           PETSc's traceback after an error\n\
+Without a run\n\
+  -scene_check         check the scene, build its mesh, print what would be simulated\n\
+  -scene_keys          all keys of scene files with type, unit, meaning and default\n\
+  -version, --help     the version; this text\n\
+  -help                this text and all options of PETSc\n\
+Exit code\n\
+  0  all load steps converged, and a requested accuracy was reached\n\
+  1  invalid scene, option or file; the message begins with \"contact: error:\"\n\
   2  a load step did not converge\n\
-  3  a load step ended with a gap that is not true\n\
-  4  the accuracy asked for was not reached\n\
-  5  ended by a signal that asks for it: SIGINT, SIGTERM, SIGUSR1\n\
+  3  a load step ended with an inconsistent contact gap\n\
+  4  the requested accuracy was not reached\n\
+  5  ended by SIGINT, SIGTERM or SIGUSR1\n\
   6  results could not be written\n\
-  7  no memory, or a fault of the program or of a library\n\n";
+  7  out of memory, or an error in the program or in a library\n\n";
 
 #define _POSIX_C_SOURCE 200809L /* declares dup() and dprintf() */
 #include <petscamgf.h>
@@ -160,7 +161,7 @@ static void AppLeave(const AppError *error)
   } while (!all && MPI_Wtime() - start < patience);
   if (!all) {
     MPI_Comm_rank(error->meeting, &rank);
-    fprintf(stderr, "contact: error on rank %d alone: %s\n", rank, error->sentence);
+    fprintf(stderr, "contact: error on rank %d only: %s\n", rank, error->sentence);
     fflush(NULL);
     MPI_Abort(PETSC_COMM_WORLD, error->end);
   }
@@ -486,7 +487,7 @@ static PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
   PetscCall(AppCheckFiles(app, scene));
   PetscCall(AccuracySetFromOptions(PETSC_COMM_WORLD, &accuracy));
   PetscCheck(!accuracy.target || (!app->restarts && !app->checkpoint_every), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
-    "-accuracy solves the scene anew on each mesh: it goes with neither -checkpoint_every nor -restart");
+    "-accuracy solves the scene on several meshes: it cannot be combined with -checkpoint_every or -restart");
   PetscCall(SimulationCatchSignals());
   do {
     PetscCall(AppSimulate(app, scene, &accuracy, &marks, &forecast, end, &again));

@@ -210,7 +210,7 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 
   Input Parameters:
 + pc - the preconditioner
-- is - global row numbers of the operator, or NULL to forget what was set
+- is - global row numbers of the operator, or NULL to remove the one that was set
 
   Options Database Keys:
 + -pc_amgf_filter_file <file> - binary file that `ISLoad()` reads the set from at the first `PCSetUp()`; by default none
@@ -247,7 +247,7 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
 
   Input Parameters:
 + pc - the preconditioner
-- P  - matrix (n x n_c) of full column rank, rows laid out as the operator's; or NULL to forget what was set
+- P  - matrix (n x n_c) of full column rank, rows laid out as the operator's; or NULL to remove the one that was set
 
   Level: intermediate
 
@@ -293,7 +293,7 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
 }
 
 /*@
-  PCAMGFSetFilterActive - switches the subspace solve off, so that the AMG works alone, or on again
+  PCAMGFSetFilterActive - switches the subspace solve off or on; without it only the AMG is applied
 
   Logically Collective
 
@@ -304,7 +304,7 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
   Level: intermediate
 
   Notes:
-  For operators that do not always need the filter. While it is off, the subspace is not determined, set up or solved.
+  Some operators need no filter. While it is off, the subspace is not determined, set up or solved.
   Earlier set-ups are kept: when the filter is switched on again and subspace and nonzero pattern have not changed, the
   symbolic factorization is reused.
 
@@ -334,8 +334,8 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
   Level: intermediate
 
   Note:
-  For programs that use `PCAMGF` for operators with and without a stiff part. There is never a warning for a subspace
-  that was given but is empty.
+  This is for programs that use `PCAMGF` for operators with and without a stiff part. There is never a warning for a
+  subspace that was given but is empty.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterActive()`
 @*/
@@ -366,12 +366,12 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
   The subspace solve always follows the operator. Default: 1 for `PC_AMGF_BFB`, which an outdated AMG can make
   indefinite; automatic for the other cycles.
 
-  With automatic lag the AMG is rebuilt when, since it was built, either the Krylov iterations per digit of residual
-  reduction (iterations, if the residual is not known) have grown by more than the ratio and two iterations, or a
-  diagonal entry of the operator outside the subspace has grown or shrunk by more than the ratio, or when a solve has
-  failed. The iterations are those of the `KSP` that owns the preconditioner, compared with its first solve after the
-  AMG was built; what a solve with an outdated AMG costs is known when it has ended, so the rebuild comes with the next
-  changed operator.
+  With automatic lag the AMG is rebuilt for the next changed operator if one of these has happened since it was built:
+  a solve has failed; the Krylov iterations for the same residual reduction exceed 1.5 times those of the reference by
+  more than two; a diagonal entry of the operator outside the subspace has changed by more than a factor of 1.5.
+
+  The iterations are those of the `KSP` that owns the preconditioner. The reference is its first solve after the AMG was
+  built. If the residual is not known, the total number of iterations is compared.
 
 .seealso: `PCAMGF`, `PCAMGFSetCycle()`, `PCAMGFGetCounts()`
 @*/
@@ -385,7 +385,7 @@ PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
 }
 
 /*@
-  PCAMGFGetAMGAge - gets how many changed operators the AMG has served since it was built
+  PCAMGFGetAMGAge - gets the number of changed operators for which the AMG was used since it was built
 
   Not Collective
 

@@ -340,7 +340,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 }
 
 /*@
-  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator, by MUMPS, takes the place of the AMG
+  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator by MUMPS replaces the AMG
 
   Logically Collective
 
@@ -384,10 +384,12 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  The factorization is estimated by MUMPS's analysis, which gives its floating-point operations, entries and memory; the
-  AMG by the entries of the operator. Call it before the first `PCSetUp()`, and again when more is known: a change from
-  the AMG to the factorization comes with the next `PCSetUp()`. There is no way back while the pattern of the operator
-  stays. Operators of more than 500,000 unknowns keep the AMG.
+  The cost of the factorization is estimated from MUMPS's analysis, which gives floating-point operations, entries and
+  memory. The cost of the AMG is estimated from the number of entries of the operator.
+
+  Call this function before the first `PCSetUp()`, and again if the expected numbers change. The next `PCSetUp()` may
+  then replace the AMG by a factorization. A factorization is not replaced by the AMG as long as the nonzero pattern of
+  the operator stays the same. Operators of more than 500,000 unknowns always use the AMG.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/
@@ -400,7 +402,7 @@ PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
 }
 
 /*@C
-  PCAMGFGetFactored - gets whether a factorization takes the place of the AMG
+  PCAMGFGetFactored - gets whether a factorization replaces the AMG
 
   Not Collective
 

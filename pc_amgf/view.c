@@ -30,10 +30,10 @@ static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
   }
   if (!amgf->active)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  filter: switched off, the AMG alone; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
+      "  filter: switched off, only the AMG is used; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source],
-      amgf->sub.n, amgf->sub.n ? "" : ", the AMG alone"));
+      amgf->sub.n, amgf->sub.n ? "" : ", only the AMG is used"));
   if (amgf->sub.source == AMGF_SOURCE_FILE)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
   if (amgf->sub.source == AMGF_SOURCE_DETECT)

@@ -61,12 +61,15 @@ with open(os.path.join(TOP, "apps", "main.c")) as file:
     help_text = re.search(r'help\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
 help_text = re.sub(r"\n {5,}(?=\S)", " ", help_text)  # what goes on in a line of its own
 summary, rest = help_text.split("\n", 1)
-options, codes = rest.split("Exit code:\n")
-body = [".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n.SH DESCRIPTION\nThe scene is a YAML file; share/amgf/scenes has some, and README.md there every key.\n.SH OPTIONS"]
+options, codes = rest.split("Exit code\n")
+body = [".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n.SH DESCRIPTION\nThe scene is a YAML file. The folder share/amgf/scenes has examples; its README.md lists all keys.\n.SH OPTIONS"]
 for line in options.splitlines():
+    if not line.startswith(" "):
+        body.append(".SS " + escape(line))
+        continue
     name, text = re.match(r"\s+(\S.*?)\s{2,}(.*)", line).groups()
     body += [".TP\n\\fB" + escape(name) + "\\fR", escape(text)]
-body.append(".PP\nEvery option of PETSc, and those of PCAMGF(3) and TAOIPFILTER(3).\n.SH EXIT STATUS")
+body.append(".PP\nAll options of PETSc, PCAMGF(3) and TAOIPFILTER(3) are accepted, too.\n.SH EXIT STATUS")
 for line in codes.splitlines():
     code, text = line.split(None, 1)
     body += [f".TP\n\\fB{code}\\fR", escape(text)]

@@ -104,10 +104,10 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
 
   Pairs with gap `GAP_NODE` have the gap g_A = (y - x_A).n_A, where y is the closest point, also on edges and at
   vertices, of the mortar facets that face the vertex. J_A = (N2(y) - 1_A) n_A is the derivative for a fixed position of
-  y on the facet and a fixed normal. m_A is as above, so that pressures are comparable. A vertex that lies beside the
-  mortar face by more than a twentieth of a facet has no row. A vertex on the border of the nonmortar face may lie
-  farther beside it, by a fifth of the square root of m_A, because faces that end together bulge. At a border that both
-  faces share, mortar facets are extended beyond the border by at most a fifth of a facet.
+  y on the facet and a fixed normal. m_A is as above, so that pressures are comparable. A vertex outside of the
+  mortar face has no row if it is farther than a twentieth of a facet from it. For a vertex on the border of the
+  nonmortar face this distance is a fifth of the square root of m_A, because faces with a common border bulge. At a
+  common border, mortar facets are extended beyond the border by at most a fifth of a facet.
 
   Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) have as gap the distance of each nonmortar vertex
   from that surface. J is its derivative.

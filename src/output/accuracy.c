@@ -81,7 +81,7 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
 PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscViewer viewer)
 {
   const AccuracyLevel *now = &acc->levels[acc->nlevels - 1];
-  const char          *how = now->unseen                   ? ", more than stress recovery sees"
+  const char          *how = now->unseen                   ? ", larger than stress recovery can detect"
                              : PetscIsNanReal(now->change) ? " by stress recovery alone"
                                                            : "";
 

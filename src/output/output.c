@@ -149,9 +149,9 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
 
    Input Parameters:
 +  output - the output, before OutputWrite()
-.  step   - load steps that are done
+.  step   - number of load steps that the earlier run completed
 .  increment - time of a load step: 1, in dynamics the time step
--  same   - whether the mesh is laid out as that run's; else its fields are not listed beside the new ones
+-  same   - whether mesh and layout are those of the earlier run; otherwise <basename>.xmf does not list its fields
 
    Level: intermediate
 
@@ -208,14 +208,15 @@ static PetscErrorCode OutputRemoveOlder(Output output)
 
    Notes:
    Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure [force/length^2],
-   contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. Over the
-   vertices of a side contact_pressure times contact_area sums to the pair's normal force, contact_force to its force.
-   The area is the part of the vertex's area that the other side covers. A vertex that is covered much less than its
-   neighbours has area and pressure 0; its share is added to theirs. Away from contact the gap and the status are NaN,
-   which ParaView paints in its NaN colour, the others 0.
+   contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. The sum
+   of contact_pressure times contact_area over the vertices of a side is the pair's normal force; the sum of
+   contact_force is its force. The area is the part of the vertex's area that the other side covers. A vertex that is
+   covered much less than its neighbours has area and pressure 0; its share is added to theirs. Outside of the contact
+   faces gap and status are NaN, which ParaView shows in its NaN colour, and the other fields are 0.
 
-   With several pairs each has fields of its own, called contact_pressure_<pair> and so on; those without a name have,
-   at a vertex of several pairs, the mean pressure, the smallest gap, and the sums of areas and forces.
+   With several pairs there are also fields for each pair, called contact_pressure_<pair> and so on. At a vertex of
+   several pairs, the fields without a pair's name have the mean pressure, the smallest gap, and the sums of areas and
+   forces.
 
    Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them:
    strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the

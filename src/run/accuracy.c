@@ -34,15 +34,15 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
 .  comm - the communicator
 
    Output Parameter:
-.  acc - the plan; its target is 0 where -accuracy is not given
+.  acc - the plan; its target is 0 if -accuracy is not given
 
    Options Database Keys:
-+  -accuracy <target>         - relative error wanted in energy and contact force
-.  -accuracy_of <force>       - energy: of the energy alone; force: of each pair's force too; pressure: of each pair's
-                                largest pressure too;
-                                displacement: of energy and the displacements of the scene's probes
-.  -accuracy_adaptive <bool>  - refine cells where the error is, in place of all of them; default false
-.  -accuracy_share <0.1>      - share of the target that the solver's error may have
++  -accuracy <target>         - requested relative error in energy and contact force
+.  -accuracy_of <force>       - quantities that must have this error. energy: the energy; force: also each pair's
+                                force; pressure: also each pair's largest pressure; displacement: the energy and the
+                                displacements of the scene's probes
+.  -accuracy_adaptive <false> - refine only the cells with a large error
+.  -accuracy_share <0.1>      - largest error of the solver, as a fraction of the target
 .  -accuracy_order <2>        - order of all bodies from the second mesh on. The second mesh then has the cells of the
                                 first. Default: the order of the scene
 -  -accuracy_max_dofs <1e6>   - largest number of unknowns of a mesh
@@ -350,7 +350,7 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   else if (!*refine)
     PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
       "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT,
-      single ? "one mesh alone gives no error estimate; " : "", (double)next, acc->max_dofs));
+      single ? "a single mesh gives no error estimate; " : "", (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
 

@@ -27,7 +27,8 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
       body->name, body->order);
     PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX || SceneBodyIsSurface(body), sim->comm,
       PETSC_ERR_SUP,
-      "-accuracy_adaptive: the rigid body \"%s\" has no error of stress to refine it by, and would keep its facets: "
+      "-accuracy_adaptive: the rigid body \"%s\" has no stress error by which it could be refined, so that its facets "
+      "would remain: "
       "leave the option out",
       body->name);
   }

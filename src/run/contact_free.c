@@ -51,9 +51,11 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 }
 
 /*@C
-   SimulationContactFree - Solves the first load step's elastic problem with its contact pairs replaced by a given
-   pressure on their faces, by PCG with the AMG alone to 1e-10 in the preconditioned norm, and puts iterations, time,
-   condition number beta and the bound sqrt(2 (beta+3)/beta) iterations into the report.
+   SimulationContactFree - Solves the elastic problem of the first load step without contact, for comparison
+
+   A uniform pressure on the contact faces replaces the contact pairs. PCG with the AMG solves the problem to 1e-10 in
+   the preconditioned norm. The report gets the number of iterations, the time, the condition number beta, and the bound
+   sqrt(2 (beta + 3)/beta) times the iterations for a solve with contact.
 
    Collective
 
@@ -63,8 +65,8 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
    Level: advanced
 
    Notes:
-   beta is the ratio of the extreme Ritz values of CG. Every body must be held without contact; where one is not the
-   solve does not converge and the report keeps iterations = 0.
+   beta is the ratio of the extreme Ritz values of CG. Every body must be held without contact. Otherwise the solve does
+   not converge, and the number of iterations in the report is 0.
 
 .seealso: `SimulationGetReport()`, `PCAMGF`
 @*/

@@ -127,7 +127,8 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
     filtered += report->steps[s].filtered_systems;
   }
   if (sim->contact && !systems && report->nsteps)
-    PetscCall(EffectSet(report, "AMG filter", PETSC_FALSE, "no system holds constraints: they are solved beside it"));
+    PetscCall(EffectSet(report, "AMG filter", PETSC_FALSE,
+      "not needed: the subspace method solves the contact constraints separately"));
   if (sim->contact && systems)
     PetscCall(EffectSet(report, "AMG filter", (PetscBool)(filtered > 0),
       "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));

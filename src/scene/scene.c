@@ -30,8 +30,8 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
     PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
   PetscCall(PetscOptionsInt("-load_steps", "Number of equal load steps into which the scene's load program is divided",
     "SceneLoad", nsteps, &nsteps, &set));
-  PetscCall(PetscOptionsEnum("-model", "What a load step minimizes", "SceneLoad", StepModels, (PetscEnum)scene->model,
-    (PetscEnum *)&scene->model, NULL));
+  PetscCall(PetscOptionsEnum("-model", "Function that a load step minimizes", "SceneLoad", StepModels,
+    (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
   PetscCall(PetscOptionsInt("-contact_updates", "Largest number of contact updates per load step", "SceneLoad",
     scene->contact_updates, &scene->contact_updates, NULL));
   PetscCall(PetscOptionsInt("-displacement_bounds", "First load step with bounded displacements; 0: none", "SceneLoad",

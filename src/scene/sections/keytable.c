@@ -206,7 +206,7 @@ static const SceneKey contact_rows[] = {
   TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required, except in `auto`",
     "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
   TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
-    "in place of `mortar` and `nonmortar`: name of a face, or of a body (its whole surface), that comes into contact "
+    "instead of `mortar` and `nonmortar`: name of a face, or of a body (its whole surface), that comes into contact "
     "with itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
