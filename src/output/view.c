@@ -143,8 +143,8 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   }
   if (n)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "MUMPS instead of AMG, from load step %" PetscInt_FMT
-      " on: factorizations of the stiffness matrix count as set-ups, solves with the factors as applications\n",
+      "MUMPS replaced AMG from load step %" PetscInt_FMT " on: \"amg set-ups\" counts factorizations, \"amg applic\" "
+      "solves with the factors\n",
       first));
   PetscFunctionReturn(0);
 }

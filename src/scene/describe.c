@@ -144,7 +144,7 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
     nnodes += mesh->nnodes;
   }
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "  in all %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes,
+    "  total: %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes,
     order > 1 ? "nodes" : "vertices", 3 * nnodes));
   PetscCall(PetscFree(meshes));
   PetscFunctionReturn(0);
@@ -467,9 +467,9 @@ static PetscErrorCode DescribeEffects(Scene scene, const BodyChoice choices[], P
     if (MaterialIsFinite(&scene->bodies[b].material)) finite = PETSC_TRUE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
   PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs,
-    "no contact; one linear solve a step where every body is linear"));
+    "no contact; one linear solve per load step if every body is linear"));
   if (scene->npairs)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%" PetscInt_FMT " a load step\n", "gap linearizations",
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24sat most %" PetscInt_FMT " per load step\n", "contact updates",
       scene->contact_updates));
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
   PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));

@@ -29,7 +29,7 @@ timeout -s KILL 120 "$contact" nested.yaml -quiet || echo "friction over hanging
 "$contact" hertz.yaml -quiet -refine 1 -summary uniform.json
 "$contact" hertz_by_hand.yaml -quiet -summary hand.json
 "$PYTHON" "$AMGF_DIR/tests/run/refinement.py" judge
-"$contact" slide.yaml -scene_check | sed -n '/^Bodies/,/in all/p; /^Refinements/,/hang/p'
+"$contact" slide.yaml -scene_check | sed -n '/^Bodies/,/  total:/p; /^Refinements/,/hang/p'
 # try NAME FROM TO: the sentence where a scene has something else
 try() {
   sed "s/$2/$3/" slide.yaml > other.yaml

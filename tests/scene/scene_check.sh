@@ -6,7 +6,7 @@ for scene in "$AMGF_DIR"/share/scenes/*.yaml; do
   codes=$?
   timeout 600 mpiexec --oversubscribe -n 3 "$contact" "$scene" -scene_check > three 2>&1
   codes="$codes $?"
-  echo "$(basename "$scene"): exit $codes, $(cmp -s one three && echo same || echo different), solved: $(grep -c 'Load step 1' one),$(grep 'in all' one)"
+  echo "$(basename "$scene"): exit $codes, $(cmp -s one three && echo same || echo different), solved: $(grep -c 'Load step 1' one),$(grep '  total:' one)"
 done
 "$contact" "$AMGF_DIR/share/scenes/ironing.yaml" -scene_check -refine 0 -load_steps 20
 sed 's/nonmortar: die.outer/nonmortar: die.bottom/' "$AMGF_DIR/share/scenes/ironing.yaml" > wrong.yaml
