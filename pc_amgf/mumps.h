@@ -40,58 +40,17 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
   PetscFunctionReturn(0);
 }
 
-/* Sets an integer control parameter of MUMPS. Does nothing without MUMPS. */
-static inline PetscErrorCode AMGFMumpsSetIcntl(Mat F, PetscInt icntl, PetscInt value)
-{
-  PetscFunctionBegin;
+/* Control parameters and results of MUMPS. Without MUMPS the parameters are ignored, and the results are 0. */
 #if defined(AMGF_HAVE_MUMPS)
-  PetscCall(MatMumpsSetIcntl(F, icntl, value));
+  #define AMGFMumpsSetIcntl  MatMumpsSetIcntl
+  #define AMGFMumpsSetCntl   MatMumpsSetCntl
+  #define AMGFMumpsGetInfog  MatMumpsGetInfog
+  #define AMGFMumpsGetRinfog MatMumpsGetRinfog
 #else
-  (void)F;
-  (void)icntl;
-  (void)value;
+  #define AMGFMumpsSetIcntl(F, icntl, value)   ((void)(F), (void)(icntl), (void)(value), 0)
+  #define AMGFMumpsSetCntl(F, cntl, value)     ((void)(F), (void)(cntl), (void)(value), 0)
+  #define AMGFMumpsGetInfog(F, infog, value)   ((void)(F), (void)(infog), *(value) = 0, 0)
+  #define AMGFMumpsGetRinfog(F, rinfog, value) ((void)(F), (void)(rinfog), *(value) = 0.0, 0)
 #endif
-  PetscFunctionReturn(0);
-}
-
-static inline PetscErrorCode AMGFMumpsSetCntl(Mat F, PetscInt cntl, PetscReal value)
-{
-  PetscFunctionBegin;
-#if defined(AMGF_HAVE_MUMPS)
-  PetscCall(MatMumpsSetCntl(F, cntl, value));
-#else
-  (void)F;
-  (void)cntl;
-  (void)value;
-#endif
-  PetscFunctionReturn(0);
-}
-
-/* Gets a global integer result of MUMPS; 0 without MUMPS */
-static inline PetscErrorCode AMGFMumpsGetInfog(Mat F, PetscInt infog, PetscInt *value)
-{
-  PetscFunctionBegin;
-#if defined(AMGF_HAVE_MUMPS)
-  PetscCall(MatMumpsGetInfog(F, infog, value));
-#else
-  (void)F;
-  (void)infog;
-  *value = 0;
-#endif
-  PetscFunctionReturn(0);
-}
-
-static inline PetscErrorCode AMGFMumpsGetRinfog(Mat F, PetscInt rinfog, PetscReal *value)
-{
-  PetscFunctionBegin;
-#if defined(AMGF_HAVE_MUMPS)
-  PetscCall(MatMumpsGetRinfog(F, rinfog, value));
-#else
-  (void)F;
-  (void)rinfog;
-  *value = 0.0;
-#endif
-  PetscFunctionReturn(0);
-}
 
 #endif
