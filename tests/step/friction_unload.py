@@ -44,12 +44,27 @@ contact:
   - c: {mortar: flat.surface, nonmortar: ball.surface, friction: 0.3}
 """,
 }
+JAMMED = """bodies:
+  - left: {shape: rigid_plane, point: [0, 0, 0], normal: [0.9781476007338057, 0, 0.20791169081775934]}
+  - right: {shape: rigid_plane, point: [0, 0, 0], normal: [-0.9781476007338057, 0, 0.20791169081775934]}
+  - key: {shape: wedge, axis: y, corners: [0, 0, 1, -0.21255656167002213, 1, 0.21255656167002213], extent: [0, 0.5], side_cells: 4, length_cells: 2, young: 1e4, poisson: 0.3}
+displacements:
+  - fl: {body: left, value: [0, 0, 0]}
+  - fr: {body: right, value: [0, 0, 0]}
+symmetry: [key.lmin]
+forces:
+  - push: {face: key.side2, value: [0, 0, -100]}
+load: {factors: [0.5, 1, 0.5, 0]}
+contact:
+  - l: {mortar: left.surface, nonmortar: key.side1, friction: 0.4}
+  - r: {mortar: right.surface, nonmortar: key.side3, friction: 0.4}
+"""
 UNLOADED = {"block": [2, 4], "die": [1], "ball": [2]}  # load steps, from 0, that end without load
 AGAIN = {"block": 3, "die": 4, "ball": 4}  # load steps that end as the first one
 
 
 def scenes():
-    for name, text in SCENES.items():
+    for name, text in (SCENES | {"key": JAMMED}).items():
         with open(name + ".yaml", "w") as file:
             file.write(text)
 
@@ -74,3 +89,6 @@ if __name__ == "__main__":
     else:
         for file in (*SCENES, "die_2"):
             check_run(file, file.split("_")[0])
+        run = load("key")
+        # ten load steps lead to 10.56
+        say("a wedge that friction holds keeps its force without load", run["exit_code"] == 0 and abs(normal_force(run["steps"][-1]) / 10.56 - 1) < 0.05, [normal_force(step) for step in run["steps"]])
