@@ -58,11 +58,15 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
 /* Returns a text that says how the overlap differs from what the scene declares; NULL: it does not differ */
 static const char *StartJudge(const SceneContactPair *pair, const PairStart *start)
 {
-  if (start->overlap == 0.0) return pair->interference > 0.0 ? "which the scene says they do" : NULL;
+  if (start->overlap == 0.0)
+    return pair->interference > 0.0
+             ? "although the pair declares an interference: correct the positions, or remove the key"
+             : NULL;
   if (pair->interference == 0.0)
-    return "which the scene does not say: interference: true, or the largest overlap that is meant";
+    return "which the pair does not declare: move the bodies apart, or set interference to true or to the largest "
+           "overlap";
   return -start->least > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * pair->interference
-           ? "more than the interference that the scene allows"
+           ? "more than the interference that the pair declares: increase it, or correct the positions"
            : NULL;
 }
 
