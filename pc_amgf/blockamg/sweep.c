@@ -64,7 +64,7 @@ AMGF_CLONES static void SweepUp4(const BlockLevel *l)
 /* BlockSweepDown_Private - computes x = (L + D)^-1 b and t = L^T x */
 void BlockSweepDown_Private(const BlockLevel *l)
 {
-  memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
+  if (l->nb) memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
   if (l->B == 3) SweepDown3(l);
   else SweepDown4(l);
 }
@@ -72,7 +72,7 @@ void BlockSweepDown_Private(const BlockLevel *l)
 /* BlockSweepUp_Private - computes x = (D + L^T)^-1 (b - L x) */
 void BlockSweepUp_Private(const BlockLevel *l)
 {
-  memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
+  if (l->nb) memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
   if (l->B == 3) SweepUp3(l);
   else SweepUp4(l);
 }

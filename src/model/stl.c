@@ -55,7 +55,7 @@ static PetscErrorCode StlNumberCorners(PetscInt n, const PetscReal x[], PetscRea
     record[i].at = i;
     for (PetscInt c = 0; c < 3; ++c) record[i].key[c] = (PetscInt64)PetscFloorReal(x[3 * i + c] / unit + 0.5);
   }
-  qsort(record, (size_t)(3 * n), sizeof(*record), StlCompare);
+  if (n) qsort(record, (size_t)(3 * n), sizeof(*record), StlCompare);
   for (PetscInt i = 0; i < 3 * n; ++i) {
     for (PetscInt c = 0; c < 3 && i; ++c) {
       if (record[i].key[c] == record[i - 1].key[c]) continue;
@@ -92,7 +92,7 @@ static PetscErrorCode StlFindRim(const char file[], const StlFacets *f, PetscRea
     record[i] = (StlRecord){{PetscMin(a, b), PetscMax(a, b), 0}, i};
     rim[i]    = PETSC_FALSE;
   }
-  qsort(record, (size_t)(3 * f->n), sizeof(*record), StlCompare);
+  if (f->n) qsort(record, (size_t)(3 * f->n), sizeof(*record), StlCompare);
   for (PetscInt i = 0, next; i < 3 * f->n; i = next) {
     char one[32], two[32];
 

@@ -28,7 +28,7 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
   PetscReal      number;
 
   PetscFunctionBegin;
-  PetscCall(PetscPushErrorHandler(PetscIgnoreErrorHandler, NULL));
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   if (kind == OPTION_SWITCH) ierr = PetscOptionsStringToBool(value, &truth);
   if (kind == OPTION_COUNT) ierr = PetscOptionsStringToInt(value, &count);
   if (kind == OPTION_NUMBER) ierr = PetscOptionsStringToReal(value, &number);

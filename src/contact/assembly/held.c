@@ -45,7 +45,7 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 {
   PetscInt kept = 0;
 
-  qsort(places, (size_t)*n, sizeof(*places), HeldPlaceCompare);
+  if (*n) qsort(places, (size_t)*n, sizeof(*places), HeldPlaceCompare);
   for (PetscInt i = 0; i < *n; ++i) {
     if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding)
       places[kept++] = places[i];

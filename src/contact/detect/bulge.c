@@ -35,7 +35,7 @@ static void BulgeSort(const MeshSurfaces *s, BulgeCorner corner[])
     for (PetscInt c = 0; c < 3; ++c)
       corner[i].key[1 + c] = (PetscInt64)PetscFloorReal((s->x[3 * i + c] - s->x[c]) / (BULGE_SAME * size) + 0.5);
   }
-  qsort(corner, (size_t)(4 * s->n), sizeof(*corner), BulgeCompare);
+  if (s->n) qsort(corner, (size_t)(4 * s->n), sizeof(*corner), BulgeCompare);
 }
 
 /* Computes the normals of the surface at the corners of all facets. normal: 12 numbers for each facet */

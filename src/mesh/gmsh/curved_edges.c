@@ -66,7 +66,7 @@ static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
     PetscCall(PetscSortInt(4, keys[i].key));
     keys[i].at = i;
   }
-  qsort(keys, (size_t)n, sizeof(*keys), ArcCompareKeys);
+  if (n) qsort(keys, (size_t)n, sizeof(*keys), ArcCompareKeys);
   PetscCall(PetscMalloc2(4 * n, &s->vertex, 4 * n, &s->twin));
   s->ncorners = 0;
   s->x        = grid->coordinates;
@@ -300,7 +300,7 @@ PetscErrorCode ShapeGridProject(ShapeGrid *grid)
   PetscCall(ArcFindSurface(grid, &s));
   PetscCall(PetscMalloc2(s.ncorners, &edges, 3 * s.ncorners, &off));
   for (PetscInt i = 0; i < s.ncorners; ++i) edges[i] = ArcEdgeKey(s.vertex[i], s.vertex[ArcAfter(i)], i);
-  qsort(edges, (size_t)s.ncorners, sizeof(*edges), ArcCompareKeys);
+  if (s.ncorners) qsort(edges, (size_t)s.ncorners, sizeof(*edges), ArcCompareKeys);
   ArcFindTwins(edges, &s);
   if (ArcBendEdges(&s, edges, off)) {
     PetscCall(PetscMalloc1(81 * grid->ncells, &grid->curve));

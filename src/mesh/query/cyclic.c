@@ -199,7 +199,7 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
     for (PetscInt d = 0; d < 3; ++d) x[d] += VectorDot(turn[d], r);
   }
   PetscCall(RecordsGather(comm, 4, &face.n, &face.nodes));
-  qsort(face.nodes, (size_t)face.n, sizeof(CyclicNode), CyclicCompare);
+  if (face.n) qsort(face.nodes, (size_t)face.n, sizeof(CyclicNode), CyclicCompare);
   PetscCall(PetscMalloc1(*n, nodes));
   PetscCall(PetscMalloc1(*n, images));
   PetscCall(CyclicMatch(cut, axis, &face, cyclic_same * size, *n, to, *nodes, *images, &lost));

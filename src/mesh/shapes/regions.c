@@ -89,7 +89,7 @@ PetscErrorCode ShapeBoundaryCreate(const ShapeGrid *grid, const PetscReal x[], S
       vertex[a] = grid->cells[grid->ncorners * (i / nsides) + RegionSide(grid->ncorners, i % nsides, a)];
     PetscCall(RegionFacetKey(vertex, i, &keys[i]));
   }
-  qsort(keys, (size_t)n, sizeof(*keys), RegionCompareSides);
+  if (n) qsort(keys, (size_t)n, sizeof(*keys), RegionCompareSides);
   b->n = 0;
   for (PetscInt i = 0; i < n; ++i) {
     const PetscBool before = (PetscBool)(i && !RegionCompareKeys(&keys[i], &keys[i - 1]));
@@ -166,7 +166,7 @@ PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeB
     edges[n].key[1] = PetscMax(from, to);
     edges[n++].at   = i / 4;
   }
-  qsort(edges, (size_t)n, sizeof(*edges), RegionCompareKeys);
+  if (n) qsort(edges, (size_t)n, sizeof(*edges), RegionCompareKeys);
   for (PetscInt i = 0, end; i < n; i = end) {
     PetscReal n1[3], n2[3];
 
@@ -197,7 +197,7 @@ PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *b, const ShapeGrid *
     PetscCall(RegionFacetKey(&b->vertex[4 * f], b->region[f], &keys[f]));
     ++count[b->region[f]];
   }
-  qsort(keys, (size_t)b->n, sizeof(*keys), RegionCompareKeys);
+  if (b->n) qsort(keys, (size_t)b->n, sizeof(*keys), RegionCompareKeys);
   for (PetscInt f = 0; f < nfaces; ++f) name[f] = PETSC_DECIDE;
   for (PetscInt q = 0; q < grid->nfacets; ++q) {
     const PetscInt   f = grid->facetface[q];
@@ -227,7 +227,7 @@ PetscErrorCode ShapeBoundaryUseFaces(const ShapeGrid *grid, PetscInt nfaces, Sha
   PetscCall(PetscMalloc1(grid->nfacets, &keys));
   for (PetscInt q = 0; q < grid->nfacets; ++q)
     PetscCall(RegionFacetKey(&grid->facets[4 * q], grid->facetface[q], &keys[q]));
-  qsort(keys, (size_t)grid->nfacets, sizeof(*keys), RegionCompareKeys);
+  if (grid->nfacets) qsort(keys, (size_t)grid->nfacets, sizeof(*keys), RegionCompareKeys);
   b->nregions = nfaces;
   for (PetscInt f = 0; f < b->n; ++f) {
     RegionKey        key;
