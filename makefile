@@ -125,7 +125,7 @@ help:
 	@echo '                       TESTS="scene_* output_*" runs some, TIMEOUT=300 [s] is the limit of one run'
 	@echo 'make check-all       the same and the long tests: finer meshes, published figures, more numbers of ranks'
 	@echo 'make stress          the cases that break solvers, 2 hours: tables in build/stress/report.md; STRESS="units --only *hertz*" runs some, STRESS=--resume the rest'
-	@echo '                       STRESS=nlp: 490 nonlinear programs, and 500 drawn at random, and other forms of them, beside IPOPT, 20 minutes, in tests/stress/nlp.md, nlp_random.md, nlp_forms.md'
+	@echo '                       STRESS=nlp: 560 nonlinear programs, and 500 drawn at random, and other forms of them, beside IPOPT, 20 minutes, in tests/stress/nlp.md, nlp_random.md, nlp_forms.md'
 	@echo '                       STRESS=grid: obstacle problems to 1000 x 1000 unknowns beside TRON and IPOPT, an hour, in tests/stress/grid.md'
 	@echo '                       STRESS=control: distributed control beside IPOPT, a minute'
 	@echo 'make bench           what accuracy costs in time, an hour at most: pages, tables and figures in build; bench-full: at full size, three hours'

@@ -13,6 +13,9 @@ TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/
 FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
 linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
+# $(call small_scenes,TREE,PROGRAM...): the small scenes by the program of that tree, in a folder there
+small_scenes    = mkdir -p $(1)/scenes && cd $(1)/scenes && AMGF_DIR=$(CURDIR) OMP_NUM_THREADS=1 bash $(CURDIR)/tests/lib/small_scenes.sh $(2) $(CURDIR)/$(1)/bin/contact
+
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
@@ -22,11 +25,13 @@ debug:
 	@$(call linked_tree,build/debug)
 	@env -u PKG_CONFIG_PATH $(MAKE) --no-print-directory -C build/debug check TIMEOUT=600 $(DEBUG_PETSC) CFLAGS='-g -O1' TESTS='$(DEBUG_TESTS)'
 
+# SANITIZE_ERRORS='*': all quick tests; those fail that load the plugin into a program built without sanitizers, as Python is
 sanitize:
 	@$(call linked_tree,build/sanitize)
 	@LSAN_OPTIONS=suppressions=$(SUPPRESSIONS)/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=print_stacktrace=1; export LSAN_OPTIONS UBSAN_OPTIONS; \
 	  run='$(MAKE) --no-print-directory -C build/sanitize check TIMEOUT=600' && \
 	  ASAN_OPTIONS=fast_unwind_on_malloc=0 $$run CFLAGS='$(SANITIZE_FLAGS)' TESTS='$(SANITIZE_TESTS)' && \
+	  (export ASAN_OPTIONS=fast_unwind_on_malloc=0 && $(call small_scenes,build/sanitize)) && \
 	  ASAN_OPTIONS=fast_unwind_on_malloc=0:detect_leaks=0 $$run CFLAGS='$(SANITIZE_FLAGS)' TESTS='$(SANITIZE_ERRORS)'
 
 # Instructions of AVX-512 are beyond valgrind, and its threads take turns
@@ -38,6 +43,7 @@ memcheck:
 	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -scene_check > /dev/null
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -quiet
+	@$(call small_scenes,build/memcheck,env $(MEMCHECK))
 	mpiexec --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n 2 env $(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -quiet
 	@echo 'memcheck: clean'
 

@@ -320,7 +320,8 @@ static PetscErrorCode StartWarmBounds(Tao tao)
 
 /*
    Sets the multipliers of the bounds to mu / t if the caller gave none. Without inequality constraints mu is chosen as
-   well.
+   well: from the energy of the unknowns, or, if the objective is linear, from the work of its gradient on the way to
+   the bounds.
 */
 static PetscErrorCode StartBounds(Tao tao)
 {
@@ -334,8 +335,9 @@ static PetscErrorCode StartBounds(Tao tao)
   if (moved) ip->mu = IP_PREDICT_MU * mean;
   else if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-    PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
-    ip->mu = IP_PREDICT_MU * (mean > 0.0 && !ip->stiff->flat ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
+    if (ip->stiff->flat) PetscCall(BoundsErrorBound(tao, &mean));
+    else PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
+    ip->mu = IP_PREDICT_MU * (mean > 0.0 ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
   PetscFunctionReturn(0);

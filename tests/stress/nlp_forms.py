@@ -8,6 +8,7 @@ import os
 
 from nlp import HERE, KINDS, PROBLEMS, counts, differences, judge, parse, run, shipped, solvers
 from nlp_problems import UNBOUNDED, Problem
+from nlp_textbook import TEXTBOOK
 
 # Minima of these problems beside the known ones, to which other forms lead: the gradient of the Lagrangian vanishes there to 1e-5, and its Hessian is positive
 # definite on the tangent space (HS23, S325: two rows active, both multipliers positive)
@@ -75,7 +76,7 @@ def main():
     lines = ["# Nonlinear programs in other forms: TAOIPFILTER beside IPOPT", "", " ".join(__doc__.split("\n", 2)[2].split()) + " Judged as in nlp.md.", ""]
     asked = [s for s in solvers(args.folder) if s.name in ("ipfilter", "IPOPT")]
     for form, rewrite in FORMS.items():
-        problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS]) if fits(p)]
+        problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS, *TEXTBOOK]) if fits(p)]
         results = {s.name: run(s, problems, args.folder, args.limit) for s in asked}
         for found in results.values():
             for p in problems:

@@ -65,6 +65,8 @@ static const Case cases[] = {
   {{"cubic row, objective as an unknown", "x3", "x3-x1", "(x1-1)^3-x2", "1: 0: :", "25000 25000 25000", 1.0,
      NLP_REACHED, NULL},
     ""},
+  {{"linear objective, far from its bounds", "x1", "", "(x1-1)^3-x2-1", "1: 0:", "25000 25000", 2.0, NLP_SOLVED, NULL},
+    ""},
   {{"square row", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL}, ""},
   {{"no number in the start", "x1^2+x2^2", "x1+x2-1", "", "", "nan 1", 0.5, NLP_DEGENERATE, NULL}, ""},
 };
