@@ -16,6 +16,9 @@ typedef struct {
   PetscInt   n, nrays, nmax;
   PetscReal *ray, *normal; /* rays; the parts of the rays from the rows' normal forces */
   PetscReal *amount;       /* factor of each ray [force] */
+  PetscInt   ndone, ncap;  /* number of rays in `across` and `share`; number for which these have space */
+  PetscReal *across;       /* orthogonal rays of unit length */
+  PetscReal *share;        /* of each ray its components along these, k + 1 for ray k */
 } ContactCone;
 
 /* The row that resists a motion most, and its friction; the same on all ranks */
@@ -38,6 +41,8 @@ static PetscErrorCode ConeFree(ContactCone *cone)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
+  PetscCall(PetscFree(cone->across));
+  PetscCall(PetscFree(cone->share));
   PetscFunctionReturn(0);
 }
 
@@ -149,33 +154,52 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-/* Computes the factors of the rays, of any sign, that leave the smallest remainder of the load, by orthogonalization */
-static PetscErrorCode ConeSolve(const ContactCone *cone, const PetscReal load[], PetscReal amount[])
+static PetscReal *ConeShare(const ContactCone *cone, PetscInt ray)
 {
-  const PetscInt  n = cone->n, nrays = cone->nrays;
+  return cone->share + ray * (ray + 1) / 2;
+}
+
+/* Orthogonalizes the rays that were added since the last call */
+static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
+{
+  const PetscInt  n         = cone->n;
   const PetscReal dependent = 1e-12;
-  PetscReal      *across, *share;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(n * nrays, &across, nrays * nrays, &share));
-  PetscCall(PetscArraycpy(across, cone->ray, n * nrays));
-  for (PetscInt k = 0; k < nrays; ++k) {
-    PetscReal *q = &across[n * k], whole = ConeDot(n, q, q), rest;
+  if (cone->ncap < cone->nrays) {
+    cone->ncap = 2 * cone->nrays;
+    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(n * cone->ncap), &cone->across));
+    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(cone->ncap * (cone->ncap + 1) / 2), &cone->share));
+  }
+  for (; cone->ndone < cone->nrays; ++cone->ndone) {
+    const PetscInt k = cone->ndone;
+    PetscReal     *q = &cone->across[n * k], *share = ConeShare(cone, k), whole, rest;
 
+    PetscCall(PetscArraycpy(q, &cone->ray[n * k], n));
+    whole = ConeDot(n, q, q);
     for (PetscInt j = 0; j < k; ++j) {
-      share[nrays * k + j] = ConeDot(n, q, &across[n * j]);
-      for (PetscInt i = 0; i < n; ++i) q[i] -= share[nrays * k + j] * across[n * j + i];
+      share[j] = ConeDot(n, q, &cone->across[n * j]);
+      for (PetscInt i = 0; i < n; ++i) q[i] -= share[j] * cone->across[n * j + i];
     }
-    rest                 = ConeDot(n, q, q);
-    share[nrays * k + k] = rest > dependent * whole ? PetscSqrtReal(rest) : 0.0;
-    for (PetscInt i = 0; i < n; ++i) q[i] = share[nrays * k + k] > 0.0 ? q[i] / share[nrays * k + k] : 0.0;
+    rest     = ConeDot(n, q, q);
+    share[k] = rest > dependent * whole ? PetscSqrtReal(rest) : 0.0;
+    for (PetscInt i = 0; i < n; ++i) q[i] = share[k] > 0.0 ? q[i] / share[k] : 0.0;
   }
-  for (PetscInt k = nrays - 1; k >= 0; --k) {
-    amount[k] = -ConeDot(n, load, &across[n * k]);
-    for (PetscInt j = k + 1; j < nrays; ++j) amount[k] -= share[nrays * j + k] * amount[j];
-    amount[k] = share[nrays * k + k] > 0.0 ? amount[k] / share[nrays * k + k] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Computes the factors of the rays, of any sign, that leave the smallest remainder of the load */
+static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], PetscReal amount[])
+{
+  PetscFunctionBegin;
+  PetscCall(ConeOrthogonalize(cone));
+  for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
+    const PetscReal own = ConeShare(cone, k)[k];
+
+    amount[k] = -ConeDot(cone->n, load, &cone->across[cone->n * k]);
+    for (PetscInt j = k + 1; j < cone->nrays; ++j) amount[k] -= ConeShare(cone, j)[k] * amount[j];
+    amount[k] = own > 0.0 ? amount[k] / own : 0.0;
   }
-  PetscCall(PetscFree2(across, share));
   PetscFunctionReturn(0);
 }
 
@@ -187,7 +211,10 @@ static void ConeDrop(ContactCone *cone)
 
   for (PetscInt k = 0; k < cone->nrays; ++k) largest = PetscMax(largest, cone->amount[k]);
   for (PetscInt k = 0; k < cone->nrays; ++k) {
-    if (cone->amount[k] <= 1e-14 * largest) continue;
+    if (cone->amount[k] <= 1e-14 * largest) {
+      cone->ndone = PetscMin(cone->ndone, kept);
+      continue;
+    }
     cone->amount[kept] = cone->amount[k];
     for (PetscInt i = 0; i < cone->n; ++i) {
       cone->ray[cone->n * kept + i]    = cone->ray[cone->n * k + i];
