@@ -503,8 +503,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
      change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
      may be the cause, and the tolerance is at most a tenth of the previous one.
 
-     The tolerance of the load step is used for the last update, also if the error of the last two updates lets expect
-     that the next one is the last, for a start from a forecast, with weak springs (which would carry the residual), and
+     The tolerance of the load step is used for the last update, without friction also if the errors of the last two
+     updates let expect that the next one is the last, for a start from a forecast, with weak springs (which would carry the residual), and
      if the gap tolerance is near rounding, so that results are reproducible.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
@@ -527,7 +527,8 @@ static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, Pe
   if (again) PetscFunctionReturn(0);
   if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
     p->tolerance = PetscMin(p->tolerance, fraction * before);
-  if (report->contact_updates > 1 && PetscSqr(report->update_error) <= allowed * size * p->gap_change)
+  if (report->contact_updates > 1 && !sim->solved->linearization->slip &&
+      PetscSqr(report->update_error) <= allowed * size * p->gap_change)
     p->tolerance = 0.0;
   p->gap_change = report->update_error;
   PetscFunctionReturn(0);
