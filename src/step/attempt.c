@@ -504,8 +504,8 @@ static PetscErrorCode AttemptOnce(StepProblem *p, PetscBool resume, Vec u_linear
      may be the cause, and the tolerance is at most a tenth of the previous one.
 
      The tolerance of the load step is used for the last update, without friction also if the errors of the last two
-     updates let expect that the next one is the last, for a start from a forecast, with weak springs (which would carry the residual), and
-     if the gap tolerance is near rounding, so that results are reproducible.
+     updates let expect that the next one is the last, for a start from a forecast, with weak springs (which would carry
+     the residual), and if the gap tolerance is near rounding, so that results are reproducible.
 */
 static PetscErrorCode AttemptSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)

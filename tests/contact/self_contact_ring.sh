@@ -5,3 +5,11 @@ for scene in quarter half; do
   "$contact" $scene.yaml -quiet -summary $scene.json 2> $scene.log || echo "$scene: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/contact/self_contact_ring.py" judge
+# the shipped scene: few contact updates, and no warning
+"$contact" "$AMGF_DIR/share/scenes/pinched_ring.yaml" -quiet -error_estimate 0 -summary shipped.json || echo "pinched_ring: exit code $?"
+"$PYTHON" - <<'PY'
+from summaries import load, say
+
+updates = [step["contact_updates"] for step in load("shipped")["steps"]]
+say("pinched_ring: at most 6 contact updates a load step", max(updates) <= 6, updates)
+PY

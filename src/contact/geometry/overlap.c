@@ -1,8 +1,9 @@
 /* The overlap of two facets: projection onto a plane, clipping, and quadrature points on both facets */
 #include "geometryimpl.h"
 
-/* distance from a line that is attributed to rounding, relative to the length of the line */
-#define ONE_LINE 1e-9
+/* distance from a line that is attributed to rounding and to the tolerance of solves, relative to the length of the
+   line */
+#define ONE_LINE 1e-6
 /* distance of two vertices that is attributed to rounding, relative to the size of the smaller facet */
 #define ONE_VERTEX 1e-12
 
