@@ -201,7 +201,7 @@ PETSC_INTERN PetscErrorCode IPBasisAdd(const IPBasis *, const PetscReal[], Vec);
 PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
-PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool mumps, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J, PetscInt most);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
