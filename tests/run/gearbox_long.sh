@@ -3,4 +3,3 @@ command -v gmsh > /dev/null || { cat "$AMGF_DIR/tests/run/gearbox_long.out"; exi
 "$PYTHON" "$AMGF_DIR/share/scenes/gearbox.py" --size 2 > gmsh.log 2>&1 || cat gmsh.log
 timeout 3000 "$AMGF_DIR/bin/contact" gearbox.yaml -quiet -report gearbox.html -summary gearbox.json 2> warnings || cat warnings
 "$PYTHON" "$AMGF_DIR/tests/run/gearbox_long.py"
-rm -f gearbox*
