@@ -1,5 +1,6 @@
 /* Public functions of PCAMGF and their implementations, which act on the PC's data only */
 #include "amgfimpl.h"
+#include "functions.h"
 
 const char *const PCAMGFCycles[] = {"bfb", "fbf", "additive", "PCAMGFCycle", "PC_AMGF_", NULL};
 
@@ -114,40 +115,31 @@ static PetscErrorCode PCAMGFGetCounts_AMGF(PC pc, PCAMGFCounts *counts)
   PetscFunctionReturn(0);
 }
 
-#define PUBLIC(function) \
-  { \
-    #function "_C", (PetscVoidFunction)function##_AMGF \
-  }
-static const struct {
-  const char       *name;
-  PetscVoidFunction implementation;
-} functions[] = {
-  PUBLIC(PCAMGFSetCycle),
-  PUBLIC(PCAMGFGetCycle),
-  PUBLIC(PCAMGFSetFilterIS),
-  PUBLIC(PCAMGFSetFilterInterpolation),
-  PUBLIC(PCAMGFGetFilterSize),
-  PUBLIC(PCAMGFSetFilterActive),
-  PUBLIC(PCAMGFSetFilterOptional),
-  PUBLIC(PCAMGFSetAMGLag),
-  PUBLIC(PCAMGFGetAMGAge),
-  PUBLIC(PCAMGFGetAMGPC),
-  PUBLIC(PCAMGFGetFilterKSP),
-  PUBLIC(PCAMGFSetFilterRanks),
-  PUBLIC(PCAMGFGetFilterPivots),
-  PUBLIC(PCAMGFGetCounts),
-  PUBLIC(PCAMGFSetFactor),
-  PUBLIC(PCAMGFExpect),
-  PUBLIC(PCAMGFGetFactored),
+static const AMGFFunction functions[] = {
+  AMGF_FUNCTION(PCAMGFSetCycle, AMGF),
+  AMGF_FUNCTION(PCAMGFGetCycle, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterIS, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterInterpolation, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterSize, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterActive, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterOptional, AMGF),
+  AMGF_FUNCTION(PCAMGFSetAMGLag, AMGF),
+  AMGF_FUNCTION(PCAMGFGetAMGAge, AMGF),
+  AMGF_FUNCTION(PCAMGFGetAMGPC, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterKSP, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterRanks, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterPivots, AMGF),
+  AMGF_FUNCTION(PCAMGFGetCounts, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFactor, AMGF),
+  AMGF_FUNCTION(PCAMGFExpect, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFactored, AMGF),
 };
 
 /* Composes the implementations of the public functions with the PC, or removes them if `attach` is false */
 PetscErrorCode PCAMGFComposeFunctions_Private(PC pc, PetscBool attach)
 {
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(functions); i++)
-    PetscCall(
-      PetscObjectComposeFunction((PetscObject)pc, functions[i].name, attach ? functions[i].implementation : NULL));
+  PetscCall(AMGFComposeFunctions((PetscObject)pc, PETSC_STATIC_ARRAY_LENGTH(functions), functions, attach));
   PetscFunctionReturn(0);
 }
 

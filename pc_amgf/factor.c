@@ -340,7 +340,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 }
 
 /*@
-  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator by MUMPS replaces the AMG
+  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator replaces the AMG
 
   Logically Collective
 
@@ -384,6 +384,7 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
+  MUMPS computes the factorization, but on one rank with `PC_AMGF_FACTOR_AUTO` the factorization of pc_amgf/cholesky.
   The cost of the factorization is estimated from MUMPS's analysis, which gives floating-point operations, entries and
   memory. The cost of the AMG is estimated from the number of entries of the operator.
 

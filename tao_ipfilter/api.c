@@ -1,5 +1,6 @@
 /* Public functions of TAOIPFILTER. */
 #include "ipfilterimpl.h"
+#include "pc_amgf/functions.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
@@ -155,38 +156,29 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
   PetscFunctionReturn(0);
 }
 
-#define PUBLIC(function) \
-  { \
-    #function "_C", (PetscVoidFunction)function##_IPFilter \
-  }
-static const struct {
-  const char       *name;
-  PetscVoidFunction implementation;
-} functions[] = {
-  PUBLIC(TaoIPFilterSetSlackMass),
-  PUBLIC(TaoIPFilterSetPrimalMass),
-  PUBLIC(TaoIPFilterSetWarmStart),
-  PUBLIC(TaoIPFilterSetWarmStartEquality),
-  PUBLIC(TaoIPFilterSetWarmStartBounds),
-  PUBLIC(TaoIPFilterGetSlack),
-  PUBLIC(TaoIPFilterGetKSPIterations),
-  PUBLIC(TaoIPFilterGetKKTError),
-  PUBLIC(TaoIPFilterGetFilterUse),
-  PUBLIC(TaoIPFilterGetRegularizations),
-  PUBLIC(TaoIPFilterGetFallbacks),
-  PUBLIC(TaoIPFilterGetReason),
-  PUBLIC(TaoIPFilterSetNormTerms),
-  PUBLIC(TaoIPFilterSetNormTermForces),
-  PUBLIC(TaoIPFilterGetNormTermForces),
+static const AMGFFunction functions[] = {
+  AMGF_FUNCTION(TaoIPFilterSetSlackMass, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetPrimalMass, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStartEquality, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStartBounds, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetSlack, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetKSPIterations, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetKKTError, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetFilterUse, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetRegularizations, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetFallbacks, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetReason, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetNormTerms, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetNormTermForces, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetNormTermForces, IPFilter),
 };
 
 /* Composes the implementations of the public functions with the Tao, or removes them if `attach` is false */
 PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
 {
   PetscFunctionBegin;
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(functions); i++)
-    PetscCall(
-      PetscObjectComposeFunction((PetscObject)tao, functions[i].name, attach ? functions[i].implementation : NULL));
+  PetscCall(AMGFComposeFunctions((PetscObject)tao, PETSC_STATIC_ARRAY_LENGTH(functions), functions, attach));
   PetscFunctionReturn(0);
 }
 

@@ -4,7 +4,8 @@ static char help[] = "The Cholesky factorizations \"amgf\" and \"amgf_single\" o
 #include <petscamgf.h>
 
 /*
-   A membrane of n x n nodes with `block` unknowns each, which are coupled, and `alone` more unknowns without neighbours.
+   A membrane of n x n nodes with `block` unknowns each, which are coupled, and `alone` more unknowns without
+   neighbours.
    shift: is added to the diagonal
 */
 static PetscErrorCode CreateMembrane(PetscInt n, PetscInt block, PetscInt alone, PetscReal shift, Mat *A)
