@@ -267,14 +267,9 @@ PETSC_INTERN PetscErrorCode ElasticityGetLocals(Elasticity, Vec u, Vec *local, c
 PETSC_INTERN PetscErrorCode ElasticityRestoreLocals(Elasticity, Vec *local, const PetscScalar **ul,
   const PetscScalar **x);
 
-/* Gets the values of a local vector (3 per node) at a cell's nodes, sorted by component */
-static inline void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[],
-  PetscReal values[3][CELL_MAX_NODES])
-{
-  for (PetscInt a = 0; a < n; ++a) {
-    for (PetscInt d = 0; d < 3; ++d) values[d][a] = PetscRealPart(local[3 * nodes[a] + d]);
-  }
-}
+/* locals.c: gets the values of a local vector (3 per node) at a cell's nodes, sorted by component */
+PETSC_INTERN void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[],
+  PetscReal values[3][CELL_MAX_NODES]);
 
 /* A cell with its coordinates and displacements */
 typedef struct {
@@ -289,25 +284,8 @@ typedef struct {
 /* thermal.c: subtracts the free thermal displacement of a cell from its displacement */
 PETSC_INTERN void ThermalSubtract(const PetscReal temperature[4], CellState *);
 
-/* sections.c: adds the shortening of a section to the displacements of a cell's nodes beyond the section */
-PETSC_INTERN void SectionAdd(Elasticity, PetscInt c, CellState *);
-
-static inline void ElasticityGetCell(Elasticity e, PetscInt c, const PetscScalar x[], const PetscScalar u[],
-  CellState *cell)
-{
-  cell->n        = e->cellstart[c + 1] - e->cellstart[c];
-  cell->nodes    = e->cellnodes + e->cellstart[c];
-  cell->body     = &e->bodies[e->cellbody[c]];
-  cell->material = &cell->body->material;
-  if (e->history && e->firstpoint[c] >= 0) {
-    cell->own                = cell->body->material;
-    cell->own.moduli.history = cell->own.isochoric.history = e->history + MATERIAL_HISTORY * e->firstpoint[c];
-    cell->material                                         = &cell->own;
-  }
-  CellGather(cell->n, cell->nodes, x, cell->X);
-  CellGather(cell->n, cell->nodes, u, cell->U);
-  if (e->temperature && cell->body->expands) ThermalSubtract(e->temperature + 4 * c, cell);
-  if (e->cellsection && e->cellsection[c] >= 0) SectionAdd(e, c, cell);
-}
+/* cell.c: gets cell c from the local coordinates x and displacements u; subtracts the thermal displacement and adds
+   the shortening of a section */
+PETSC_INTERN void ElasticityGetCell(Elasticity, PetscInt c, const PetscScalar x[], const PetscScalar u[], CellState *);
 
 #endif

@@ -27,3 +27,10 @@ PetscErrorCode ElasticityRestoreLocals(Elasticity e, Vec *local, const PetscScal
   PetscCall(VecRestoreArrayRead(coordinates, x));
   PetscFunctionReturn(0);
 }
+
+void CellGather(PetscInt n, const PetscInt nodes[], const PetscScalar local[], PetscReal values[3][CELL_MAX_NODES])
+{
+  for (PetscInt a = 0; a < n; ++a) {
+    for (PetscInt d = 0; d < 3; ++d) values[d][a] = PetscRealPart(local[3 * nodes[a] + d]);
+  }
+}

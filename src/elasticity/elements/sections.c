@@ -10,16 +10,6 @@
 #include <mesh.h>
 #include <vector3.h>
 
-void SectionAdd(Elasticity e, PetscInt c, CellState *cell)
-{
-  const BodySection *section = &e->sections[e->cellsection[c]];
-
-  for (PetscInt a = 0; a < cell->n; ++a) {
-    for (int d = 0; d < 3; ++d)
-      cell->U[d][a] += section->shortening * section->axis[d] * e->beyond[e->cellbeyond[c] + a];
-  }
-}
-
 /* Sets the values of hanging nodes in `beyond` to the means of the values of the nodes on which they depend */
 static PetscErrorCode SectionHang(Elasticity e, Vec beyond)
 {
