@@ -225,7 +225,7 @@ typedef struct {
 #define STRESS_VALUES 10
 
 /* The state at the end of a load step, which is valid until the next one. Fields that SimulationSetFields() did not
-   request are NULL. */
+   request are NULL; those that it did request are not, also on a rank that owns nothing. */
 typedef struct {
   const StepReport   *report;
   Vec                 velocity;          /* only in dynamics; otherwise NULL [length/time] */

@@ -135,7 +135,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
-  if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->history->frictional || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
   if (SimulationIsDynamic(sim)) {
     (*checkpoint)->damping_work  = sim->dynamics.damped;
@@ -192,7 +192,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));
   PetscCall(BoltsRestore(&bodies, &sim->bolts, path->u));
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
-  if (sim->history->shear || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->history->frictional || (sim->contact && SimulationIsDynamic(sim)))
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
   PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetPlastic(sim->scene, sim->comm, sim->elasticity, checkpoint));

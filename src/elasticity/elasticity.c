@@ -220,7 +220,7 @@ PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
   PetscCheck(bad < 0, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_OUTOFRANGE,
     "Prescribed row %" PetscInt_FMT " is not owned by the rank that gives it", bad);
   PetscCall(DMGlobalToLocal(e->dm, global, INSERT_VALUES, local));
-  PetscCall(PetscCalloc1(e->nnodes, &e->prescribed));
+  PetscCall(PetscCalloc1(e->nnodes + 1, &e->prescribed));
   PetscCall(VecGetArrayRead(local, &l));
   for (PetscInt i = 0; i < 3 * e->nnodes; ++i) {
     if (PetscRealPart(l[i]) > 0) e->prescribed[i / 3] |= (unsigned char)(1 << i % 3);

@@ -201,7 +201,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
     PetscCall(MeasureActionReaction(sim, contact, report));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
-    if (!sim->history->shear && !inertia) PetscCall(VecDestroy(&contact));
+    if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));

@@ -24,7 +24,7 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(sim->path->u, &n));
   PetscCall(VecGetOwnershipRange(sim->path->u, &rstart, NULL));
-  PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3), &results->nodal));
+  PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3) + 1, &results->nodal));
   PetscCall(DMGetLocalSection(sim->dm, &local));
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(PetscSectionGetChart(local, &pstart, &pend));

@@ -138,7 +138,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history->shear && !sim->temperatures.n && !SimulationIsDynamic(sim))
+  if (sim->history->frictional && !sim->temperatures.n && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
       report));
   PetscFunctionReturn(0);

@@ -61,13 +61,12 @@ static PetscErrorCode MeshDistribute(DM *dm, MeshCurves *curves, MeshHanging *ha
   PetscFunctionReturn(0);
 }
 
-/* Collective. Checks the numbers of cells and vertices after refinement against the number of ranks and PETSc's integer
-   type. *ncells: number of cells at level 0 */
+/* Collective. Checks the numbers of cells and vertices after refinement against PETSc's integer type. *ncells: number
+   of cells at level 0 */
 static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshBody meshes[], PetscInt refine,
   PetscInt64 *ncells)
 {
-  PetscMPIInt size;
-  PetscInt64  nvertices = 0, finecells;
+  PetscInt64 nvertices = 0, finecells;
 
   PetscFunctionBegin;
   *ncells = 0;
@@ -87,10 +86,6 @@ static PetscErrorCode MeshCheckSize(MPI_Comm comm, PetscInt nbodies, const MeshB
       refine, *ncells);
     finecells *= 8;
   }
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCheck(size <= finecells, comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "There are more ranks than cells: %d ranks, but the mesh has %" PetscInt64_FMT " cells: use fewer ranks", size,
-    finecells);
   PetscFunctionReturn(0);
 }
 
@@ -219,8 +214,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   Bodies never share vertices, even if they come from one Gmsh file and touch there. A body whose order is 0 gets order
   1 if it consists of hexahedra, and order 2 if it consists of tetrahedra.
 
-  It is an error if there are more ranks than cells, if the memory of the first rank is insufficient for level 0, or if
-  a cell is inverted or flat.
+  If there are more ranks than cells, the last ranks own nothing. It is an error if the memory of the first rank is
+  insufficient for level 0, or if a cell is inverted or flat.
 
 .seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`,
           `ElasticityCreate()`

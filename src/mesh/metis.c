@@ -10,7 +10,8 @@
    (METIS manual, section 5.1). */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
-/* Partitions a whole graph by METIS. part[v] is in [0, nparts). */
+/* Partitions a whole graph by METIS. part[v] is in [0, nparts). Of more parts than vertices the last ones are empty;
+   METIS cannot make these. */
 PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[],
   const PetscInt weights[], PetscInt part[])
 {
@@ -18,6 +19,10 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
   int   status;
 
   PetscFunctionBegin;
+  if (nparts >= nv) {
+    for (PetscInt v = 0; v < nv; ++v) part[v] = v;
+    PetscFunctionReturn(0);
+  }
   PetscCall(PetscMalloc3(nv + 1, &xadj, start[nv], &adjncy, nv, &where));
   for (PetscInt v = 0; v <= nv; ++v) xadj[v] = (idx_t)start[v];
   for (PetscInt e = 0; e < start[nv]; ++e) adjncy[e] = (idx_t)adjacency[e];

@@ -118,7 +118,6 @@ static PetscErrorCode OutputKeepFields(Output output, const StepState *state)
   PetscFunctionBegin;
   output->nodes   = (PetscBool)(state->nodal != NULL);
   output->plastic = (PetscBool)(state->plastic != NULL);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->nodes, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   PetscCallMPI(MPI_Allreduce(&state->nquadrature, &output->nquadrature, 1, MPIU_INT, MPI_SUM, output->comm));
   output->moving = (PetscBool)(state->velocity != NULL);
   for (PetscInt p = 0; p < report->npairs; ++p)

@@ -12,8 +12,7 @@ static const PetscReal open_share          = 1e-3; /* A row is open if its force
 
 PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
 {
-  const PetscInt npairs     = scene->npairs;
-  PetscBool      frictional = PETSC_FALSE;
+  const PetscInt npairs = scene->npairs;
   PetscInt       last;
   Vec            u;
 
@@ -27,8 +26,8 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   PetscCall(PetscCalloc4(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open,
     npairs * m->nowned, &m->released));
   for (PetscInt p = 0; p < npairs; ++p)
-    frictional = (PetscBool)(frictional || SceneContactPairHasFriction(&scene->pairs[p]));
-  if (frictional)
+    m->frictional = (PetscBool)(m->frictional || SceneContactPairHasFriction(&scene->pairs[p]));
+  if (m->frictional)
     PetscCall(PetscCalloc6(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
       3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->bound, npairs * m->nowned, &m->slip_path,
       npairs * m->nowned, &m->dissipated));

@@ -15,6 +15,7 @@ struct _n_ContactHistory {
                                     barrier term only */
   PetscBool   *released;         /* [npairs x nowned] true if a vertex that must stick has opened in this load step, so
                                     that it is free until the end of the step */
+  PetscBool    frictional;       /* true if a pair has friction; also on a rank that owns no nodes */
   PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
                                     friction */
   PetscReal   *settled;          /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL

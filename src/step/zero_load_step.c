@@ -59,7 +59,7 @@ PetscErrorCode ZeroLoadStepSolve(StepProblem *p, ContactLinearization undeformed
   PetscCall(ContactSolutionCreate(undeformed->g, sol));
   PetscCall(VecZeroEntries(sol->pressure));
   PetscCall(VecCopy(undeformed->g, sol->gap));
-  if (p->sim->history->shear) {
+  if (p->sim->history->frictional) {
     PetscCall(StepProblemSetContact(p, undeformed, u));
     PetscCall(FrictionKeepNone(p, u, sol));
   }

@@ -35,4 +35,3 @@ try "no load steps" "$sound" -load_steps 0
 try "output that is a folder" "$sound" -output ./
 try "unwritable output" "$sound" -output nowhere/results -refine 0
 try "unwritable summary" "$sound" -summary nowhere/summary.json -refine 0 -load_steps 1
-change 's/cells: .*/cells: [1, 1, 1]/' && RANKS=3 try "more ranks than cells" changed.yaml -refine 0

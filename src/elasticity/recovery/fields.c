@@ -170,7 +170,7 @@ PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
-  PetscCall(PetscMalloc1(e->ncells, density));
+  PetscCall(PetscMalloc1(e->ncells + 1, density));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     CellState        cell;
     const CellBasis *basis;
