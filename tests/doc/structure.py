@@ -22,7 +22,7 @@ src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
 src/scene/format src/scene/sections src/scene
 src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
 src/contact/geometry src/contact/surface src/contact/search src/contact/self src/contact/detect src/contact/smooth src/contact/assembly src/contact/gaps src/contact
-src/loads src/constraints src/dynamics src/state src/measure src/step src/run
+src/loads src/constraints src/dynamics src/state src/measure src/step/problem src/step/contact_update src/step src/run
 src/output src/checkpoint
 apps
 """.split()

@@ -2,7 +2,7 @@
    Measures how a contact linearization differs from the one at its solution, apart from the gap: by the rotation of the
    normals, the change of the slip, and the lever arms of the forces on rigid surfaces.
 */
-#include "stepimpl.h"
+#include "contact_updateimpl.h"
 #include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"

@@ -5,7 +5,7 @@
      The optimizer treats these laws as norm terms. Between solves the forces are stored in global coordinates, since
      the tangents belong to one linearization.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"

@@ -5,7 +5,7 @@
      stiffness of the bodies at the row, 1/(m sum_j J_j^2/K_jj). The Hessian is A = K + J^T D J with D = m rho where c <
      0, and D = 0 elsewhere.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <petscsnes.h>
 #include <petsctime.h>
 #include "src/state/contact_history.h"

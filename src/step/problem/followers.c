@@ -9,7 +9,7 @@
      Internal forces in time steps: the mean of the internal forces of the step (src/elasticity/mean_force.c) is
      evaluated at a displacement that moves towards the solution in the same manner.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
@@ -89,8 +89,8 @@ PetscErrorCode FollowersTurn(StepProblem *p)
 PetscErrorCode FollowersForget(StepProblem *p)
 {
   PetscFunctionBegin;
-  PetscCall(ContactUpdateSecantsDestroy(&p->secants));
-  p->secants = (ContactUpdateSecants){0};
+  PetscCall(AndersonDestroy(&p->secants));
+  p->secants = (Anderson){0};
   PetscFunctionReturn(0);
 }
 
@@ -136,7 +136,7 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   }
   PetscCall(VecDestroy(&load));
   if (nsolves < max_followed) {
-    PetscCall(ContactUpdateSecantsAdvance(&p->secants, off, u, p->followed, &damped));
+    PetscCall(AndersonAdvance(&p->secants, off, u, p->followed, &damped));
     *again = PETSC_TRUE;
     PetscCall(FollowersLinearize(p));
   } else
@@ -179,7 +179,7 @@ PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, Ste
   PetscCall(InertiaMeasureExcess(sim, u, MEASURE_ROUNDING * sim->stiffness * size, &change));
   if (change <= tolerance) PetscFunctionReturn(0);
   if (nsolves < most) {
-    PetscCall(ContactUpdateSecantsAdvance(&p->mean_secants, change, u, p->meant, &damped));
+    PetscCall(AndersonAdvance(&p->mean_secants, change, u, p->meant, &damped));
     PetscCall(InertiaSetExcess(sim, p->meant));
     *again = (PetscBool)(*again || !p->ended_early);
   } else

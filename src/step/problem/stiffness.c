@@ -2,7 +2,7 @@
    Chooses the storage of the stiffness matrix: only the upper triangle, and no rigid body modes, if the solver does not
    need more.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 
 /*
    Chooses symmetric storage if the optimizer only multiplies with a constant K, on one rank. Call this function before

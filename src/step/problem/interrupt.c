@@ -1,5 +1,5 @@
 /* Ends a run after the current Newton step if SIGINT, SIGTERM or SIGUSR1 is received. */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <signal.h>
 #include "src/state/control.h"
 

@@ -2,7 +2,7 @@
    Objectives of a load step: either the quadratic model of the energy about p->base, which is exact if every body is
    linear; or the strain energy minus the work of the loads, which is infinite if an element is inverted.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <math.h>
 #include "src/state/path.h"
 

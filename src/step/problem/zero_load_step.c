@@ -3,7 +3,7 @@
    solution is the undeformed bodies. It is set directly, because relative residuals would compare rounding errors with
    rounding errors.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/path.h"
 

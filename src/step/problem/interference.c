@@ -3,7 +3,7 @@
    yet applied, (1 - ramp factor) x overlap. If the factor is 0, faces with an overlap of exactly the given size touch
    without pressure. The increase acts along the normal of each row.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include "src/state/path.h"
 
 /* Sets `mark` to 1 at the given displacement component of all nodes of the pair's mortar face, and to 0 elsewhere. */

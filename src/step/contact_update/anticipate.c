@@ -9,7 +9,7 @@
        B D J^T w = g,  g' = J D J^T w.
      At the solution of the load step g = g' = 0 in these rows.
 */
-#include "stepimpl.h"
+#include "contact_updateimpl.h"
 #include "src/state/contact_history.h"
 
 #define ANTICIPATE_TOLERANCE  1e-3

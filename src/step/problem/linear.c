@@ -1,5 +1,5 @@
 /* Solves linear systems: those of load steps without contact by PCG, those of contact updates by GMRES. */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <petsctime.h>
 #include "src/state/control.h"
 #include "src/state/path.h"

@@ -1,5 +1,5 @@
 /* Creates the optimization problem of one load step: the parts that quadratic and nonlinear energies have in common. */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
 
@@ -194,8 +194,8 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));
   PetscCall(VecDestroy(&p->meant));
-  PetscCall(ContactUpdateSecantsDestroy(&p->mean_secants));
-  PetscCall(ContactUpdateSecantsDestroy(&p->secants));
+  PetscCall(AndersonDestroy(&p->mean_secants));
+  PetscCall(AndersonDestroy(&p->secants));
   PetscCall(VecDestroy(&p->load));
   PetscCall(VecDestroy(&p->force));
   PetscCall(VecDestroy(&p->lower));

@@ -11,7 +11,7 @@
      GMRES solves the system. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the filtered subspace,
      for which factors already exist.
 */
-#include "stepimpl.h"
+#include "contact_updateimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/control.h"

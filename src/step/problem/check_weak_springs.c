@@ -2,7 +2,7 @@
    Rejects solutions in which weak springs carry a considerable part of the loads or a body moves far, because nothing
    else holds that body.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <vector3.h>
 
 /* largest force of the weak springs of a body, as a fraction of the sum of the magnitudes of its nodal loads */

@@ -11,7 +11,7 @@
      these bodies get the term from the start. The centre is the displacement at which the gap is linearized, so that
      the term vanishes as the contact updates converge.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <vector3.h>
 #include "src/state/control.h"
 

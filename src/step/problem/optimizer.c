@@ -1,5 +1,5 @@
 /* Solves load steps that have constraints, or an energy that is not quadratic, by TAO. */
-#include "stepimpl.h"
+#include "problemimpl.h"
 #include <petsctime.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"

@@ -1,47 +1,48 @@
 /*
-   Chooses the point at which the gap is linearized next. Let G(x) be the solution of the problem linearized at x; the
-   gap agrees at a fixed point x = G(x). The simple iteration x <- G(x) omits the second derivatives of the gap, so that
-   soft motions converge slowly or cycle. Anderson acceleration is used instead (D. G. Anderson, J. ACM 12 (1965)): x
-   becomes the combination of the last solutions with the smallest combined residual f = G(x) - x. If the change of the
-   gap stops decreasing, as between faces with kinks, only half the step to the new x is done.
+   Anderson acceleration of a fixed-point iteration x <- G(x), for contact updates, follower loads and mean internal
+   forces (D. G. Anderson, J. ACM 12 (1965)). In contact updates G(x) is the solution of the problem with the gap
+   linearized at x; the gap agrees at a fixed point. The simple iteration omits the second derivatives of the gap, so
+   that soft motions converge slowly or cycle. The next x is the combination of the last solutions with the smallest
+   combined residual f = G(x) - x. If the change of the gap stops decreasing, as between faces with kinks, only half the
+   step to the new x is done.
 */
-#include "stepimpl.h"
+#include "problemimpl.h"
 
-#define SECANTS_PROGRESS \
+#define ANDERSON_PROGRESS \
   0.9 /* a solution makes progress if its gap change is below this multiple of the smallest one so far */
-#define SECANTS_PATIENCE 2   /* solutions in a row without progress, after which steps are damped */
-#define SECANTS_SHORT    0.5 /* damping factor of the step to the next x */
-#define SECANTS_DEPENDENT \
+#define ANDERSON_PATIENCE 2   /* solutions in a row without progress, after which steps are damped */
+#define ANDERSON_SHORT    0.5 /* damping factor of the step to the next x */
+#define ANDERSON_DEPENDENT \
   1e-2 /* a secant is dropped if its part orthogonal to the newer secants is smaller than
                                   this fraction of it */
 
 /*
-   Returns whether SECANTS_PATIENCE consecutive solutions, including the present one, made no progress. change: change
+   Returns whether ANDERSON_PATIENCE consecutive solutions, including the present one, made no progress. change: change
    of the gap of the present solution [length].
 */
-static PetscBool SecantsStall(ContactUpdateSecants *s, PetscReal change)
+static PetscBool AndersonStall(Anderson *s, PetscReal change)
 {
   if (s->n == 0) s->first = change;
-  if (s->n == 0 || change < SECANTS_PROGRESS * s->least) {
+  if (s->n == 0 || change < ANDERSON_PROGRESS * s->least) {
     s->least  = change;
     s->stalls = 0;
   } else ++s->stalls;
-  return (PetscBool)(s->stalls >= SECANTS_PATIENCE);
+  return (PetscBool)(s->stalls >= ANDERSON_PATIENCE);
 }
 
 /*
    Stores the differences of the solution u and of the residual from the previous ones. They replace the oldest pair of
    differences.
 */
-static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec residual)
+static PetscErrorCode AndersonRecord(Anderson *s, Vec u, Vec residual)
 {
   Vec *swap[2] = {s->residuals, s->solutions}, now[2] = {residual, u}, before[2] = {s->residual, s->u};
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 2; ++k) {
-    Vec newest = swap[k][GAP_SECANTS - 1];
+    Vec newest = swap[k][ANDERSON_DEPTH - 1];
 
-    for (PetscInt i = GAP_SECANTS - 1; i > 0; --i) swap[k][i] = swap[k][i - 1];
+    for (PetscInt i = ANDERSON_DEPTH - 1; i > 0; --i) swap[k][i] = swap[k][i - 1];
     if (!newest) PetscCall(VecDuplicate(u, &newest));
     swap[k][0] = newest;
     PetscCall(VecWAXPY(newest, -1.0, before[k], now[k]));
@@ -54,15 +55,15 @@ static PetscErrorCode SecantsRecord(ContactUpdateSecants *s, Vec u, Vec residual
    applies the corresponding changes of the solution to x. The differences are orthonormalized first, beginning with the
    newest.
 */
-static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
+static PetscErrorCode AndersonApply(const Anderson *s, Vec f, Vec x)
 {
-  Vec         residual[GAP_SECANTS], solution[GAP_SECANTS];
+  Vec         residual[ANDERSON_DEPTH], solution[ANDERSON_DEPTH];
   PetscScalar product;
   PetscReal   whole, own;
   PetscInt    n = 0;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < GAP_SECANTS && s->residuals[i]; ++i) {
+  for (PetscInt i = 0; i < ANDERSON_DEPTH && s->residuals[i]; ++i) {
     PetscCall(VecDuplicate(x, &residual[n]));
     PetscCall(VecDuplicate(x, &solution[n]));
     PetscCall(VecCopy(s->residuals[i], residual[n]));
@@ -74,7 +75,7 @@ static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
       PetscCall(VecAXPY(solution[n], -product, solution[k]));
     }
     PetscCall(VecNorm(residual[n], NORM_2, &own));
-    if (own > SECANTS_DEPENDENT * whole) {
+    if (own > ANDERSON_DEPENDENT * whole) {
       PetscCall(VecScale(residual[n], 1.0 / own));
       PetscCall(VecScale(solution[n], 1.0 / own));
       PetscCall(VecDot(f, residual[n], &product));
@@ -96,20 +97,19 @@ static PetscErrorCode SecantsApply(const ContactUpdateSecants *s, Vec f, Vec x)
    Moves u_linearized to the next point of linearization. u: solution found with u_linearized; change: measure of its
    residual, for contact the change of the gap [length]; *damped: true if only half the step was done.
 */
-PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *s, PetscReal change, Vec u, Vec u_linearized,
-  PetscBool *damped)
+PetscErrorCode AndersonAdvance(Anderson *s, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped)
 {
   Vec residual, next;
 
   PetscFunctionBegin;
-  *damped = SecantsStall(s, change);
+  *damped = AndersonStall(s, change);
   PetscCall(VecDuplicate(u, &residual));
   PetscCall(VecDuplicate(u, &next));
   PetscCall(VecWAXPY(residual, -1.0, u_linearized, u));
   PetscCall(VecCopy(u, next));
-  if (s->n > 0) PetscCall(SecantsRecord(s, u, residual));
-  PetscCall(SecantsApply(s, residual, next));
-  PetscCall(VecAXPBY(u_linearized, *damped ? SECANTS_SHORT : 1.0, *damped ? 1.0 - SECANTS_SHORT : 0.0, next));
+  if (s->n > 0) PetscCall(AndersonRecord(s, u, residual));
+  PetscCall(AndersonApply(s, residual, next));
+  PetscCall(VecAXPBY(u_linearized, *damped ? ANDERSON_SHORT : 1.0, *damped ? 1.0 - ANDERSON_SHORT : 0.0, next));
   PetscCall(VecDestroy(&next));
   PetscCall(VecDestroy(&s->residual));
   if (!s->u) PetscCall(VecDuplicate(u, &s->u));
@@ -119,10 +119,10 @@ PetscErrorCode ContactUpdateSecantsAdvance(ContactUpdateSecants *s, PetscReal ch
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ContactUpdateSecantsDestroy(ContactUpdateSecants *s)
+PetscErrorCode AndersonDestroy(Anderson *s)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < GAP_SECANTS; ++i) {
+  for (PetscInt i = 0; i < ANDERSON_DEPTH; ++i) {
     PetscCall(VecDestroy(&s->residuals[i]));
     PetscCall(VecDestroy(&s->solutions[i]));
   }

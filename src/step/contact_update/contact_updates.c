@@ -1,0 +1,259 @@
+/*
+   Contact updates: solves the problem with linearized contact, then repeats the solve with an updated linearization
+   until the linearized gap agrees with the gap of the deformed faces.
+*/
+#include "contact_updateimpl.h"
+#include <math.h>
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+
+/*
+   largest force at the end of the contact updates of the proximal term that holds bodies on weak springs, as a fraction
+   of the forces of the deformation
+*/
+#define CONTACT_UPDATES_HELD 1e-5
+
+/* contact updates within which the change of the gap must fall to a tenth; otherwise the updates end without success */
+#define CONTACT_UPDATES_PATIENCE 12
+
+/* cuts of a load step after which an increment is short: forces of the last state are an eighth of those before */
+#define CONTACT_UPDATES_SHORT 3
+
+/*
+   Measures the gap of the deformed faces at u, and how much it differs from the linearized gap of the solve whose
+   solution is u. *is_true: true if the difference is small enough to end the contact updates. report->gap_unconverged:
+   true if the difference is too large for a converged load step.
+*/
+static PetscErrorCode ContactUpdatesMeasureGap(const StepProblem *p, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, StepReport *report, PetscBool *is_true)
+{
+  Simulation sim = p->sim;
+  PetscReal  size, held;
+  PetscInt   nrows;
+
+  PetscFunctionBegin;
+  report->gap_true = NAN;
+  PetscCall(VecGetSize(at_u->g, &nrows));
+  if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
+  PetscCall(ContactHistoryChange(sim->history, at_u, &report->gap_change));
+  PetscCall(ContactUpdateMeasureError(sim, u, sol, at_u, report));
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  *is_true = (PetscBool)(report->update_error <= sim->control->tolerances.gap_change * size);
+  report->gap_unconverged =
+    (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
+                PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size);
+  PetscCall(ProximalMeasureHeld(p, u, &held));
+  if (held > PetscMax(sim->control->tolerances.optimizer, 1e-10)) *is_true = PETSC_FALSE;
+  if (held > CONTACT_UPDATES_HELD) report->gap_unconverged = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves with the gap linearized at u_linearized, and repeats the solve with a larger search distance until no face was
+   missed.
+*/
+static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u,
+  StepReport *report, ContactSolution *sol)
+{
+  PetscReal reach, depth;
+  PetscBool missed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
+  PetscCall(StepProblemTurn(p, u_linearized));
+  do {
+    PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
+    PetscCall(ProximalLinearize(p, u_linearized));
+    if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
+    PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
+    if (report->converged) PetscCall(MissedFind(p, u_linearized, u, sol->gap, &reach, &missed));
+  } while (report->converged && missed);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Reports how much the gap still changes after the last contact update. The load step counts as converged if
+   contact_updates is 1, and as failed if more updates were allowed; the vertex where the gap changes most is then
+   named. slid: true if contact nodes still slide over the edge of the opposite face.
+*/
+static PetscErrorCode ContactUpdatesReportGapError(Simulation sim, const ContactSolution *sol,
+  ContactLinearization at_u, PetscBool slid, StepReport *report)
+{
+  char            reason[768], place[512] = "";
+  const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
+
+  PetscFunctionBegin;
+  if (!single) PetscCall(ContactUpdateNamePlace(sim, sol, at_u, slid, sizeof(place), place));
+  if (single)
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
+  else if (slid)
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "contact did not converge: after %" PetscInt_FMT
+      " contact updates contact nodes still slide over the edge of the opposite face%s",
+      report->contact_updates, place));
+  else
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "contact did not converge: after %" PetscInt_FMT
+      " contact updates %s still changes by %g, more than %g of the largest displacement%s",
+      report->contact_updates,
+      report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
+      (double)report->update_error, (double)sim->control->tolerances.gap_unconverged, place));
+  PetscCall(ReportReason(report, single, reason));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Does one contact update: solves with sim->solved->linearization, then computes the gap at the solution u (*at_u).
+   *end: true if no further update is needed, because the gap agrees or the solve failed. *slid: true if vertices under
+   pressure have no row at u, so that their gap is not known.
+*/
+static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
+{
+  Simulation sim     = p->sim;
+  PetscBool  is_true = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *end  = PETSC_TRUE;
+  *slid = PETSC_FALSE;
+  PetscCall(ContactUpdatesSolveLinearized(p, resume, u_linearized, u, report, sol));
+  if (report->contact_updates) PetscCall(WeakSpringsTestMotion(p, u_linearized, u, report));
+  if (!report->converged) PetscFunctionReturn(0);
+  ++report->contact_updates;
+  if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
+    PetscCall(
+      ContactUpdateLinearize(sim, p->time, u, PETSC_TRUE, at_u)); /* in this case the gap is linearized next at u */
+  else PetscCall(ContactUpdateGetGaps(sim, p->time, u, at_u));
+  PetscCall(MissedFindLostRows(p, u_linearized, u, *at_u, report, slid));
+  if (!report->converged) PetscFunctionReturn(0);
+  PetscCall(ContactUpdatesMeasureGap(p, u, sol, *at_u, report, &is_true));
+  *end = (PetscBool)(is_true && !*slid);
+  if (sim->control->monitor && sim->scene->contact_updates > 1)
+    PetscCall(PetscPrintf(sim->comm,
+      "Contact update %" PetscInt_FMT ": error %.3g, penetration %.3g, gap changes by %.3g, normals turn by %.3g, slip "
+      "changes by %.3g\n",
+      report->contact_updates, (double)report->update_error, (double)PetscMax(0.0, -report->gap_true),
+      (double)report->gap_change, (double)report->normals_turn, (double)report->slip_change));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tries whether the undeformed bodies are the solution of a load step to zero load. vanishes: whether a solve has led
+   to u = 0 up to rounding. *rests: true if they are; sim->solved->linearization and *at_u are then linearizations at
+   u = 0.
+*/
+static PetscErrorCode ContactUpdatesUndeformed(StepProblem *p, PetscBool vanishes, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
+{
+  Simulation           sim = p->sim;
+  ContactLinearization undeformed;
+  PetscBool            due, is_true;
+
+  PetscFunctionBegin;
+  *rests = PETSC_FALSE;
+  PetscCall(ZeroLoadStepIsDue(p, vanishes, &due));
+  if (!due) PetscFunctionReturn(0);
+  PetscCall(VecZeroEntries(u));
+  PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, &undeformed));
+  PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
+  if (*rests) {
+    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+    sim->solved->linearization = undeformed;
+    PetscCall(ContactLinearizationDestroy(at_u));
+    PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, at_u));
+    PetscCall(ContactUpdatesMeasureGap(p, u, sol, *at_u, report, &is_true));
+    report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
+    report->gap_unconverged                                                                = PETSC_FALSE;
+    report->contact_updates                                                                = 1;
+  } else PetscCall(ContactLinearizationDestroy(&undeformed));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds whether the elastic energy at u is zero up to rounding, compared with those of the last state and of earlier
+   load steps, at the end of a load step with friction to zero load. *rested: whether that of the last state was zero,
+   too
+*/
+static PetscErrorCode ContactUpdatesVanish(const StepProblem *p, Vec u, PetscBool *vanishes, PetscBool *rested)
+{
+  const StepReport *steps     = p->sim->report.steps;
+  const PetscReal   vanishing = 1e-7;
+  PetscReal         energy, before, largest;
+
+  PetscFunctionBegin;
+  *vanishes = *rested = PETSC_FALSE;
+  if (p->friction.T) PetscCall(ZeroLoadStepIsDue(p, PETSC_TRUE, vanishes));
+  if (!*vanishes) PetscFunctionReturn(0);
+  PetscCall(ElasticityEnergy(p->sim->elasticity, u, &energy));
+  PetscCall(ElasticityEnergy(p->sim->elasticity, p->sim->path->u, &before));
+  largest = before;
+  for (PetscInt s = 0; s + 1 < p->sim->report.nsteps; ++s) largest = PetscMax(largest, steps[s].energy);
+  *vanishes = (PetscBool)(energy <= vanishing * largest);
+  *rested   = (PetscBool)(before <= vanishing * largest);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Updates the contact until the gap agrees, a solve fails or contact_updates is reached. On exit u is a solution of the
+   problem with sim->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
+   entry.
+*/
+PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol,
+  ContactLinearization *at_u)
+{
+  Simulation sim     = p->sim;
+  Anderson   secants = {0};
+  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  PetscBool  vanishes, vanished = PETSC_FALSE, rested = PETSC_FALSE;
+  PetscReal  held;
+  Vec        u_linearized;
+
+  PetscFunctionBegin;
+  report->contact_updates = 0;
+  report->gap_unconverged = PETSC_FALSE;
+  p->by_newton            = PETSC_FALSE;
+  PetscCall(PetscArrayzero(sim->history->released, sim->history->npairs * sim->history->nowned));
+  PetscCall(ContactUpdateBegin(p, foreseen, u, report, &u_linearized));
+  PetscCall(ContactUpdatesUndeformed(p, PETSC_FALSE, u, report, sol, at_u, &end));
+  while (!end) {
+    PetscCall(ContactUpdateSetTolerance(p, foreseen, again, last, u, report));
+    PetscCall(ContactUpdatesOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u,
+      report, sol, at_u, &end, &slid));
+    PetscCall(ContactUpdatesVanish(p, u, &vanishes, &rested));
+    vanished = (PetscBool)(vanished || vanishes);
+    PetscCall(ContactUpdateEndedEarly(p, end, u, report, &again));
+    last = (PetscBool)(again && end);
+    if (again) {
+      end = PETSC_FALSE;
+      --report->contact_updates;
+      PetscCall(ContactLinearizationDestroy(at_u));
+      continue;
+    }
+    if (end || report->contact_updates == sim->scene->contact_updates) break;
+    if (report->gap_unconverged && secants.n >= CONTACT_UPDATES_PATIENCE && secants.least > 0.1 * secants.first) break;
+    PetscCall(ContactUpdateNext(p, &secants, sol, u, u_linearized, report, at_u));
+    if (!report->converged) break;
+  }
+  /*
+     Relative to forces of the size of rounding errors, residuals are meaningless. Bodies that friction holds without
+     load keep a deformation, which a long increment may miss.
+  */
+  if (!report->converged && vanished && (rested || report->cuts >= CONTACT_UPDATES_SHORT) && !sim->control->interrupted)
+    PetscCall(ContactUpdatesUndeformed(p, PETSC_TRUE, u, report, sol, at_u, &end));
+  PetscCall(VecDestroy(&u_linearized));
+  PetscCall(AndersonDestroy(&secants));
+  report->gap_unconverged =
+    (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
+  if (report->gap_unconverged) {
+    PetscCall(ContactUpdatesReportGapError(sim, sol, *at_u, slid, report));
+    PetscCall(ProximalMeasureHeld(p, u, &held));
+    if (held > CONTACT_UPDATES_HELD) {
+      PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
+      report->gap_unconverged = PETSC_FALSE; /* the gap is not the reason of the failure: there is no equilibrium */
+    }
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,138 @@
+/* The displacements at which the gap is linearized in contact updates, and the linearizations there */
+#include "contact_updateimpl.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+
+/*
+   Computes the gap at u for a load step that ends at `time`. The derivative of the gap is computed only if initial
+   overlaps follow ramps, since InterferenceAdd() needs it.
+*/
+PetscErrorCode ContactUpdateGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
+{
+  PetscBool ramps = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
+    ramps = (PetscBool)(ramps || sim->scene->pairs[p].interference_ramp >= 0);
+  if (ramps) {
+    PetscCall(ContactLinearizeForces(sim->contact, u, lin));
+    PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
+  } else PetscCall(ContactGetGaps(sim->contact, u, lin));
+  PetscFunctionReturn(0);
+}
+
+/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied.
+   anticipates: whether the derivative that ContactUpdateAnticipate() needs is computed too */
+PetscErrorCode ContactUpdateLinearize(Simulation sim, PetscReal time, Vec u, PetscBool anticipates,
+  ContactLinearization *lin)
+{
+  PetscFunctionBegin;
+  PetscCall((anticipates ? ContactLinearize : ContactLinearizeForces)(sim->contact, u, lin));
+  PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Makes u a displacement in which rigid bodies that turn freely are rigid. An extrapolated u does not have this
+   property, because a combination of rotations is not a rotation.
+*/
+static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
+{
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscReal         change;
+
+  PetscFunctionBegin;
+  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  PetscCall(StepProblemTurn(p, u));
+  PetscCall(TiesFollow(&p->sim->ties, u));
+  PetscCall(TiesStraighten(&constraints, u, &change));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets sim->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is a
+   forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
+   is always used in the first load step, after a cut and with friction, because with friction the errors that the
+   tolerance allows would add up over the load steps.
+*/
+PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
+  Vec *u_linearized)
+{
+  Simulation sim       = p->sim;
+  PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < sim->scene->npairs; ++k)
+    if (SceneContactPairHasFriction(&sim->scene->pairs[k])) continues = PETSC_FALSE;
+  PetscCall(VecDuplicate(u, u_linearized));
+  PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
+  if (foreseen || continues) {
+    if (!foreseen) PetscCall(PathContinue(sim, p->time, *u_linearized));
+    PetscCall(ContactUpdateMakeRigid(p, *u_linearized));
+    PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
+  }
+  if (!sim->solved->upcoming)
+    PetscCall(
+      (foreseen ? ContactLinearize : ContactLinearizeForces)(sim->contact, *u_linearized, &sim->solved->upcoming));
+  sim->solved->linearization = sim->solved->upcoming;
+  sim->solved->upcoming      = NULL;
+  PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->solved->linearization));
+  PetscFunctionReturn(0);
+}
+
+/* Warns that contact updates are damped, but only once in a run. */
+static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *report)
+{
+  PetscInt before = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
+  if (!before)
+    PetscCall(ReportWarn(sim->comm, &sim->report,
+      "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
+      "steps, or swap mortar and nonmortar",
+      report->step));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Moves u_linearized to the point at which the gap is linearized next, and linearizes the gap there. at_u: the
+   linearization at the solution u on entry, the new linearization on exit.
+*/
+PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const ContactSolution *sol, Vec u, Vec u_linearized,
+  StepReport *report, ContactLinearization *at_u)
+{
+  Simulation sim = p->sim;
+  PetscBool  damped, at_solution, found = PETSC_FALSE;
+  PetscReal  held;
+  Vec        next;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &next));
+  if (!p->holds_weak) PetscCall(ContactUpdateNewton(p, sol, *at_u, u_linearized, u, next, report, &found));
+  PetscCall(ProximalMeasureHeld(p, u, &held)); /* `held` decreases as bodies on weak springs come to rest, whereas
+                                                  the change of the gap need not decrease */
+  PetscCall(AndersonAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
+  if (damped && ProximalMayHoldWeak(p)) {
+    PetscCall(VecDestroy(&next));
+    PetscCall(ReportReason(report, PETSC_FALSE, "bodies on weak springs do not come to rest in contact updates"));
+    PetscFunctionReturn(0);
+  }
+  if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
+  if (damped) PetscCall(FrictionReleaseOpen(p));
+  report->gap_damped += damped;
+  p->by_newton = (PetscBool)(found && !damped);
+  if (p->by_newton) PetscCall(VecCopy(next, u_linearized));
+  PetscCall(VecDestroy(&next));
+  PetscCall(VecEqual(u, u_linearized, &at_solution));
+  PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+  if (!at_solution || (*at_u)->gaps_only) {
+    PetscCall(ContactLinearizationDestroy(at_u));
+    PetscCall(ContactUpdateMakeRigid(p, u_linearized));
+    PetscCall(ContactUpdateLinearize(sim, p->time, u_linearized, (PetscBool)!p->by_newton, at_u));
+  }
+  sim->solved->linearization = *at_u;
+  *at_u                      = NULL;
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,182 @@
+/* Contact that the search missed: faces beyond its distance, vertices without a row, faces that passed each other */
+#include "contact_updateimpl.h"
+#include "src/state/contact_history.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+
+/*
+   Computes the displacement since the linearization. du: u - u_linearized, a new vector; *moved: its largest component
+   [length].
+*/
+static PetscErrorCode MissedMotion(Vec u_linearized, Vec u, Vec *du, PetscReal *moved)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, du));
+  PetscCall(VecWAXPY(*du, -1.0, u_linearized, u));
+  PetscCall(VecNorm(*du, NORM_INFINITY, moved));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds the largest penetration as a negative gap. *deepest: min(gap, 0) over the rows of all ranks; 0 if no row is
+   penetrated or there are no rows [length].
+*/
+static PetscErrorCode MissedDeepestGap(Vec gap, PetscReal *deepest)
+{
+  PetscReal least = 0.0;
+  PetscInt  nrows;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(gap, &nrows));
+  if (nrows) PetscCall(VecMin(gap, NULL, &least));
+  *deepest = PetscMin(least, 0.0);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds faces that were farther apart than the search distance at u_linearized but may have met at u, which is possible
+   if the solution moved by more than half of that distance. The search is then repeated with a larger distance *reach.
+   own: linearized gap of the present rows at u. *missed: true if a row of the wider search is penetrated at u more
+   deeply than any present row (present rows may be penetrated, for example with the penalty method); the wider
+   linearization then replaces sim->solved->linearization.
+*/
+PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
+{
+  Simulation           sim  = p->sim;
+  ContactLinearization wide = NULL;
+  PetscReal            moved, least = 0.0, allowed;
+  Vec                  du, gap;
+
+  PetscFunctionBegin;
+  *missed = PETSC_FALSE;
+  PetscCall(MissedMotion(u_linearized, u, &du, &moved));
+  if (2.0 * moved > *reach) { /* each of the two faces may have moved by `moved` */
+    *reach = 2.0 * PetscMax(moved, *reach);
+    PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
+    PetscCall(ContactUpdateLinearize(sim, p->time, u_linearized, PETSC_TRUE, &wide));
+    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+    PetscCall(VecDuplicate(wide->g, &gap));
+    PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
+    PetscCall(MissedDeepestGap(gap, &least));
+    PetscCall(MissedDeepestGap(own, &allowed));
+    PetscCall(VecDestroy(&gap));
+    *missed = (PetscBool)(least < allowed - PETSC_SQRT_MACHINE_EPSILON * 100.0 * moved);
+  }
+  PetscCall(VecDestroy(&du));
+  if (*missed) {
+    if (sim->control->monitor)
+      PetscCall(PetscPrintf(sim->comm,
+        "Faces beyond the contact search distance penetrated by %g: searched again up to a distance of %g\n",
+        -(double)least, (double)*reach));
+    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+    sim->solved->linearization = wide;
+  } else PetscCall(ContactLinearizationDestroy(&wide));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds vertices that were under pressure in the solve but have no contact row at u. A vertex has no row if it slid
+   over the edge of the opposite face; *slid is then true, and another update is needed. A vertex also has no row if it
+   lies deeper in the other body than the contact search reaches; the load step has then failed.
+*/
+PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
+  StepReport *report, PetscBool *slid)
+{
+  Simulation           sim = p->sim;
+  ContactLinearization deep;
+  PetscBool           *lost;
+  PetscReal            distance, depth, moved, least = 0.0;
+  PetscInt             nlost;
+  Vec                  du;
+  char                 sentence[128];
+
+  PetscFunctionBegin;
+  PetscCall(ContactHistoryFindLostRows(sim->history, at_u, &lost, &nlost));
+  *slid = (PetscBool)(nlost > 0);
+  if (nlost) {
+    PetscCall(MissedMotion(u_linearized, u, &du, &moved));
+    PetscCall(VecDestroy(&du));
+    PetscCall(ContactGetReach(sim->contact, &distance, &depth));
+    PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
+    PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, &deep));
+    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+    PetscCall(ContactHistoryLeastGap(sim->history, lost, deep, &least));
+    PetscCall(ContactLinearizationDestroy(&deep));
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
+    if (least < -depth) PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  PetscCall(PetscFree(lost));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether any faces of a pair are within the search distance of each other at u. */
+static PetscErrorCode MissedFindMet(Simulation sim, PetscReal time, PetscInt pair, Vec u, PetscBool *met)
+{
+  ContactLinearization lin;
+
+  PetscFunctionBegin;
+  *met = PETSC_FALSE;
+  PetscCall(ContactUpdateLinearize(sim, time, u, PETSC_FALSE, &lin));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) *met = (PetscBool)(*met || lin->pair[r] == pair);
+  PetscCall(ContactLinearizationDestroy(&lin));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Reports a face that turned by more than 90 degrees and has lost contact. Such a face may have passed through the
+   opposite face on a curved path.
+*/
+static PetscErrorCode MissedFindTurned(Simulation sim, PetscReal time, PetscInt p, Vec u, StepReport *report)
+{
+  const SceneContactPair *pair = &sim->scene->pairs[p];
+  PetscBool               before, now;
+  char                    sentence[256];
+
+  PetscFunctionBegin;
+  PetscCall(MissedFindMet(sim, time, p, sim->path->u, &before));
+  PetscCall(MissedFindMet(sim, time, p, u, &now));
+  if (!before || now) PetscFunctionReturn(0);
+  PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+    "contact pair \"%s\": %s or %s turns by more than 90 degrees within the load step, and has no contact after it; "
+    "use smaller load steps",
+    pair->name, pair->mortar, pair->nonmortar));
+  PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Reports faces that passed through each other since the last state and therefore have no contact at u. This is
+   possible only if they moved by at least the depth of the contact search.
+*/
+PetscErrorCode MissedFindPassed(Simulation sim, PetscReal time, Vec u, StepReport *report)
+{
+  PetscBool turned;
+  PetscReal moved, reach, depth;
+  Vec       du;
+  char      sentence[256];
+
+  PetscFunctionBegin;
+  if (!report->converged) PetscFunctionReturn(0);
+  PetscCall(MissedMotion(sim->path->u, u, &du, &moved));
+  PetscCall(VecDestroy(&du));
+  for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
+    const SceneContactPair *pair = &sim->scene->pairs[p];
+
+    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path->u, u, &depth, &reach, &turned));
+    if (turned && depth <= reach) PetscCall(MissedFindTurned(sim, time, p, u, report));
+    if (depth <= reach) continue;
+    if (pair->self)
+      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+        "contact pair \"%s\": %s goes through itself within the load step, by %.3g; use smaller load steps", pair->name,
+        pair->self, (double)depth));
+    else
+      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+        "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
+        pair->name, pair->mortar, pair->nonmortar, (double)depth));
+    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+  }
+  PetscFunctionReturn(0);
+}

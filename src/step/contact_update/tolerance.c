@@ -1,0 +1,60 @@
+/* The tolerance of the solves of contact updates */
+#include "contact_updateimpl.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+
+/*
+   Sets p->tolerance, the relative KKT error to which the next linearized problem is solved; 0: the tolerance of the
+   load step. foreseen: u was a forecast; again: the same linearization is solved once more, to a smaller tolerance;
+   end: this is the last solve.
+
+     The first update has the tolerance 1e-3, or 1e-4 with friction. Later updates are solved to a tenth of the relative
+     change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
+     may be the cause, and the tolerance is at most a tenth of the previous one.
+
+     The tolerance of the load step is used for the last update, without friction also if the errors of the last two
+     updates let expect that the next one is the last, for a start from a forecast, with weak springs (which would carry
+     the residual), and if the gap tolerance is near rounding, so that results are reproducible.
+*/
+PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
+  const StepReport *report)
+{
+  Simulation      sim   = p->sim;
+  const PetscReal first = sim->solved->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5,
+                  before = p->tolerance, allowed = sim->control->tolerances.gap_change;
+  PetscReal size;
+
+  PetscFunctionBegin;
+  p->tolerance = 0.0;
+  if (end || sim->springs.weak || allowed < PETSC_SQRT_MACHINE_EPSILON ||
+      report->contact_updates + 1 >= sim->scene->contact_updates)
+    PetscFunctionReturn(0);
+  p->tolerance = foreseen ? 0.0 : first;
+  if (!report->contact_updates && !again) PetscFunctionReturn(0);
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  p->tolerance = PetscMin(first, fraction * report->update_error / size);
+  if (again) PetscFunctionReturn(0);
+  if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
+    p->tolerance = PetscMin(p->tolerance, fraction * before);
+  if (report->contact_updates > 1 && !sim->solved->linearization->slip &&
+      PetscSqr(report->update_error) <= allowed * size * p->gap_change)
+    p->tolerance = 0.0;
+  p->gap_change = report->update_error;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds whether the linearization that was just solved to p->tolerance must be solved to a smaller tolerance. *again:
+   true for the last update, and for the first update if the change of the gap is below the tolerance of the solve.
+*/
+PetscErrorCode ContactUpdateEndedEarly(const StepProblem *p, PetscBool end, Vec u, const StepReport *report,
+  PetscBool *again)
+{
+  PetscReal size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  *again = (PetscBool)(report->converged && p->ended_early &&
+                       (end || (report->contact_updates == 1 && report->update_error <= p->tolerance * size)));
+  PetscFunctionReturn(0);
+}

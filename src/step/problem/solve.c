@@ -1,0 +1,36 @@
+/* Solves the problem of a load step with one linearization of the contact, or without contact */
+#include "problemimpl.h"
+#include "src/state/control.h"
+
+PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
+{
+  const Constraints constraints = SimulationConstraints(p->sim);
+  PetscInt          nsolves     = 0;
+  PetscBool         again, rescued;
+
+  PetscFunctionBegin;
+  p->sim->bolts.nsolves = 0;
+  PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
+  do {
+    if (!nsolves) PetscCall(FollowersForget(p));
+    if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
+    else if (p->sim->quadratic && !p->J && !p->lower)
+      PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
+    else if (p->sim->control->penalty > 0.0 && p->J)
+      PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
+    else PetscCall(OptimizerSolve(p, (PetscBool)(resume || nsolves), u, report, sol));
+    if (report->converged) PetscCall(TiesFollow(&p->sim->ties, u));
+    PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
+    PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
+    PetscCall(StepProblemAdvanceBolts(p, u, report, &again));
+    PetscCall(FollowersAdvanceMean(p, u, nsolves, report, &again));
+    PetscCall(ProximalRescue(p, u, report, &rescued));
+    if (rescued) nsolves = 0;
+  } while (again || rescued);
+  PetscCall(WeakSpringsTest(p, u, report));
+  PetscCall(RigidTest(&constraints, (PetscBool)(!p->J || p->sim->scene->contact_updates > 1), u, report));
+  report->straightened = 0.0;
+  if (report->converged) PetscCall(TiesStraighten(&constraints, u, &report->straightened));
+  PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
