@@ -44,12 +44,12 @@ typedef enum { PC_AMGF_BFB, PC_AMGF_FBF, PC_AMGF_ADDITIVE } PCAMGFCycle;
 PETSC_EXTERN const char *const PCAMGFCycles[];
 
 /*E
-  PCAMGFFactorUse - whether a factorization of the operator takes the place of the AMG
+  PCAMGFFactorUse - whether a factorization of the operator replaces the AMG
 
   Values:
 + PC_AMGF_FACTOR_FALSE - never
 . PC_AMGF_FACTOR_TRUE  - always
-- PC_AMGF_FACTOR_AUTO  - where it is estimated to be the cheaper for what `PCAMGFExpect()` says is to come
+- PC_AMGF_FACTOR_AUTO  - if it is estimated to be faster for the number of applications given to `PCAMGFExpect()`
 
   Level: intermediate
 E*/
@@ -64,18 +64,16 @@ typedef struct {
   PetscInt filter_applies; /* solves with the matrix on the filtered subspace */
 } PCAMGFCounts;
 
-/* What a TaoSolve() did for Newton systems that a Krylov method alone did not solve */
+/* Counts of the remedies for Newton systems that the Krylov method alone did not solve, in one TaoSolve() */
 typedef struct {
   PetscInt  refinements;    /* solves continued from the iterate reached, because its true residual was too large */
-  PetscInt  amg_rebuilds;   /* times that an AMG of an older matrix was rebuilt */
-  PetscInt  filters;        /* times that the filter was switched on, or extended to the neighbours of the constraints'
-                               unknowns */
+  PetscInt  amg_rebuilds;   /* rebuilds of an AMG of an older matrix */
+  PetscInt  filters;        /* filters switched on, or extended to the neighbours of the constraints' unknowns */
   PetscInt  direct;         /* systems solved by MUMPS on the whole matrix */
-  PetscInt  failures;       /* systems that nothing solved */
+  PetscInt  failures;       /* systems that no remedy solved */
   PetscReal backward_error; /* largest backward error of a direction that was used: ||b - A d|| / (||diag(A) d|| +
                                ||b||) */
-  PetscInt  subspaces;      /* times that the filtered subspace method began, and gave way to the interior point method
-                               */
+  PetscInt  subspaces;      /* changes from the filtered subspace method to the interior point method */
 } TaoIPFilterFallbacks;
 
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);

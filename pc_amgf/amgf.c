@@ -37,7 +37,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 }
 
 /*MC
-   PCAMGF - algebraic multigrid with filtering: a small subspace is solved exactly, the rest is preconditioned by an AMG
+   PCAMGF - Algebraic multigrid with filtering: an exact solve on a small subspace, and an AMG on the whole space
 
    Options Database Keys:
 +  -pc_amgf_cycle <fbf>             - `bfb`, `fbf` or `additive`, see `PCAMGFCycle`
@@ -51,11 +51,12 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the
                                       prefix `amgf_filter_`
 .  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
-.  -pc_amgf_filter_ranks <0>        - how many ranks the direct solver has, unless its type is given; 0: one for every
+.  -pc_amgf_filter_ranks <0>        - number of ranks of the direct solver, unless its type is given; 0: one for every
                                       10,000 rows
 .  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options
-                                      prefix `amgf_factor_`; `auto`: where `PCAMGFExpect()` says that it is the cheaper
--  -pc_amgf_factor_share <0.4>      - auto: share of the machine's memory that the factors may take
+                                      prefix `amgf_factor_`; `auto`: B is the factorization if that is estimated to be
+                                      faster, see `PCAMGFExpect()`
+-  -pc_amgf_factor_share <0.4>      - auto: largest fraction of the machine's memory that the factors may take
 
    Level: intermediate
 
@@ -70,8 +71,8 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    the rounding errors of its precision.
    `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
 
-   The subspace, first that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS` or `Mat`
-   composed on the Pmat under "amgf_filter" (if it is composed after the set-up, the next application uses it);
+   The subspace is the first of these that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS`
+   or `Mat` composed on the Pmat under "amgf_filter" (if it is composed after the set-up, the next application uses it);
    `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B. If no subspace
    was given or detected, one warning is printed, unless `PCAMGFSetFilterOptional()`.
 
@@ -107,13 +108,14 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 
    References:
 .  * - S. Petrides, T. Hartland, Tz. Kolev, C. S. Lee, M. Puso, J. Solberg, E. B. Chin, J. Wang, C. Petra, AMG with
-      filtering: an efficient preconditioner for
-   interior point methods in large-scale contact mechanics optimization, arXiv:2505.18576, 2025.
+         filtering: an efficient preconditioner for interior point methods in large-scale contact mechanics
+         optimization, arXiv:2505.18576, 2025.
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`,
           `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFSetFilterRanks()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`,
-          `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCCOMPOSITE`, `PCDEFLATION`
+          `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCAMGFGetFactored()`, `PCAMGFGetAMGAge()`, `PCBLOCKAMG`,
+          `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
 {

@@ -62,17 +62,18 @@ typedef struct {
 
 /* Solver of the filtered system A_w on the first few ranks only */
 typedef struct {
-  PetscInt    wanted; /* number of ranks requested by PCAMGFSetFilterRanks(); 0: chosen from the size of A_w */
-  PetscMPIInt nranks; /* number of ranks that solve; 0: not set up */
-  PetscBool   solves; /* whether this rank is one of them */
-  AMGFStamp   stamp;  /* stamp of A_w at the last set-up */
-  MPI_Comm    comm;   /* on the solving ranks: the communicator of these ranks; elsewhere: that of the other ranks */
-  PC          pc;     /* direct solver for A; NULL on ranks that do not solve */
-  Mat         moved, rows, A;
-  Vec         at, b, x; /* at: vector of all ranks with the layout of A, whose entries are on the solving ranks; NULL if
-                           all ranks solve with A_w itself. b, x: right-hand side and solution on the solving ranks,
-                           NULL elsewhere */
-  VecScatter  scatter;
+  PetscInt    wanted;   /* number of ranks requested by PCAMGFSetFilterRanks(); 0: chosen from the size of A_w */
+  PetscMPIInt nranks;   /* number of ranks that solve; 0: not set up */
+  PetscBool   solves;   /* whether this rank is one of them */
+  AMGFStamp   stamp;    /* stamp of A_w at the last set-up */
+  MPI_Comm    comm;     /* on the solving ranks: the communicator of these ranks; elsewhere: that of the other ranks */
+  PC          pc;       /* direct solver for A; NULL on ranks that do not solve */
+  Mat         gathered; /* A_w on all ranks, with all rows on the solving ranks */
+  Mat         rows;     /* this rank's rows of `gathered` */
+  Mat         A;        /* A_w on the communicator of the solving ranks; NULL elsewhere */
+  Vec         spread;   /* vector of all ranks with the layout of `gathered`; NULL if all ranks solve with A_w itself */
+  Vec         b, x;     /* right-hand side and solution on the solving ranks; NULL elsewhere */
+  VecScatter  scatter;  /* from vectors of A_w to `spread` */
 } AMGFFewRanks;
 
 /* Estimated times of the two candidates for B: a factorization, or AMG [s] */
@@ -112,8 +113,7 @@ typedef struct {
   Mat       set_P;
   char     *file;
   IS        file_is;
-  PetscReal detect; /* ratio to the median above which a diagonal entry is stiff, see PCAMGFSetDetect(); 0: no
-                       detection */
+  PetscReal detect; /* -pc_amgf_detect: ratio to the median above which a diagonal entry is stiff; 0: no detection */
   IS        detected_is;
 
   AMGFSubspace sub;

@@ -144,7 +144,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc, PetscBool attach)
 }
 
 /*@
-  PCAMGFSetCycle - sets the order in which the AMG and the subspace solve are combined
+  PCAMGFSetCycle - Sets the order in which the AMG and the subspace solve are combined
 
   Logically Collective
 
@@ -173,7 +173,7 @@ PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
 }
 
 /*@
-  PCAMGFGetCycle - gets the order in which the AMG and the subspace solve are combined
+  PCAMGFGetCycle - Gets the order in which the AMG and the subspace solve are combined
 
   Not Collective
 
@@ -191,18 +191,19 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(cycle, 2);
   PetscUseMethod(pc, "PCAMGFGetCycle_C", (PC, PCAMGFCycle *), (pc, cycle));
   PetscFunctionReturn(0);
 }
 
 /*@
-  PCAMGFSetFilterIS - names the unknowns that are solved exactly
+  PCAMGFSetFilterIS - Sets the unknowns that are solved exactly
 
   Logically Collective
 
   Input Parameters:
 + pc - the preconditioner
-- is - global row numbers of the operator, or NULL to remove the one that was set
+- is - global row numbers of the operator; NULL removes the set of an earlier call
 
   Options Database Keys:
 + -pc_amgf_filter_file <file> - binary file that `ISLoad()` reads the set from at the first `PCSetUp()`; by default none
@@ -212,14 +213,14 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
   Level: intermediate
 
   Notes:
-  The set is the union over all ranks: entries may repeat, need no order, and may name rows owned by other ranks, so
-  `is` may live on the operator's communicator or on `PETSC_COMM_SELF`. A row number outside the operator is an error
-  of `PCSetUp()`.
+  The set is the union over all ranks. Entries may repeat, need no order, and may be rows of other ranks. The
+  communicator of `is` is therefore the operator's or `PETSC_COMM_SELF`. `is` is referenced, not copied. A row number
+  outside the operator is an error of `PCSetUp()`.
 
-  Takes precedence over an object composed on the operator, then a file, then detection. Replaces a `Mat` set by
-  `PCAMGFSetFilterInterpolation()`.
+  The set takes precedence over an object composed on the operator, then a file, then detection. It replaces a
+  `Mat` set by `PCAMGFSetFilterInterpolation()`.
 
-  If the set of unknowns and the operator's nonzero pattern stay, the symbolic factorization is kept.
+  If the set of unknowns and the operator's nonzero pattern do not change, the symbolic factorization is reused.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterInterpolation()`, `PCAMGFGetFilterSize()`
 @*/
@@ -233,20 +234,21 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
 }
 
 /*@
-  PCAMGFSetFilterInterpolation - sets the subspace that is solved exactly as the range of a matrix
+  PCAMGFSetFilterInterpolation - Sets the subspace that is solved exactly as the range of a matrix
 
   Logically Collective
 
   Input Parameters:
 + pc - the preconditioner
-- P  - matrix (n x n_c) of full column rank, rows laid out as the operator's; or NULL to remove the one that was set
+- P  - matrix (n x n_c) of full column rank with the row layout of the operator; NULL removes that of an earlier call
 
   Level: intermediate
 
   Notes:
-  `P` of another type than `MATAIJ` is converted. Work and memory grow with the number of rows in which `P` is nonzero.
+  `P` is referenced, not copied; a matrix of another type than `MATAIJ` is converted. Work and memory grow with the
+  number of rows in which `P` is nonzero.
 
-  Takes precedence over an object composed on the operator, then a file, then detection. Replaces an `IS` set by
+  `P` takes precedence over an object composed on the operator, then a file, then detection. It replaces an `IS` set by
   `PCAMGFSetFilterIS()`.
 
 .seealso: `PCAMGF`, `PCAMGFSetFilterIS()`, `PCAMGFGetFilterSize()`
@@ -261,7 +263,7 @@ PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
 }
 
 /*@
-  PCAMGFGetFilterSize - gets the global dimension n_c of the subspace that is solved exactly
+  PCAMGFGetFilterSize - Gets the global dimension n_c of the subspace that is solved exactly
 
   Not Collective
 
@@ -269,7 +271,7 @@ PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
 . pc - the preconditioner, of type `PCAMGF`
 
   Output Parameter:
-. n - its dimension at the last `PCSetUp()` with the filter on; 0 before, and if there is no subspace
+. n - dimension at the last `PCSetUp()` with the filter on; 0 before it, and if there is no subspace
 
   Level: intermediate
 
@@ -285,13 +287,13 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
 }
 
 /*@
-  PCAMGFSetFilterActive - switches the subspace solve off or on; without it only the AMG is applied
+  PCAMGFSetFilterActive - Switches the subspace solve off or on; without it only the AMG is applied
 
   Logically Collective
 
   Input Parameters:
 + pc     - the preconditioner
-- active - `PETSC_FALSE`: the preconditioner is B; `PETSC_TRUE` (the default): as `PCAMGFSetCycle()` says
+- active - `PETSC_FALSE`: the preconditioner is the AMG alone; `PETSC_TRUE` (default): the cycle of `PCAMGFSetCycle()`
 
   Level: intermediate
 
@@ -314,14 +316,14 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 }
 
 /*@
-  PCAMGFSetFilterOptional - sets whether a set-up without a subspace is intended
+  PCAMGFSetFilterOptional - Sets whether a set-up without a subspace is intended
 
   Logically Collective
 
   Input Parameters:
 + pc       - the preconditioner
-- optional - `PETSC_FALSE` (the default): the first set-up for which no subspace is named, or none is detected, warns of
-             it on the standard error stream; `PETSC_TRUE`: it does not
+- optional - `PETSC_FALSE` (default): the first set-up without a given or detected subspace prints a warning to the
+             standard error stream; `PETSC_TRUE`: no warning
 
   Level: intermediate
 
@@ -341,7 +343,7 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 }
 
 /*@
-  PCAMGFSetAMGLag - sets how often the AMG is rebuilt when the operator changes
+  PCAMGFSetAMGLag - Sets how often the AMG is rebuilt when the operator changes
 
   Logically Collective
 
@@ -377,7 +379,7 @@ PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
 }
 
 /*@
-  PCAMGFGetAMGAge - gets the number of changed operators for which the AMG was used since it was built
+  PCAMGFGetAMGAge - Gets the number of changed operators for which the AMG was used since it was built
 
   Not Collective
 
@@ -401,7 +403,7 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
 }
 
 /*@
-  PCAMGFGetAMGPC - gets the inner preconditioner B
+  PCAMGFGetAMGPC - Gets the inner preconditioner B
 
   Not Collective
 
@@ -412,15 +414,16 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
 . amg - the inner preconditioner; do not destroy it
 
   Options Database Key:
-. -amgf_amg_pc_type <hypre> - its type; `gamg` is the default where PETSc has no hypre
+. -amgf_amg_pc_type <blockamg> - type of the inner preconditioner; the manual page of `PCAMGF` lists the cases with
+                                 another default
 
   Level: advanced
 
   Note:
-  A type set on it replaces the default, BoomerAMG, and PCAMGF's defaults for it. It reads its options, with prefix
-  `-amgf_amg_`, at the first `PCSetUp()`.
+  If the caller sets a type, `PCAMGF` chooses neither type nor parameters of the inner preconditioner. Its options, with
+  the prefix `-amgf_amg_`, are read at the first `PCSetUp()`.
 
-.seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`
+.seealso: `PCAMGF`, `PCBLOCKAMG`, `PCAMGFGetFilterKSP()`
 @*/
 PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 {
@@ -432,7 +435,7 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 }
 
 /*@
-  PCAMGFGetFilterKSP - gets the solver of the system with P^T A P
+  PCAMGFGetFilterKSP - Gets the solver of the system with P^T A P
 
   Not Collective
 
@@ -443,14 +446,14 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 . ksp - the solver; do not destroy it
 
   Options Database Keys:
-+ -amgf_filter_ksp_type <preonly> - its type
-- -amgf_filter_pc_type <cholesky> - its preconditioner's; `lu` is the default with complex scalars
++ -amgf_filter_ksp_type <preonly> - type of the solver
+- -amgf_filter_pc_type <cholesky> - type of its preconditioner; `lu` is the default with complex scalars
 
   Level: advanced
 
   Note:
-  A type set on it replaces the default, `KSPPREONLY` with Cholesky, or LU with complex scalars. It reads its options,
-  with prefix `-amgf_filter_`, at the first `PCSetUp()`.
+  The default is `KSPPREONLY` with Cholesky, or with LU if scalars are complex. A type that the caller sets is kept. The
+  options, with the prefix `-amgf_filter_`, are read at the first `PCSetUp()`.
 
 .seealso: `PCAMGF`, `PCAMGFGetAMGPC()`
 @*/
@@ -464,7 +467,7 @@ PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
 }
 
 /*@
-  PCAMGFGetCounts - gets the numbers of set-ups and applications since the preconditioner was created
+  PCAMGFGetCounts - Gets the numbers of set-ups and applications since the preconditioner was created
 
   Not Collective
 
@@ -485,6 +488,7 @@ PetscErrorCode PCAMGFGetCounts(PC pc, PCAMGFCounts *counts)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(counts, 2);
   PetscUseMethod(pc, "PCAMGFGetCounts_C", (PC, PCAMGFCounts *), (pc, counts));
   PetscFunctionReturn(0);
 }

@@ -340,7 +340,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 }
 
 /*@
-  PCAMGFSetFactor - sets whether a Cholesky factorization of the operator replaces the AMG
+  PCAMGFSetFactor - Sets whether a Cholesky factorization of the operator replaces the AMG
 
   Logically Collective
 
@@ -350,7 +350,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *wh
 
   Options Database Keys:
 + -pc_amgf_factor <false>     - `false`, `true` or `auto`
-- -pc_amgf_factor_share <0.4> - auto: largest share of the memory of the ranks' machines (or of the limit of their
+- -pc_amgf_factor_share <0.4> - auto: largest fraction of the memory of the ranks' machines (or of the limit of their
                                 control groups) that the factors may need, as estimated by MUMPS
 
   Level: intermediate
@@ -371,22 +371,23 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 }
 
 /*@
-  PCAMGFExpect - sets how often the preconditioner of the present operator will be applied, so that
+  PCAMGFExpect - Sets how often the preconditioner of the present operator will be applied, so that
   `PC_AMGF_FACTOR_AUTO` can choose
 
   Collective
 
   Input Parameters:
 + pc           - the preconditioner, with its operators
-. applications - expected number of applications of an AMG
-- solves       - expected number of solves with a factorization instead
+. applications - expected number of applications, if the AMG is used
+- solves       - expected number of applications, if the factorization is used
 
   Level: advanced
 
   Notes:
-  MUMPS computes the factorization, but on one rank with `PC_AMGF_FACTOR_AUTO` the factorization of pc_amgf/cholesky.
-  The cost of the factorization is estimated from MUMPS's analysis, which gives floating-point operations, entries and
-  memory. The cost of the AMG is estimated from the number of entries of the operator.
+  Has no effect unless the choice is `PC_AMGF_FACTOR_AUTO`. The factors are computed by MUMPS, or, on one rank, by the
+  solver of pc_amgf/cholesky. The cost of the factorization is estimated from MUMPS's analysis, which gives
+  floating-point operations, entries and memory. The cost of the AMG is estimated from the number of entries of the
+  operator.
 
   Call this function before the first `PCSetUp()`, and again if the expected numbers change. The next `PCSetUp()` may
   then replace the AMG by a factorization. A factorization is not replaced by the AMG as long as the nonzero pattern of
@@ -398,12 +399,14 @@ PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
 {
   PetscFunctionBegin;
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidLogicalCollectiveReal(pc, applications, 2);
+  PetscValidLogicalCollectiveReal(pc, solves, 3);
   PetscTryMethod(pc, "PCAMGFExpect_C", (PC, PetscReal, PetscReal), (pc, applications, solves));
   PetscFunctionReturn(0);
 }
 
 /*@C
-  PCAMGFGetFactored - gets whether a factorization replaces the AMG
+  PCAMGFGetFactored - Gets whether a factorization replaces the AMG
 
   Not Collective
 
@@ -411,8 +414,8 @@ PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
 . pc - the preconditioner, of type `PCAMGF`
 
   Output Parameters:
-+ factored - whether it does
-- why      - a sentence on the last choice, empty without one; pass `NULL` if it is not needed
++ factored - whether a factorization is used
+- why      - one sentence on the last automatic choice, owned by `pc`; empty if there was none; may be NULL
 
   Level: intermediate
 

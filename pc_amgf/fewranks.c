@@ -14,12 +14,12 @@ static PetscErrorCode FewRanksMoveMatrix(AMGFFewRanks *few, Mat Aw, PetscBool re
   IS             rows;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(few->at, &n));
-  PetscCall(VecGetOwnershipRange(few->at, &first, NULL));
+  PetscCall(VecGetLocalSize(few->spread, &n));
+  PetscCall(VecGetOwnershipRange(few->spread, &first, NULL));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)Aw), n, first, 1, &rows));
-  PetscCall(MatCreateSubMatrix(Aw, rows, rows, call, &few->moved));
+  PetscCall(MatCreateSubMatrix(Aw, rows, rows, call, &few->gathered));
   PetscCall(ISDestroy(&rows));
-  PetscCall(MatMPIAIJGetLocalMat(few->moved, call, &few->rows));
+  PetscCall(MatMPIAIJGetLocalMat(few->gathered, call, &few->rows));
   if (few->solves) {
     PetscCall(MatCreateMPIMatConcatenateSeqMat(few->comm, few->rows, n, call, &few->A));
     PetscCall(MatSetOption(few->A, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE));
@@ -40,11 +40,11 @@ static PetscErrorCode FewRanksCreateVecs(AMGFFewRanks *few, Mat Aw)
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(MatGetSize(Aw, &N, NULL));
   n = few->solves ? N / few->nranks + (rank < N % few->nranks) : 0;
-  PetscCall(VecCreateMPI(comm, n, N, &few->at));
-  PetscCall(VecGetOwnershipRange(few->at, &first, NULL));
+  PetscCall(VecCreateMPI(comm, n, N, &few->spread));
+  PetscCall(VecGetOwnershipRange(few->spread, &first, NULL));
   PetscCall(ISCreateStride(comm, n, first, 1, &all));
   PetscCall(MatCreateVecs(Aw, &whole, NULL));
-  PetscCall(VecScatterCreate(whole, all, few->at, all, &few->scatter));
+  PetscCall(VecScatterCreate(whole, all, few->spread, all, &few->scatter));
   PetscCall(ISDestroy(&all));
   PetscCall(VecDestroy(&whole));
   if (few->solves) PetscCall(VecCreateMPI(few->comm, n, N, &few->b));
@@ -59,8 +59,8 @@ PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *few)
   PetscCall(PCDestroy(&few->pc));
   PetscCall(MatDestroy(&few->A));
   PetscCall(MatDestroy(&few->rows));
-  PetscCall(MatDestroy(&few->moved));
-  PetscCall(VecDestroy(&few->at));
+  PetscCall(MatDestroy(&few->gathered));
+  PetscCall(VecDestroy(&few->spread));
   PetscCall(VecDestroy(&few->b));
   PetscCall(VecDestroy(&few->x));
   PetscCall(VecScatterDestroy(&few->scatter));
@@ -145,9 +145,9 @@ static PetscErrorCode FewRanksSetUp(PC shell)
   reuse = (PetscBool)(nranks == few->nranks && AMGFStampSamePattern(&now, &few->stamp));
   if (!reuse) PetscCall(FewRanksCreate(shell, Aw, nranks, few));
   few->stamp = now;
-  if (few->at) PetscCall(FewRanksMoveMatrix(few, Aw, reuse));
+  if (few->spread) PetscCall(FewRanksMoveMatrix(few, Aw, reuse));
   if (few->pc) {
-    PetscCall(PCSetOperators(few->pc, few->at ? few->A : Aw, few->at ? few->A : Aw));
+    PetscCall(PCSetOperators(few->pc, few->spread ? few->A : Aw, few->spread ? few->A : Aw));
     PetscCall(PCSetUp(few->pc));
   }
   PetscCall(FewRanksShareFailure(shell, few));
@@ -162,22 +162,22 @@ static PetscErrorCode FewRanksSolve(PC shell, PetscErrorCode (*apply)(PC, Vec, V
 
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(shell, &few));
-  if (!few->at) {
+  if (!few->spread) {
     PetscCall(apply(few->pc, r, x));
     PetscFunctionReturn(0);
   }
-  PetscCall(VecScatterBegin(few->scatter, r, few->at, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(few->scatter, r, few->at, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterBegin(few->scatter, r, few->spread, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(few->scatter, r, few->spread, INSERT_VALUES, SCATTER_FORWARD));
   if (few->solves) {
-    PetscCall(VecGetArray(few->at, &array));
+    PetscCall(VecGetArray(few->spread, &array));
     PetscCall(VecPlaceArray(few->b, array));
     PetscCall(apply(few->pc, few->b, few->x));
     PetscCall(VecCopy(few->x, few->b));
     PetscCall(VecResetArray(few->b));
-    PetscCall(VecRestoreArray(few->at, &array));
+    PetscCall(VecRestoreArray(few->spread, &array));
   }
-  PetscCall(VecScatterBegin(few->scatter, few->at, x, INSERT_VALUES, SCATTER_REVERSE));
-  PetscCall(VecScatterEnd(few->scatter, few->at, x, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(VecScatterBegin(few->scatter, few->spread, x, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(VecScatterEnd(few->scatter, few->spread, x, INSERT_VALUES, SCATTER_REVERSE));
   PetscFunctionReturn(0);
 }
 
@@ -198,15 +198,15 @@ static PetscErrorCode FewRanksApplyTranspose(PC shell, Vec r, Vec x)
 static PetscErrorCode FewRanksView(PC shell, PetscViewer viewer)
 {
   AMGFFewRanks *few;
-  PetscViewer   theirs;
+  PetscViewer   sub;
 
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(shell, &few));
   if (!few->nranks) PetscFunctionReturn(0);
   PetscCall(PetscViewerASCIIPrintf(viewer, "  ranks that solve: %d\n", few->nranks));
-  PetscCall(PetscViewerGetSubViewer(viewer, few->comm, &theirs));
-  if (few->pc) PetscCall(PCView(few->pc, theirs));
-  PetscCall(PetscViewerRestoreSubViewer(viewer, few->comm, &theirs));
+  PetscCall(PetscViewerGetSubViewer(viewer, few->comm, &sub));
+  if (few->pc) PetscCall(PCView(few->pc, sub));
+  PetscCall(PetscViewerRestoreSubViewer(viewer, few->comm, &sub));
   PetscFunctionReturn(0);
 }
 
@@ -264,16 +264,16 @@ PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
 }
 
 /*@
-  PCAMGFSetFilterRanks - sets how many ranks solve the system with P^T A P
+  PCAMGFSetFilterRanks - Sets how many ranks solve the system with P^T A P
 
   Logically Collective
 
   Input Parameters:
 + pc - the preconditioner
-- n  - the first n ranks, or all if there are fewer; 0 (default): one for every 10,000 rows
+- n  - number of ranks: the first n, or all if there are fewer; 0 (default): one for every 10,000 rows
 
   Options Database Key:
-. -pc_amgf_filter_ranks <0> - as many
+. -pc_amgf_filter_ranks <0> - number of ranks
 
   Level: advanced
 
@@ -294,7 +294,7 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 }
 
 /*@
-  PCAMGFGetFilterPivots - gets the number of negative pivots in the factors of P^T A P
+  PCAMGFGetFilterPivots - Gets the number of negative pivots in the factors of P^T A P
 
   Collective
 
@@ -302,10 +302,13 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 . pc - the preconditioner, of type `PCAMGF`, after its set-up
 
   Output Parameter:
-. negative - their number, equal to the number of negative eigenvalues of the matrix; -1: not known, since the matrix
-             was not factored by Cholesky with MUMPS
+. negative - number of negative pivots, equal to the number of negative eigenvalues of the matrix; -1: not known, since
+             the matrix was not factored by Cholesky with MUMPS
 
   Level: advanced
+
+  Note:
+  If a factorization of the operator replaces the AMG (`PCAMGFSetFactor()`), the number is that of the operator.
 
 .seealso: `PCAMGF`, `PCAMGFGetFilterKSP()`
 @*/

@@ -182,20 +182,7 @@ static PetscErrorCode SubspaceFromIS(PC pc, IS is, PetscBool *same)
 
   PetscFunctionBegin;
   PetscCall(SubspaceOwnedRows(pc, is, &rows));
-  if (sub->rows && !sub->P) {
-    PetscInt        m, n;
-    const PetscInt *a, *b;
-
-    PetscCall(ISGetLocalSize(rows, &m));
-    PetscCall(ISGetLocalSize(sub->rows, &n));
-    PetscCall(ISGetIndices(rows, &a));
-    PetscCall(ISGetIndices(sub->rows, &b));
-    *same = (PetscBool)(m == n);
-    if (*same) PetscCall(PetscArraycmp(a, b, n, same));
-    PetscCall(ISRestoreIndices(rows, &a));
-    PetscCall(ISRestoreIndices(sub->rows, &b));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, same, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)pc)));
+  if (sub->rows && !sub->P) PetscCall(ISEqual(rows, sub->rows, same));
   if (*same) PetscCall(ISDestroy(&rows));
   else {
     PetscCall(MatDestroy(&sub->P));

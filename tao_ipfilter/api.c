@@ -248,15 +248,17 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
 
   Input Parameters:
 + tao - the `TAOIPFILTER`
-. s   - slacks, laid out as the inequality constraints; NULL forgets earlier values
-- z   - their multipliers with s_i z_i -> mu (`TaoIPFilterGetMultiplier()`), same layout; NULL with s
+. s   - slacks, laid out as the inequality constraints; NULL removes earlier values
+- z   - multipliers of the slacks, as `TaoIPFilterGetMultiplier()` returns them, same layout; NULL if s is NULL
 
   Level: intermediate
 
   Notes:
-  The vectors are copied. They need not be positive: each pair is moved to the central path of its constraint, so that s
-  - z/rho does not change, where rho is the stiffness of the constraint. The barrier parameter mu is the average of s_i
-  z_i, or a fraction of the products s_i z_i expected away from the solution, whichever is larger.
+  The vectors are copied. They need not be positive: each pair is moved to the central path of its constraint, along
+  which s - z/rho does not change; rho is the stiffness of the constraint. The barrier parameter mu is the average of
+  s_i z_i, or a fraction of the products s_i z_i expected away from the solution, whichever is larger.
+
+  Errors if only one of `s` and `z` is NULL.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`,
           `TaoIPFilterSetWarmStartBounds()`
@@ -279,7 +281,8 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 
   Input Parameters:
 + tao - the `TAOIPFILTER`
-- y   - multipliers, as `TaoGetDualVariables()` gives them in DE; NULL forgets earlier values, and they are estimated
+- y   - multipliers, as `TaoGetDualVariables()` returns them in DE; NULL removes earlier values, and the solver
+        estimates the multipliers
 
   Level: intermediate
 
@@ -305,8 +308,8 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
 
   Input Parameters:
 + tao - the `TAOIPFILTER`
-. DL  - multipliers of the lower bounds, as `TaoComputeDualVariables()` gives them; NULL forgets earlier values
-- DU  - those of the upper bounds, whose signs do not matter; NULL likewise
+. DL  - multipliers of the lower bounds, as `TaoComputeDualVariables()` computes them; NULL removes earlier values
+- DU  - multipliers of the upper bounds, whose signs are ignored; NULL removes earlier values
 
   Level: intermediate
 
@@ -315,7 +318,7 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
   product of distance to the bound and multiplier is close to zero. Where there are inequality constraints,
   `TaoIPFilterSetWarmStart()` must give theirs, too.
 
-  With the solution and all multipliers of a solved problem, `TaoSolve()` ends after no or one iteration.
+  With the solution and all multipliers of a solved problem, `TaoSolve()` ends after at most one iteration.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetWarmStartEquality()`, `TaoComputeDualVariables()`
 @*/
@@ -343,8 +346,9 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
   Level: intermediate
 
   Note:
-  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound, or from the upper one if there is no
-  lower one, or the lower one is more than a million times as large; zero for a row without bounds or with equal bounds.
+  With `TaoSetInequalityBounds()` a slack is the distance from the lower bound. It is the distance from the upper bound
+  if there is no lower one, or if the lower one is more than a million times as large. It is zero for a row without
+  bounds or with equal bounds.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStart()`
 @*/
@@ -372,11 +376,11 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
   Level: intermediate
 
   Notes:
-  `TaoGetDualVariables()` gives m_i lambda_i instead, with lambda_i -> z_i: with the areas of a surface as weights, a
-  force.
+  `TaoGetDualVariables()` returns m_i lambda_i instead, with lambda_i -> z_i. If the weights m_i are the areas of a
+  surface, this is a force.
 
-  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda; that of a row with two
-  bounds is the sum of both, that of a row with equal bounds has either sign.
+  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda. That of a row with two
+  bounds is the sum of both. That of a row with equal bounds has either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/
@@ -398,8 +402,9 @@ PetscErrorCode TaoIPFilterGetMultiplier(Tao tao, Vec *z)
 . tao - the `TAOIPFILTER`
 
   Output Parameters:
-+ n   - linear solves, those of the starting point, of predictors and of regularization attempts included
-- its - iterations of each; owned by `tao`, valid until the next `TaoSolve()`
++ n   - number of linear solves, including those of the starting point, predictors and failed regularizations; may be
+        NULL
+- its - iterations of each solve; owned by `tao`, valid until the next `TaoSolve()`; may be NULL
 
   Level: intermediate
 
@@ -439,7 +444,7 @@ PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *uns
 }
 
 /*@C
-  TaoIPFilterGetReason - Gets one sentence on why the last `TaoSolve()` stopped
+  TaoIPFilterGetReason - Gets a sentence that says why the last `TaoSolve()` stopped
 
   Not Collective
 
@@ -471,12 +476,12 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 . tao - the `TAOIPFILTER`
 
   Output Parameters:
-+ systems  - condensed matrices A = H + Sigma + J^T D J that were assembled; may be NULL
-- filtered - those for which `PCAMGF` solved the subspace of the constraints exactly; the others were preconditioned by
-             the AMG only; 0 with another `PC`; may be NULL
++ systems  - number of condensed matrices A = H + Sigma + J^T D J that were assembled; may be NULL
+- filtered - number of these for which `PCAMGF` used the filter; the others were preconditioned by the AMG only; 0 with
+             another `PC`; may be NULL
 
   Options Database Key:
-. -tao_ipfilter_filter_switch <10> - the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0:
+. -tao_ipfilter_filter_switch <10> - the filter is used if (J^T D J)_ii exceeds this multiple of H_ii for some i; 0:
                                      always
 
   Level: intermediate
@@ -492,8 +497,8 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 }
 
 /*@
-  TaoIPFilterGetRegularizations - Gets how often the Hessian of the last `TaoSolve()` was shifted because it was not
-  convex enough
+  TaoIPFilterGetRegularizations - Gets how often a multiple of M_u was added to the Hessian of the last `TaoSolve()`,
+  because the condensed matrix was not positive definite
 
   Not Collective
 
@@ -501,16 +506,17 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 . tao - the `TAOIPFILTER`
 
   Output Parameters:
-+ steps   - Newton steps taken with H + delta M_u, delta > 0; may be NULL
-. retries - failed linear solves in the search for the shifts; may be NULL
-- largest - largest delta a step was taken with, in units of the Hessian over those of M_u; may be NULL
++ steps   - number of Newton steps with H + delta M_u, delta > 0; may be NULL
+. retries - number of linear solves that failed while delta was searched; may be NULL
+- largest - largest delta of a step, in the unit of the Hessian divided by that of M_u; may be NULL
 
   Level: intermediate
 
-  Note:
-  For the energy of an elastic body a shift tells that the tangent stiffness was not positive definite along a
-  direction:
-  the body was at or past a limit or bifurcation point on the way to its equilibrium.
+  Notes:
+  M_u is the mass of `TaoIPFilterSetPrimalMass()`, or the identity.
+
+  If the objective is the energy of an elastic body, delta > 0 means that the tangent stiffness was not positive
+  definite. The body was then at or past a limit or bifurcation point on the way to its equilibrium.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`
 @*/
@@ -536,7 +542,8 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
 . fallbacks - counts, and the largest backward error of a direction that was used
 
   Options Database Key:
-. -tao_ipfilter_direct_memory <2000> - MB over all ranks that MUMPS may take for the whole matrix; 0: never
+. -tao_ipfilter_direct_memory <2000> - largest memory of MUMPS for the whole matrix, over all ranks [MB]; 0: MUMPS is
+                                       not used
 
   Level: intermediate
 

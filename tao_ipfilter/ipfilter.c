@@ -84,7 +84,7 @@ static PetscErrorCode SolverCreate(Tao tao)
 
 /*MC
   TAOIPFILTER - Interior point with a filter line search, for problems too large to factor:
-  min f(x) subject to c_E(x) = 0, c_I(x) >= 0, or c_l <= c_I(x) <= c_u, and x_l <= x <= x_u
+  min f(x) subject to c_E(x) = 0, c_I(x) >= 0 (or c_l <= c_I(x) <= c_u), and x_l <= x <= x_u
 
   Options Database Keys:
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
@@ -111,35 +111,39 @@ static PetscErrorCode SolverCreate(Tao tao)
 . -tao_ipfilter_slack_init <1>                              - cold start: slacks
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
-. -tao_ipfilter_mu_reductions_first <10>                    - monotone: limit of the reductions at the first iteration
+. -tao_ipfilter_mu_reductions_first <10>                    - monotone: largest number of reductions of mu at the first
+                                                              iteration
 . -tao_ipfilter_gamma_phi <1e-8>                            - filter: sufficient reduction of the barrier function phi
 . -tao_ipfilter_eta_phi <1e-8>                              - Armijo's constant
-. -tao_ipfilter_max_soc <4>                                 - limit of second-order corrections a step
+. -tao_ipfilter_max_soc <4>                                 - largest number of second-order corrections per step
 . -tao_ipfilter_delta_max <1e20>                            - largest multiple of M_u that is added to the Hessian
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)         - Krylov tolerance from the KKT error, or the KSP's own
-. -tao_ipfilter_filter_switch <10>                          - `PCAMGF` filters once (J^T D J)_ii exceeds this many times
-                                                              H_ii for some i; 0: always
-. -tao_ipfilter_subspace <auto> (false,true,auto)           - the filtered subspace method, for linear constraints that
-                                                              touch few unknowns
-. -tao_ipfilter_subspace_max <0>                            - directions that it keeps, in single precision; 0: 80 to
-                                                              160, by memory, 48 where the objective is not quadratic
-. -tao_ipfilter_ksp_max_it <10000>                          - limit of Krylov iterations in a linear solve, and of all
-                                                              directions
-                                                              of the filtered subspace method in a `TaoSolve()`
-. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - filtered subspace method: a factorization of the Hessian
-                                                              instead of the AMG
+. -tao_ipfilter_filter_switch <10>                          - `PCAMGF` uses the filter if (J^T D J)_ii exceeds this
+                                                              multiple of H_ii for some i; 0: always
+. -tao_ipfilter_subspace <auto> (false,true,auto)           - use the filtered subspace method, for linear constraints
+                                                              that involve few unknowns
+. -tao_ipfilter_subspace_max <0>                            - largest number of its directions, which are stored in
+                                                              single precision; 0: 80, or 48 if the objective is not
+                                                              quadratic
+. -tao_ipfilter_ksp_max_it <10000>                          - largest number of Krylov iterations in a linear solve, and
+                                                              of directions of the filtered subspace method in a
+                                                              `TaoSolve()`
+. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - filtered subspace method: use a factorization of the
+                                                              Hessian instead of the AMG
 . -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with inertia correction, from
                                                               the first system on
-. -tao_ipfilter_direct_memory <2000>                        - MB over all ranks that MUMPS may take for the whole matrix
-                                                              where the Krylov method fails; 0: never
+. -tao_ipfilter_direct_memory <2000>                        - if the Krylov method fails: largest memory of MUMPS for
+                                                              the whole matrix, over all ranks [MB]; 0: MUMPS is not
+                                                              used
 . -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
 . -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints: `augmented`: in an augmented system,
                                                               factored by MUMPS; `condensed`: eliminated, with proximal
                                                               updates of the multipliers
 . -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness of the Hessian
                                                               in their direction, as a fraction of their weights
-- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; `MATSOLVERMUMPS` takes
-                                                              approximate minimum fill (-mat_mumps_icntl_7 2)
+- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; the default ordering of
+                                                              `MATSOLVERMUMPS` is approximate minimum fill
+                                                              (-mat_mumps_icntl_7 2)
 
   Level: beginner
 
@@ -164,12 +168,15 @@ static PetscErrorCode SolverCreate(Tao tao)
   returns; without it the Hessian is computed by finite differences of gradients, up to 1,000 unknowns. With more
   unknowns, and no equality constraints, a limited-memory BFGS matrix (`MATLMVMBFGS`, options prefix `-tao_ipfilter_`)
   is used. The assembled matrix, for the preconditioner, then contains a multiple of the identity instead; the Krylov
-  method multiplies with the full BFGS matrix. A Hessian of type AIJ, BAIJ, SBAIJ or dense and Jacobians of type AIJ are
-  used without conversion; other assembled types, as nests and `MATIS`, are converted to AIJ at every evaluation. If a
-  Hessian or Jacobian routine does not change a matrix (of a type without conversion), everything that depends on it is
-  reused. A Hessian that only supports products, as `MATSHELL`, can be used with `-tao_ipfilter_pc_type` none, jacobi,
-  shell or a type of your own, which then gets a `MATSHELL` of the condensed matrix; its diagonal comes from
-  `MATOP_GET_DIAGONAL`, or is estimated. With another preconditioner, or with equality constraints that are not
+  method multiplies with the full BFGS matrix.
+
+  A Hessian of type AIJ, BAIJ, SBAIJ or dense, and Jacobians of type AIJ, are used without conversion. Other assembled
+  types, such as `MATNEST` and `MATIS`, are converted to AIJ at every evaluation. If a Hessian or Jacobian routine does
+  not change a matrix of a type without conversion, everything that depends on it is reused.
+
+  A Hessian that only supports products, such as `MATSHELL`, can be used with `-tao_ipfilter_pc_type` none, jacobi,
+  shell or a type of your own. The preconditioner then gets a `MATSHELL` of the condensed matrix, whose diagonal comes
+  from `MATOP_GET_DIAGONAL` or is estimated. With another preconditioner, or with equality constraints that are not
   condensed, the matrix is computed column by column, up to 1,000 unknowns; so are Jacobians that only support products.
   With more unknowns this is an error.
 
@@ -186,17 +193,18 @@ static PetscErrorCode SolverCreate(Tao tao)
   minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first rank. The remaining residual,
   preconditioned by the `PC` of the Krylov method for H, is the next direction in P. With `-tao_ipfilter_pc_amgf_factor`
   auto a factorization replaces the AMG there as soon as it is estimated to be cheaper for the expected number of
-  solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`; false keeps the AMG. A nonquadratic objective with such
-  constraints is minimized by Newton's method, whose quadratic models are solved by this method to a fraction of the
-  current residual. The products of the directions with the new Hessian are computed again, an indefinite Hessian is
-  shifted, and a line search on the objective, with a penalty for violated constraints, gives the step length. Each
-  Newton step counts as an iteration; a direction counts towards the limit of `KSPSetTolerances()`, not that of
-  `TaoSetMaximumIterations()`. The directions are reused in all later solves with the same Hessian, for any constraints
-  and loads: `TaoIPFilterSetSubspace()`. Convergence is tested as in the interior point method, by the KKT error with
-  the caller's gradient. `auto` uses this method if the routine of the Jacobian does not change its matrix, W has at
-  most half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing or a factorization (then of H, computed once),
-  and start and KKT measure have their defaults. If it does not converge, the interior point method continues from the
-  best iterate; `TaoIPFilterGetFallbacks()` counts that.
+  solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`. With false the AMG is always used.
+
+  A nonquadratic objective with such constraints is minimized by Newton's method, whose quadratic models are solved by
+  this method to a fraction of the current residual. The products of the directions with the new Hessian are computed
+  again, an indefinite Hessian is shifted, and a line search on the objective, with a penalty for violated constraints,
+  gives the step length. Each Newton step counts as an iteration; a direction counts towards the limit of
+  `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`. The directions are reused in all later solves with the
+  same Hessian, for any constraints and loads: `TaoIPFilterSetSubspace()`. Convergence is tested as in the interior
+  point method, by the KKT error with the caller's gradient. `auto` uses this method if the routine of the Jacobian does
+  not change its matrix, W has at most half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing or a
+  factorization (then of H, computed once), and start and KKT measure have their defaults. If it does not converge, the
+  interior point method continues from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
 
   A trial point at which the objective is infinite or NaN is rejected; with `TaoSetObjective()` and `TaoSetGradient()`
   constraints and derivatives are not evaluated there. Where the Hessian is indefinite a multiple of the identity, or of
@@ -258,15 +266,14 @@ static PetscErrorCode SolverCreate(Tao tao)
 . * - L. F. Portugal, J. J. Judice and L. N. Vicente, "A comparison of block pivoting and interior-point algorithms for
         linear least squares problems with nonnegative variables", Mathematics of Computation 63, 1994.
 . * - M. L. Parks, E. de Sturler, G. Mackey, D. D. Johnson and S. Maiti, "Recycling Krylov subspaces for sequences of
-      linear
-        systems", SIAM Journal on Scientific Computing 28, 2006.
+        linear systems", SIAM Journal on Scientific Computing 28, 2006.
 - * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27,
-      2009:
-        truncated nonsmooth Newton multigrid, the published method most similar to the filtered subspace method.
+        2009: truncated nonsmooth Newton multigrid, the published method most similar to the filtered subspace method.
 
 .seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
-          `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
-          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetSubspace()`, `PCAMGF`
+          `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
+          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetFallbacks()`,
+          `TaoIPFilterGetSubspace()`, `TaoIPFilterSetSubspace()`, `PCAMGF`
 M*/
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
 {

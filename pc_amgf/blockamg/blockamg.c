@@ -21,7 +21,7 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
 }
 
 /*MC
-   PCBLOCKAMG - a fast V-cycle on the hierarchy of hypre's BoomerAMG, in dense blocks of single precision
+   PCBLOCKAMG - A fast V-cycle on the hierarchy of hypre's BoomerAMG, in dense blocks of single precision
 
    Options Database Keys:
 .  -pc_hypre_boomeramg_ - options of `PCHYPRE` for the set-up; those of hypre's own cycle have no effect
@@ -40,7 +40,8 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    matrix twice. Levels of at most 256 unknowns are solved by a dense inverse.
 
    With several ranks each rank sweeps over its own rows. Let a be the sum of the absolute entries of a row in columns
-   of other ranks: max(a/4, (a - d)/2) is added to its diagonal entry d.
+   of other ranks, and g the excess of its diagonal entry over the other absolute entries of its diagonal block. Then
+   max(a/4, (a - 0.9 g)/2) is added to the diagonal entry.
 
    The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it
    attains the same residuals as with one in double precision. Matrices and vectors are scaled by powers of 2, so units

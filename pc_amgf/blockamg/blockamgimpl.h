@@ -39,7 +39,7 @@ typedef struct {
 */
 typedef struct {
   int    n;
-  int   *place, *ptr, *col; /* position of each row in block vectors; start of each row in col and val; number of the
+  int   *position, *ptr, *col; /* position of each row in block vectors; start of each row in col and val; number of the
                                ghost of each entry */
   float *val, *shift;
 } BlockBorder;

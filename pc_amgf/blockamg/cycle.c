@@ -45,11 +45,11 @@ static void CycleAddBorder(const BlockLevel *l, float sign, float y[])
   const float       *ghosts = l->x + 4 * (size_t)l->nb;
 
   for (int i = 0; i < border->n; i++) {
-    const int place = border->place[i];
-    float     s     = -border->shift[i] * l->x[place];
+    const int p = border->position[i];
+    float     s = -border->shift[i] * l->x[p];
 
     for (int k = border->ptr[i]; k < border->ptr[i + 1]; k++) s += border->val[k] * ghosts[border->col[k]];
-    y[place] += sign * s;
+    y[p] += sign * s;
   }
 }
 

@@ -6,13 +6,13 @@
 
 /*
    BlockHaloCreate_Private - creates the communication between the ghosts of a level's vectors and their owners. The
-   ghosts are stored behind the places of the level.
+   ghosts are stored behind the positions of the level.
 
    Input Parameters:
    + layout  - distribution of the level's unknowns
    . nghosts - number of ghosts
    . ghosts  - global numbers of the ghosts, which are unknowns of other ranks
-   - level   - the level, with the places of its unknowns
+   - level   - the level, with the positions of its unknowns
 */
 PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, const PetscInt ghosts[],
   const BlockLevel *level, BlockHalo *halo)
@@ -20,7 +20,7 @@ PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, con
   PetscMPIInt        size;
   PetscSF            numbers;
   const PetscSFNode *owned;
-  PetscSFNode       *places;
+  PetscSFNode       *roots;
   int               *theirs;
 
   PetscFunctionBegin;
@@ -34,13 +34,13 @@ PetscErrorCode BlockHaloCreate_Private(PetscLayout layout, PetscInt nghosts, con
   PetscCall(PetscSFBcastBegin(numbers, MPI_INT, level->position, theirs, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(numbers, MPI_INT, level->position, theirs, MPI_REPLACE));
   PetscCall(PetscSFGetGraph(numbers, NULL, NULL, NULL, &owned));
-  PetscCall(PetscMalloc1(nghosts, &places));
+  PetscCall(PetscMalloc1(nghosts, &roots));
   for (PetscInt g = 0; g < nghosts; g++) {
-    places[g].rank  = owned[g].rank;
-    places[g].index = theirs[g];
+    roots[g].rank  = owned[g].rank;
+    roots[g].index = theirs[g];
   }
   PetscCall(PetscSFCreate(layout->comm, &halo->sf));
-  PetscCall(PetscSFSetGraph(halo->sf, 4 * level->nb, nghosts, NULL, PETSC_OWN_POINTER, places, PETSC_OWN_POINTER));
+  PetscCall(PetscSFSetGraph(halo->sf, 4 * level->nb, nghosts, NULL, PETSC_OWN_POINTER, roots, PETSC_OWN_POINTER));
   PetscCall(PetscSFSetUp(halo->sf));
   PetscCall(PetscSFDestroy(&numbers));
   PetscCall(PetscFree(theirs));

@@ -113,13 +113,13 @@ static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar 
   const int    B      = level->B;
   double       excess[4];
 
-  if (*next >= border->n || border->place[*next] >= 4 * (i + 1)) return;
+  if (*next >= border->n || border->position[*next] >= 4 * (i + 1)) return;
   for (int r = 0; r < B; r++) {
     excess[r] = 2.0 * PetscAbsScalar(D[(B + 1) * r]);
     for (int c = 0; c < B; c++) excess[r] -= PetscAbsScalar(D[B * r + c]);
   }
-  for (; *next < border->n && border->place[*next] < 4 * (i + 1); ++*next) {
-    const int r = border->place[*next] % 4;
+  for (; *next < border->n && border->position[*next] < 4 * (i + 1); ++*next) {
+    const int r = border->position[*next] % 4;
 
     border->shift[*next] *= (float)PetscMax(0.5, 1.0 - 0.45 * PetscMax(excess[r], 0.0) / border->shift[*next]);
     D[(B + 1) * r] += border->shift[*next];
@@ -177,7 +177,7 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   if (!rows->oia || !rows->n) PetscFunctionReturn(0);
   for (PetscInt u = 0; u < rows->n; u++) border->n += rows->oia[u + 1] > rows->oia[u];
   PetscCall(LevelGetUnknowns(level, &unknown));
-  PetscCall(PetscMalloc1(border->n, &border->place));
+  PetscCall(PetscMalloc1(border->n, &border->position));
   PetscCall(PetscMalloc1(border->n, &border->shift));
   PetscCall(PetscMalloc1(border->n + 1, &border->ptr));
   PetscCall(PetscMalloc1(rows->oia[rows->n], &border->col));
@@ -194,9 +194,9 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
       border->val[k] = (float)(PetscRealPart(rows->oa[m]) / scale);
       s += PetscAbsScalar(rows->oa[m]) / scale;
     }
-    border->place[n]   = i;
-    border->shift[n]   = (float)(0.5 * s);
-    border->ptr[n + 1] = k;
+    border->position[n] = i;
+    border->shift[n]    = (float)(0.5 * s);
+    border->ptr[n + 1]  = k;
     n++;
   }
   PetscCall(PetscFree(unknown));
@@ -225,7 +225,7 @@ static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 }
 
 /*
-   BlockLevelSetMatrix_Private - chooses the places of the level's unknowns, and stores the matrix divided by `scale`
+   BlockLevelSetMatrix_Private - chooses the positions of the level's unknowns, and stores the matrix divided by `scale`
 
    Input Parameters:
    + level - the level
@@ -278,7 +278,7 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->col));
   PetscCall(PetscFree(level->L));
   PetscCall(PetscFree(level->W));
-  PetscCall(PetscFree(level->border.place));
+  PetscCall(PetscFree(level->border.position));
   PetscCall(PetscFree(level->border.ptr));
   PetscCall(PetscFree(level->border.col));
   PetscCall(PetscFree(level->border.val));

@@ -11,7 +11,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
 
 /*@C
-  PetscAMGFInitializePackage - registers the preconditioner `PCAMGF`, the optimizer `TAOIPFILTER` and their log events
+  PetscAMGFInitializePackage - Registers the preconditioner `PCAMGF`, the optimizer `TAOIPFILTER` and their log events
 
   Logically Collective
 
@@ -46,7 +46,7 @@ PetscErrorCode PetscAMGFInitializePackage(void)
 }
 
 /*@C
-  PetscAMGFFinalizePackage - marks the package as not initialized, so that it can be initialized again after another
+  PetscAMGFFinalizePackage - Marks the package as not initialized, so that it can be initialized again after another
   `PetscInitialize()`
 
   Logically Collective

@@ -2,15 +2,15 @@
 #include "pc_amgf/amgfimpl.h"
 
 /*@C
-  PetscAMGFGetVersion - gets the release of the plugin that runs, and the PETSc that it was compiled with
+  PetscAMGFGetVersion - Gets the release of the plugin that runs, and the PETSc that it was compiled with
 
   Not Collective
 
   Input Parameter:
-. len - the length of `version`, 128 is enough
+. len - length of `version`; 128 is sufficient
 
   Output Parameter:
-. version - a sentence such as "petscamgf 0.1.0, compiled with PETSc 3.18.5, real scalars, 32-bit indices"
+. version - sentence such as "petscamgf 0.1.0, compiled with PETSc 3.18.5, real scalars, 32-bit indices"
 
   Level: intermediate
 

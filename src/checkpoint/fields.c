@@ -108,7 +108,12 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
 
    Not Collective
 
+   Input Parameter:
+.  checkpoint - the checkpoint
+
    Level: intermediate
+
+.seealso: `CheckpointRead()`, `SimulationGetCheckpoint()`
 @*/
 PetscErrorCode CheckpointDestroy(Checkpoint *checkpoint)
 {

@@ -239,8 +239,8 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 }
 
 /*@C
-  ContactSetDisplacements - Sets the prescribed displacements of the bodies' faces. They determine the symmetry planes
-  across which smooth surfaces are continued, and the directions without friction
+  ContactSetDisplacements - Sets the prescribed displacements of the bodies' faces, which determine the symmetry planes
+  of smooth surfaces and the directions without friction
 
   Logically Collective
 
@@ -316,7 +316,7 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
 }
 
 /*@
-  ContactIsAtEdge - Finds out whether a node is on the edge of a pair's nonmortar face
+  ContactIsAtEdge - Finds whether a node is on the edge of a pair's nonmortar face
 
   Collective
 
@@ -326,7 +326,7 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
 - node    - number of the node in global vectors; equal on all ranks
 
   Output Parameter:
-. edge - whether it is
+. edge - whether the node is on the edge; equal on all ranks
 
   Level: developer
 
@@ -356,7 +356,7 @@ PetscErrorCode ContactIsAtEdge(Contact contact, PetscInt pair, PetscInt node, Pe
   Output Parameters:
 + nfrictionless - number of nodes, on all ranks, at which different displacements of both faces are prescribed although
                   the pair sticks
-- nnodes - number of nodes of the nonmortar face, on all ranks
+- nnodes        - number of nodes of the nonmortar face, on all ranks
 
   Level: intermediate
 
@@ -415,8 +415,8 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
   Level: intermediate
 
   Note:
-  If depth is positive, any two facets count whose normals make an angle of more than 90 degrees. Such a linearization
-  is for measuring gaps only, not for a solve.
+  If depth is positive, any two facets whose normals make an angle of more than 90 degrees count as facing each other.
+  Such a linearization is suitable for measuring gaps, not for a solve.
 
 .seealso: `ContactGetReach()`, `ContactLinearize()`
 @*/

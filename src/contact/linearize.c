@@ -146,7 +146,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
 }
 
 /*@
-  ContactLinearizeForces - Linearizes the gap at a displacement, without lin->derivative, for which it takes less
+  ContactLinearizeForces - Linearizes the gap at a displacement without computing lin->derivative, which takes less time
 
   Collective
 
@@ -155,7 +155,7 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
 - u       - global displacement vector, 3 components per vertex [length]
 
   Output Parameter:
-. lin - as of `ContactLinearize()`, but lin->derivative is NULL
+. lin - the linearized gap, as computed by `ContactLinearize()`, but lin->derivative is NULL
 
   Level: developer
 

@@ -104,9 +104,9 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. u          - displacement, global, 3 components per node [length]; may be `NULL` (no displacement)
-- tangent    - matrix from `ElasticityCreateTangent()`
++ e       - the context
+. u       - displacement, global, 3 components per node [length]; may be `NULL` (no displacement)
+- tangent - matrix from `ElasticityCreateTangent()`
 
   Output Parameter:
 . tangent - the tangent [force/length]; rows and columns of prescribed unknowns are zero apart from the diagonal
@@ -114,12 +114,13 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   Level: beginner
 
   Notes:
-  When the matrix is the one of the last call and has not been changed since (its `PetscObjectState` tells), bodies with
-  a constant tangent are left as they are, unless they share nodes with a body that is assembled again. If every body's
-  tangent is constant, nothing is done and the state stays. Any other matrix is assembled completely, and so is one of a
+  If the matrix is that of the last call and its `PetscObjectState` has not changed since, bodies with a constant
+  tangent are not assembled again, unless they share nodes with a body that is. If the tangents of all bodies are
+  constant, nothing is done and the state does not change. Any other matrix is assembled completely, and so is one of a
   type without `MatZeroRows()` (sbaij).
 
-  An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so the matrix contains no NaN.
+  An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so that the matrix contains no
+  NaN.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `ElasticityForce()`, `ElasticityGetAssemblies()`
 @*/
@@ -155,8 +156,8 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
   Not Collective
 
   Input Parameters:
-+ elasticity - the context
-- body       - the body, from 0
++ e    - the context
+- body - the body, from 0
 
   Output Parameter:
 . assemblies - number of assemblies, into any matrix

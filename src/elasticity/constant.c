@@ -7,7 +7,7 @@
   Not Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Output Parameter:
 . linear - `PETSC_TRUE` if the energy is quadratic in the displacement

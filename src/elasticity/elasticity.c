@@ -180,8 +180,8 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- rows       - global rows owned by this rank, repeated ones allowed; `NULL` for none
++ e    - the context
+- rows - global rows owned by this rank, repeated ones allowed; `NULL` for none
 
   Level: beginner
 
@@ -237,7 +237,7 @@ PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
   Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Level: beginner
 

@@ -7,8 +7,8 @@
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per node [length]
++ e - the context
+- u - displacement, global, 3 components per node [length]
 
   Output Parameter:
 . energy - stored energy of all bodies [force length]
@@ -16,8 +16,8 @@
   Level: beginner
 
   Notes:
-  The energy is `PETSC_INFINITY` on every rank where a point of a cell at which a finite strain law is evaluated is
-  turned inside out (det F <= 0), so a line search that asks for a decrease steps back.
+  If a cell of a finite strain law is inverted (det F <= 0 at a quadrature point), the energy is `PETSC_INFINITY` on all
+  ranks. A line search then shortens its step.
 
 .seealso: `ElasticityForce()`, `ElasticityTangent()`
 @*/
@@ -53,17 +53,17 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per node [length]
++ e - the context
+- u - displacement, global, 3 components per node [length]
 
   Output Parameter:
-. force - dE/du on all rows; on prescribed rows it is the reaction [force]
+. force - dE/du on all rows; on prescribed rows this is the reaction [force]
 
   Level: beginner
 
   Notes:
-  Where the energy is infinite there is no force: the rows of the nodes of every cell turned inside out hold
-  `PETSC_INFINITY` or more. The norm of the vector is therefore infinite on every rank.
+  If the energy is infinite, the rows of the nodes of every inverted cell are at least `PETSC_INFINITY`. The norm of the
+  vector is therefore infinite on all ranks.
 
 .seealso: `ElasticityEnergy()`, `ElasticityTangent()`
 @*/

@@ -84,7 +84,7 @@ static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[],
   Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Output Parameters:
 + work    - integral of the stress over the plastic strain, of all bodies [force length]
@@ -190,11 +190,12 @@ PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, Pet
   Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Output Parameter:
-. strain - means over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
-           equivalent, MATERIAL_PLASTIC values; free with `PetscFree()`. `NULL` on every rank if no law yields
+. strain - mean over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
+           equivalent, MATERIAL_PLASTIC values per cell; free with `PetscFree()`. `NULL` on all ranks if no body is
+           plastic
 
   Level: intermediate
 

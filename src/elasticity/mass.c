@@ -82,7 +82,7 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
   Collective
 
   Input Parameters:
-+ elasticity - the context
++ e          - the context
 . density    - of each body [mass/length^3]
 . consistent - whether the mass is consistent, the integral of products of shape functions, or lumped. That of rigid
                bodies is consistent in both cases
@@ -150,7 +150,7 @@ static PetscErrorCode ElasticityCreateMassMatrix(Elasticity e, Mat *mass)
   Collective
 
   Input Parameter:
-. elasticity - the context, after `ElasticitySetMass()`
+. e - the context, after `ElasticitySetMass()`
 
   Output Parameter:
 . mass - new matrix, on all rows, the prescribed ones too [mass]
@@ -204,9 +204,9 @@ PetscErrorCode ElasticityCreateMass(Elasticity e, Mat *mass)
   Collective
 
   Input Parameters:
-+ elasticity - the context, after `ElasticitySetMass()`
-. inertia    - factor of the mass matrix [1/time^2]
-- viscosity  - relative increase of the cells' stiffness, for damping
++ e         - the context, after `ElasticitySetMass()`
+. inertia   - factor of the mass matrix [1/time^2]
+- viscosity - relative increase of the cells' stiffness, for damping
 
   Output Parameter:
 . changed - whether the factors have changed; the next tangent is then assembled completely

@@ -167,9 +167,9 @@ static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. from       - displacement at the start, a state of equilibrium, global, 3 components per node [length]
-- to         - displacement at the end [length]
++ e    - the context
+. from - displacement at the start, a state of equilibrium, global, 3 components per node [length]
+- to   - displacement at the end [length]
 
   Output Parameters:
 + excess - the difference, on all rows; zero if a cell is inverted [force]
@@ -178,8 +178,8 @@ static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
   Level: intermediate
 
   Notes:
-  The work of mean force is the change of the energy, `ElasticityEnergy()`, including plastic work. It has neither a
-  resultant nor a moment about the mean positions. For bodies with a constant tangent the excess is zero.
+  The work of the mean force is the change of `ElasticityEnergy()`, including plastic work. The mean force has neither a
+  resultant nor a moment about the mean positions. For bodies with a constant tangent the difference is zero.
 
   References:
 . * - Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000.

@@ -70,7 +70,7 @@ PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
   Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Output Parameter:
 . tangent - n x n matrix of block size 3, laid out as the mesh's global vectors
@@ -81,7 +81,7 @@ PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
   Level: beginner
 
   Notes:
-  The matrix is marked symmetric. It has no near null space before `ElasticitySetNearNullSpace()`.
+  The matrix is marked as symmetric. `ElasticitySetNearNullSpace()` attaches a near null space.
 
 .seealso: `ElasticityTangent()`, `ElasticitySetNearNullSpace()`
 @*/
@@ -123,8 +123,8 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   Level: beginner
 
   Notes:
-  The modes are orthonormal, and zero on the rows that are prescribed when this is called; six at most. They take as
-  much memory as six solutions, and PCHYPRE copies them whether or not it makes use of them.
+  There are at most six modes, orthonormal, and zero on the rows that are prescribed when this function is called. They
+  take as much memory as six solutions. `PCHYPRE` copies them even if it does not use them.
 
 .seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
 @*/

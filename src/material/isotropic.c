@@ -21,6 +21,8 @@ const MaterialConstant MaterialConstantsSmall[]  = {MATERIAL_YOUNG, MATERIAL_POI
 
   Notes:
   It is an error unless E > 0 and -1 < nu < 1/2, both finite.
+
+.seealso: `ElasticityCreate()`
 @*/
 PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, PetscReal *mu)
 {

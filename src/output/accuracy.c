@@ -70,8 +70,8 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
    Collective on the viewer
 
    Input Parameters:
-+  acc    - what -accuracy chose, at least one run assessed
-.  refine - uniform refinements of the next run
++  acc    - the record of the runs, at least one of which has been assessed
+.  refine - number of uniform refinements of the next run
 -  viewer - an ASCII viewer
 
    Level: intermediate

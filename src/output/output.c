@@ -48,15 +48,18 @@ static PetscErrorCode OutputBegin(Output output)
    Level: intermediate
 
    Notes:
-   Open <basename>.xmf. It refers to <basename>.h5 (vertices, hexahedra in VTK's order, body number of every cell;
-   hexahedra of order 2 are cut by their nodes into 8, which have the values of the cell; where there are tetrahedra, of
-   4 or 10 nodes, the dataset is not cells but mixed_cells, and holds XDMF's number of the kind before the nodes of
-   each) and, a load step, to <basename>_<step>.h5. Times are those of the load program: load step k ends at time k.
-   Every file is written under a temporary name and renamed when it is complete, and the .xmf is written last. So the
-   completed load steps stay readable if the run is killed or the disk is full.
+   <basename>.xmf is the file to open. It refers to the mesh in <basename>.h5 and to one file <basename>_<step>.h5 per
+   load step. Times are those of the load program: load step k ends at time k.
 
-   The results of an earlier run of the same name are kept until the first load step is written; the mesh is written
-   then, and the earlier run's files of later steps are removed. Without earlier results the mesh is written at once.
+   The mesh consists of vertices, cells in VTK's order, and the body number of every cell. A hexahedron of order 2 is
+   cut by its nodes into 8, which have the values of the cell. If there are tetrahedra (4 or 10 nodes), the dataset is
+   called mixed_cells instead of cells, and XDMF's number of the cell type precedes the nodes of each cell.
+
+   Every file is written under a temporary name and renamed when it is complete, and the .xmf is written last. The
+   completed load steps therefore stay readable if the run is killed or the disk is full.
+
+   The results of an earlier run with the same name are kept until the first load step is written. The mesh is then
+   written, and the earlier run's files of later steps are removed. Without earlier results the mesh is written at once.
 
    Errors: PETSC_ERR_FILE_OPEN, on all ranks, if the files cannot be written or another process is writing them;
    PETSC_ERR_FILE_WRITE if the disk is full.
@@ -89,7 +92,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
 /*@C
    OutputSetUnits - Writes the units of a run into its XDMF file
 
-   Not collective
+   Not Collective
 
    Input Parameters:
 +  output - the output, before OutputWrite()
@@ -147,10 +150,10 @@ static PetscErrorCode OutputAddStep(Output output, PetscInt step, PetscReal time
    Collective
 
    Input Parameters:
-+  output - the output, before OutputWrite()
-.  step   - number of load steps that the earlier run completed
++  output    - the output, before OutputWrite()
+.  step      - number of load steps that the earlier run completed
 .  increment - time of a load step: 1, in dynamics the time step
--  same   - whether mesh and layout are those of the earlier run; otherwise <basename>.xmf does not list its fields
+-  same      - whether mesh and layout are those of the earlier run; otherwise <basename>.xmf does not list its fields
 
    Level: intermediate
 

@@ -46,14 +46,14 @@ PetscErrorCode ReportPageCheck(MPI_Comm comm, const char file[])
 /*@C
    ReportPageMake - Makes the HTML page of a completed run
 
-   Not collective, one rank calls it; also after PetscFinalize()
+   Not Collective; one rank calls it, also after PetscFinalize()
 
-   Input Parameter:
-.  page - its file and its input files
+   Input Parameters:
++  page   - file of the page, and its input files
+-  length - length of `sentence`
 
-   Output Parameters:
-+  sentence - the reason if the page was not made
--  length   - of the sentence
+   Output Parameter:
+.  sentence - the reason, if the page was not made
 
    Returns:
    0; nonzero if the page was not made

@@ -453,7 +453,12 @@ PetscErrorCode AccuracyAssess(Accuracy *acc, const StepTolerances *tolerances, c
 
    Not Collective
 
+   Input Parameter:
+.  acc - the record
+
    Level: beginner
+
+.seealso: `AccuracySetFromOptions()`
 @*/
 PetscErrorCode AccuracyDestroy(Accuracy *acc)
 {

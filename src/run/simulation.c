@@ -120,6 +120,8 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 -  monitor - whether to print
 
    Level: intermediate
+
+.seealso: `SimulationSetFromOptions()`
 @*/
 PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 {
@@ -210,11 +212,19 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 }
 
 /*@C
-   SimulationGetDM - Gets the mesh of all bodies, owned by the simulation
+   SimulationGetDM - Gets the mesh of all bodies
 
    Not Collective
 
+   Input Parameter:
+.  sim - the simulation, after SimulationSetUp()
+
+   Output Parameter:
+.  dm - the mesh, owned by the simulation
+
    Level: intermediate
+
+.seealso: `SimulationSetUp()`, `MeshCreateScene()`
 @*/
 PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 {
@@ -239,6 +249,8 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
    Note:
    Phase times come from PETSc's events, so PetscLogDefaultBegin() (or -log_view) must have been called before the
    simulation was created; otherwise only the total is known.
+
+.seealso: `ReportView()`, `ReportWriteJSON()`
 @*/
 PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
@@ -257,7 +269,12 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 
    Collective
 
+   Input Parameter:
+.  sim - the simulation, set to NULL
+
    Level: beginner
+
+.seealso: `SimulationCreate()`
 @*/
 PetscErrorCode SimulationDestroy(Simulation *sim)
 {

@@ -124,13 +124,12 @@ static PetscErrorCode SceneReadAndValidate(SceneKeys keys, Scene scene)
    Output Parameter:
 .  scene - the scene, the same on every rank
 
-   Options Database Keys, each instead of what the file says:
+   Options Database Keys, which take precedence over the file:
 +  -refine <n>               - uniform refinements of level 0
 .  -load_steps <n>           - number of load steps: the load program, with all ramps, is divided into n equal time
                                steps; ramps are interpolated linearly
 .  -model <energy,quadratic> - objective of a load step
-.  -contact_updates <n>      - largest number of linearizations of the gap per load step; 1: one, without a check of the
-                               gap
+.  -contact_updates <n>      - largest number of linearizations of the gap per load step; 1: the gap is not checked
 -  -displacement_bounds <n>  - first load step whose displacements are bounded by the largest increment before it; 0:
                                none
 

@@ -144,15 +144,16 @@ static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
 
    Notes:
    The gap is linearized at the state before the step: deformed mesh, search, mortar integrals. If contact_updates
-   allows more than one linearization, the first is where the last two states extrapolate to, except in the first step,
-   after a cut and with friction. Contact updates linearize it again at the solution, up to contact_updates times, until
-   the linearized and the actual gap agree within
-   `-contact_gap_tol`. Otherwise the step has not converged, unless contact_updates is 1. With linear bodies, or `model:
-   quadratic` in the scene, the step is a quadratic program; otherwise the true energy is minimized. A quadratic step
-   without contact pairs is one PCG solve (options prefix -elasticity_).
+   allows more than one linearization, the first is at the state extrapolated from the last two, except in the first
+   step, after a cut and with friction. Contact updates linearize the gap again at the solution, up to contact_updates
+   times, until the linearized and the actual gap agree within `-contact_gap_tol`. If they do not, the step has not
+   converged, unless contact_updates is 1.
+
+   With linear bodies, or `model: quadratic` in the scene, the step is a quadratic program; otherwise the true energy is
+   minimized. A quadratic step without contact pairs is one PCG solve (options prefix -elasticity_).
 
    A step that fails is halved and repeated from the last converged state. After each success the step size is doubled.
-   With a tolerance in `dynamics` a step is divided into time steps with an error below it.
+   With a tolerance in `dynamics` a step is divided into time steps whose error is below the tolerance.
 
    Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE
    for one that the scene does not have.

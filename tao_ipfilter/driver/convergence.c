@@ -229,8 +229,7 @@ PetscBool IPConstraintsMet(Tao tao)
 }
 
 /*@C
-  TaoIPFilterDefaultConvergenceTest - The convergence test of a `TAOIPFILTER` unless `TaoSetConvergenceTest()` gives
-  another one
+  TaoIPFilterDefaultConvergenceTest - Default convergence test of `TAOIPFILTER`
 
   Collective
 
@@ -241,12 +240,13 @@ PetscBool IPConstraintsMet(Tao tao)
   Level: advanced
 
   Notes:
-  Ends with `TAO_CONVERGED_GATOL` where the KKT error is within gatol of `TaoSetTolerances()` and the violation of the
-  constraints within the tolerances of `TaoSetConstraintTolerances()`, where these have been given; and where no further
-  progress is possible. The caller's own test may call this function.
+  Converged, with `TAO_CONVERGED_GATOL`, means that the KKT error is at most gatol of `TaoSetTolerances()`, and that the
+  violation of the constraints is within the tolerances of `TaoSetConstraintTolerances()`, if these were set. The test
+  also ends a solve that makes no further progress. `TaoSetConvergenceTest()` replaces it; the caller's own test may
+  call this function.
 
-  Independently of the test, the solve ends if a residual or the objective is not a number, if steps are as small as
-  rounding errors, and at the limits of `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()`.
+  Independently of the test, the solve ends if a residual or the objective is NaN, if steps are as small as rounding
+  errors, and at the limits of `TaoSetMaximumIterations()` and `TaoSetMaximumFunctionEvaluations()`.
 
 .seealso: `TAOIPFILTER`, `TaoSetConvergenceTest()`, `TaoSetTolerances()`, `TaoSetConstraintTolerances()`,
           `TaoIPFilterGetReason()`

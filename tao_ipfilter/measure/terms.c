@@ -335,25 +335,26 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 }
 
 /*@
-  TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, whose weights may follow the
-  multipliers of inequality constraints: friction
+  TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, with weights that may depend on the
+  multipliers of inequality constraints (friction)
 
   Collective
 
   Input Parameters:
 + tao         - the `TAOIPFILTER`
-. T           - two rows a term, `MATAIJ`, its columns laid out as the solution; NULL: remove the terms
-. t           - two entries a term, laid out as the rows of T
-. limit - largest weight of each term, not negative; NULL: no limit
+. T           - matrix of type `MATAIJ`, two rows per term, columns laid out as the solution; NULL removes the terms
+. t           - two entries per term, laid out as the rows of T; ignored if T is NULL
+. limit       - largest weight of each term, not negative; NULL: no limit
 - coefficient - coefficient of each term, not negative: its weight is the coefficient times the force of the inequality
-                constraint with the same number on this rank, at most the limit; NULL: the weights are the limits
+                constraint with the same local number on this rank, at most the limit; NULL: the weights are the limits
 
   Level: intermediate
 
   Notes:
-  b_i = min(limit_i, coefficient_i y_i), y_i the multiplier of inequality constraint i as `TaoGetDualVariables()` gives
-  it; a limit of `PETSC_INFINITY` means no limit, and a coefficient of `PETSC_INFINITY` an unlimited weight (stick)
-  whatever the force of the constraint. With coefficients there must be as many terms as constraints.
+  b_i = min(limit_i, coefficient_i y_i), where y_i is the multiplier of inequality constraint i as
+  `TaoGetDualVariables()` returns it. A limit of `PETSC_INFINITY` means no limit. A coefficient of `PETSC_INFINITY`
+  means an unlimited weight (stick), whatever the force of the constraint. With coefficients there must be as many terms
+  as constraints.
 
   With limits only, this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's friction,
   which is not a minimization: the solution x, y, tau satisfies grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i =
@@ -398,7 +399,7 @@ PetscErrorCode TaoIPFilterSetNormTerms(Tao tao, Mat T, Vec t, Vec limit, Vec coe
 
   Input Parameters:
 + tao   - the `TAOIPFILTER`, after `TaoIPFilterSetNormTerms()`
-- force - two entries a term, laid out as the rows of T; copied
+- force - two entries per term, laid out as the rows of T; copied
 
   Level: intermediate
 
@@ -422,7 +423,7 @@ PetscErrorCode TaoIPFilterSetNormTermForces(Tao tao, Vec force)
 . tao - the `TAOIPFILTER`
 
   Output Parameter:
-. force - two entries a term, laid out as the rows of T; owned by `tao`; NULL before a solve with norm terms
+. force - two entries per term, laid out as the rows of T; owned by `tao`; NULL before a solve with norm terms
 
   Level: intermediate
 

@@ -104,7 +104,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
    Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
    -tao_ipfilter_subspace auto and without norm terms.
 */
-static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *few)
+static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
@@ -117,8 +117,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPSubspaceState *kept, PetscBool *f
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  if (*few && ip->terms->n && kept->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
-  else if (*few) PetscCall(FilteredChooseW(tao, &kept->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  if (*few && ip->terms->n && recycle->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
+  else if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
@@ -242,19 +242,19 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
    Solves the reduced problem and moves to its solution. If Newton's method for norm terms fails, W is extended to all
    unknowns and the problem is solved again.
 */
-static PetscErrorCode FilteredSolveReduced(Tao tao, IPSubspaceState *kept, PetscBool *solved)
+static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBool *solved)
 {
-  IPReduced *reduced = &kept->reduced;
+  IPReduced *reduced = &recycle->reduced;
   Vec        v, force;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(IPFilteredSolve(tao, &kept->basis, v, force, solved));
+  PetscCall(IPFilteredSolve(tao, &recycle->basis, v, force, solved));
   if (!*solved && reduced->simply) {
-    PetscCall(IPFilteredWiden(tao, kept, solved));
-    if (*solved) PetscCall(FilteredCentreHere(tao, &kept->basis));
-    if (*solved) PetscCall(IPFilteredSolve(tao, &kept->basis, v, force, solved));
+    PetscCall(IPFilteredWiden(tao, recycle, solved));
+    if (*solved) PetscCall(FilteredCentreHere(tao, &recycle->basis));
+    if (*solved) PetscCall(IPFilteredSolve(tao, &recycle->basis, v, force, solved));
   }
   if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -263,14 +263,14 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPSubspaceState *kept, Petsc
 }
 
 /* Adds a direction computed from the residual r. If the basis is full, it is compressed first. */
-static PetscErrorCode FilteredAddDirection(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *added)
+static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
-  if (kept->basis.n == kept->basis.max) {
-    PetscCall(IPFilteredMakeRoom(tao, &kept->basis));
-    PetscCall(FilteredCentreHere(tao, &kept->basis));
+  if (recycle->basis.n == recycle->basis.max) {
+    PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
+    PetscCall(FilteredCentreHere(tao, &recycle->basis));
   }
-  PetscCall(IPFilteredExtend(tao, kept, r, added));
+  PetscCall(IPFilteredExtend(tao, recycle, r, added));
   PetscFunctionReturn(0);
 }
 
@@ -301,12 +301,12 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 
 /*
    Estimates, every eight applications of the preconditioner, how many more are needed, and lets
-   IPSubspaceStateReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
+   IPRecycleReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
    KKT error that are still to be gained by the digits gained per application: since the begin, or in the last eight
    applications if that was faster, because the first applications are slow until the active set settles. Before the
    first digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
 */
-static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+static PetscErrorCode FilteredReconsider(Tao tao, IPRecycle *recycle, PetscBool *possible)
 {
   TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered     *f  = IPFilteredOf(tao);
@@ -322,7 +322,7 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
   rate          = PetscMax(gained / n, PetscLog10Real(f->considered / error) / every);
   left          = gained < least ? 2.0 * n : PetscLog10Real(PetscMax(error / ip->tol, 1.0)) / rate;
   f->considered = error;
-  PetscCall(IPSubspaceStateReconsider(tao, kept, left, possible));
+  PetscCall(IPRecycleReconsider(tao, recycle, left, possible));
   PetscFunctionReturn(0);
 }
 
@@ -333,32 +333,32 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPSubspaceState *kept, PetscBo
 */
 static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
-  TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;
-  IPFiltered      *f        = IPFilteredOf(tao);
-  const PetscInt   in_a_row = 3, patience = 60;
-  PetscBool        exact = PETSC_TRUE;
-  IPSubspaceState *kept;
-  Vec              r;
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  IPFiltered    *f        = IPFilteredOf(tao);
+  const PetscInt in_a_row = 3, patience = 60;
+  PetscBool      exact = PETSC_TRUE;
+  IPRecycle     *recycle;
+  Vec            r;
 
   PetscFunctionBegin;
   tao->ksp_its         = 0;
   ip->rec->nacceptable = ip->rec->ntiny = 0; /* many small steps are normal for this method */
   PetscCall(IPFilteredAllows(tao, done));
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
-  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
-  if (*done && exact) PetscCall(FilteredReconsider(tao, kept, done));
-  if (*done && exact) PetscCall(FilteredAddDirection(tao, kept, r, ip->terms->n ? &exact : done));
-  f->ncentred = exact || (kept->whole && !f->nfutile) ? 0 : f->ncentred + 1;
+  if (*done && exact) PetscCall(FilteredReconsider(tao, recycle, done));
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, ip->terms->n ? &exact : done));
+  f->ncentred = exact || (recycle->whole && !f->nfutile) ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
-  if (*done && !exact) PetscCall(FilteredCentreHere(tao, &kept->basis));
+  if (*done && !exact) PetscCall(FilteredCentreHere(tao, &recycle->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
-  if (*done) PetscCall(FilteredSolveReduced(tao, kept, done));
+  if (*done) PetscCall(FilteredSolveReduced(tao, recycle, done));
   if (*done) {
     tao->niter++;
     ip->rec->ndirections++;
-  } else PetscCall(IPSubspaceStateReset(kept));
+  } else PetscCall(IPRecycleReset(recycle));
   PetscFunctionReturn(0);
 }
 
@@ -366,7 +366,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
    Computes the first point: for a quadratic program the solution of the first reduced problem, otherwise the start with
    its multipliers
 */
-static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *found)
+static PetscErrorCode FilteredFirst(Tao tao, IPRecycle *recycle, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
@@ -378,8 +378,8 @@ static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *f
   ip->mu                   = 0.0;
   if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
   else {
-    PetscCall(FilteredCentreHere(tao, &kept->basis));
-    PetscCall(FilteredSolveReduced(tao, kept, found));
+    PetscCall(FilteredCentreHere(tao, &recycle->basis));
+    PetscCall(FilteredSolveReduced(tao, recycle, found));
   }
   PetscFunctionReturn(0);
 }
@@ -387,36 +387,36 @@ static PetscErrorCode FilteredFirst(Tao tao, IPSubspaceState *kept, PetscBool *f
 /* Destroys the data that later solves would reuse */
 static PetscErrorCode FilteredForget(Tao tao)
 {
-  IPSubspaceState *kept;
+  IPRecycle *recycle;
 
   PetscFunctionBegin;
-  if (!IPFilteredOf(tao)->kept) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceStateGet(tao, &kept));
-  PetscCall(IPSubspaceStateReset(kept));
+  if (!IPFilteredOf(tao)->recycle) PetscFunctionReturn(0);
+  PetscCall(IPRecycleGet(tao, &recycle));
+  PetscCall(IPRecycleReset(recycle));
   PetscFunctionReturn(0);
 }
 
 /* Begins the method if the constraints involve few unknowns */
 static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 {
-  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered      *f  = IPFilteredOf(tao);
-  IPSubspaceState *kept;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+  IPRecycle    *recycle;
 
   PetscFunctionBegin;
-  PetscCall(IPSubspaceStateGet(tao, &kept));
-  PetscCall(FilteredTakeW(tao, kept, begun));
+  PetscCall(IPRecycleGet(tao, &recycle));
+  PetscCall(FilteredTakeW(tao, recycle, begun));
   if (!*begun) {
     PetscCall(FilteredForget(tao));
     PetscFunctionReturn(0);
   }
-  PetscCall(IPSubspaceStateUpdate(tao, kept, begun));
-  if (*begun) PetscCall(IPFilteredSetUp(tao, kept, begun));
-  if (*begun) PetscCall(FilteredFirst(tao, kept, begun));
+  PetscCall(IPRecycleUpdate(tao, recycle, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, recycle, begun));
+  if (*begun) PetscCall(FilteredFirst(tao, recycle, begun));
   ip->method->multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));
   else {
-    PetscCall(IPSubspaceStateReset(kept));
+    PetscCall(IPRecycleReset(recycle));
     PetscCall(IPFilteredDestroy(f));
     ip->rec->fallbacks.subspaces++;
   }
@@ -429,15 +429,15 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 */
 static PetscErrorCode FilteredEnd(Tao tao)
 {
-  TAO_IPFILTER    *ip = (TAO_IPFILTER *)tao->data;
-  IPSubspaceState *kept;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPRecycle    *recycle;
 
   PetscFunctionBegin;
   if (ip->method->on) {
-    PetscCall(IPSubspaceStateGet(tao, &kept));
-    kept->napplications = ip->rec->napplications;
-    if (ip->terms->n) PetscCall(IPReducedRelease(&kept->reduced));
-    else PetscCall(IPReducedScale(&kept->reduced, ip->rows->inequality));
+    PetscCall(IPRecycleGet(tao, &recycle));
+    recycle->napplications = ip->rec->napplications;
+    if (ip->terms->n) PetscCall(IPReducedRelease(&recycle->reduced));
+    else PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
   }
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscFunctionReturn(0);
@@ -467,7 +467,7 @@ static PetscErrorCode FilteredDestroyData(Tao tao)
 {
   PetscFunctionBegin;
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
-  PetscCall(PetscContainerDestroy(&IPFilteredOf(tao)->kept));
+  PetscCall(PetscContainerDestroy(&IPFilteredOf(tao)->recycle));
   PetscCall(PetscFree(((TAO_IPFILTER *)tao->data)->method->data));
   PetscFunctionReturn(0);
 }
@@ -475,7 +475,7 @@ static PetscErrorCode FilteredDestroyData(Tao tao)
 const IPMethodOps IPMethodSubspace = {
   .name    = "filtered subspace",
   .create  = FilteredCreateData,
-  .compose = IPSubspaceStateCompose,
+  .compose = IPSubspaceCompose,
   .applies = FilteredApplies,
   .begin   = FilteredBegin,
   .step    = FilteredStepOfKind,

@@ -61,16 +61,16 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
    Computes the model's minimizer d in V, and the forces of the constraints there. Where the reduced friction problem is
    not solved with few unknowns in W, W is extended to all unknowns.
 */
-static PetscErrorCode NewtonMinimizeModel(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *solved)
+static PetscErrorCode NewtonMinimizeModel(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *solved)
 {
   Vec centre = IPFilteredOf(tao)->centre;
 
   PetscFunctionBegin;
-  PetscCall(IPFilteredSolve(tao, &kept->basis, d, force, solved));
-  if (!*solved && kept->reduced.simply) {
-    PetscCall(IPFilteredWiden(tao, kept, solved));
-    if (*solved) PetscCall(NewtonCentreModel(tao, &kept->basis, centre));
-    if (*solved) PetscCall(IPFilteredSolve(tao, &kept->basis, d, force, solved));
+  PetscCall(IPFilteredSolve(tao, &recycle->basis, d, force, solved));
+  if (!*solved && recycle->reduced.simply) {
+    PetscCall(IPFilteredWiden(tao, recycle, solved));
+    if (*solved) PetscCall(NewtonCentreModel(tao, &recycle->basis, centre));
+    if (*solved) PetscCall(IPFilteredSolve(tao, &recycle->basis, d, force, solved));
   }
   if (*solved) PetscCall(VecAXPY(d, 1.0, centre));
   PetscFunctionReturn(0);
@@ -80,16 +80,16 @@ static PetscErrorCode NewtonMinimizeModel(Tao tao, IPSubspaceState *kept, Vec d,
    Adds a direction computed from the residual r. If the basis is full, it is compressed first. *added: false if the
    iteration limit of the Krylov method is reached.
 */
-static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, Vec r, PetscBool *added)
+static PetscErrorCode NewtonAddDirection(Tao tao, IPRecycle *recycle, Vec d, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
   PetscCall(IPFilteredAllows(tao, added));
   if (!*added) PetscFunctionReturn(0);
-  if (kept->basis.n == kept->basis.max) {
-    PetscCall(IPFilteredMakeRoom(tao, &kept->basis));
-    PetscCall(NewtonCentreModel(tao, &kept->basis, d));
+  if (recycle->basis.n == recycle->basis.max) {
+    PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
+    PetscCall(NewtonCentreModel(tao, &recycle->basis, d));
   }
-  PetscCall(IPFilteredExtend(tao, kept, r, added));
+  PetscCall(IPFilteredExtend(tao, recycle, r, added));
   PetscFunctionReturn(0);
 }
 
@@ -97,7 +97,7 @@ static PetscErrorCode NewtonAddDirection(Tao tao, IPSubspaceState *kept, Vec d, 
    Solves the model until its residual is below `target`. If no direction can be added, a residual that is half of the
    iterate's is sufficient. *solved: false if neither is reached, or the model has no minimum.
 */
-static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal target, Vec d, Vec force,
+static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal target, Vec d, Vec force,
   PetscBool *solved)
 {
   const PetscReal enough = 0.5 * ((TAO_IPFILTER *)tao->data)->kkt->dual_norm;
@@ -108,13 +108,13 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPSubspaceState *kept, PetscReal
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(VecSet(d, 0.0));
-  PetscCall(NewtonCentreModel(tao, &kept->basis, d));
+  PetscCall(NewtonCentreModel(tao, &recycle->basis, d));
   do {
-    PetscCall(NewtonMinimizeModel(tao, kept, d, force, solved));
+    PetscCall(NewtonMinimizeModel(tao, recycle, d, force, solved));
     if (!*solved) break;
     PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
     if (norm <= target) break;
-    PetscCall(NewtonAddDirection(tao, kept, d, r, &added));
+    PetscCall(NewtonAddDirection(tao, recycle, d, r, &added));
     *solved = (PetscBool)(added || norm <= enough);
   } while (added);
   if (*solved) IPFilteredOf(tao)->promised = norm;
@@ -365,7 +365,7 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
    Computes the Newton step d. The Hessian is shifted until the model is convex. *found: false if no moderate shift is
    sufficient. At the first point the model has already been set up.
 */
-static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec force, PetscBool *found)
+static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *found)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscInt  shifts = 6;
@@ -379,10 +379,10 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
     if (k) PetscCall(IPRegularizeMore(tao));
     if (k || tao->niter) {
       PetscCall(NewtonEvaluateHessian(tao));
-      PetscCall(IPSubspaceStateUpdate(tao, kept, found));
-      if (*found) PetscCall(IPFilteredSetUp(tao, kept, found));
+      PetscCall(IPRecycleUpdate(tao, recycle, found));
+      if (*found) PetscCall(IPFilteredSetUp(tao, recycle, found));
     }
-    if (*found) PetscCall(NewtonSolveModel(tao, kept, target, d, force, found));
+    if (*found) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, found));
     if (*found) break;
   }
   if (*found) IPRegularized(ip);
@@ -393,24 +393,24 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPSubspaceState *kept, Vec d, Vec 
 /* Takes one Newton step. *done: false if the model or the line search fails, or the steps make no more progress. */
 PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
 {
-  TAO_IPFILTER    *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt   patience = 20;
-  IPSubspaceState *kept;
-  Vec              d, force;
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 20;
+  IPRecycle     *recycle;
+  Vec            d, force;
 
   PetscFunctionBegin;
   tao->ksp_its = 0;
   if (tao->niter) PetscCall(IPKrylovRecord(tao, 0));
-  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
-  if (*done) PetscCall(NewtonFindStep(tao, kept, d, force, done));
+  if (*done) PetscCall(NewtonFindStep(tao, recycle, d, force, done));
   if (*done) PetscCall(NewtonSearch(tao, d, force, done));
   if (*done) PetscCall(NewtonAccept(tao, d, force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
   if (*done) tao->niter++;
-  else PetscCall(IPSubspaceStateReset(kept));
+  else PetscCall(IPRecycleReset(recycle));
   PetscFunctionReturn(0);
 }

@@ -95,14 +95,14 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
 */
 static PetscErrorCode FilteredCanWiden(Tao tao, PetscBool *can)
 {
-  const PetscInt   most = 60000;
-  IPSubspaceState *kept;
-  PetscInt         n;
+  const PetscInt most = 60000;
+  IPRecycle     *recycle;
+  PetscInt       n;
 
   PetscFunctionBegin;
-  PetscCall(IPSubspaceStateGet(tao, &kept));
+  PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(VecGetSize(tao->solution, &n));
-  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms->n && !kept->whole && n <= most);
+  *can = (PetscBool)(((TAO_IPFILTER *)tao->data)->terms->n && !recycle->whole && n <= most);
   PetscFunctionReturn(0);
 }
 
@@ -223,20 +223,20 @@ static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, Pe
    Computes d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per
    solve, and whenever B fails.
 */
-static PetscErrorCode FilteredPrecondition(Tao tao, IPSubspaceState *kept, Vec r, Vec d, PetscBool *definite)
+static PetscErrorCode FilteredPrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d, PetscBool *definite)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
   PetscBool     singular = PETSC_FALSE, negative = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
-  kept->ncurrent++;
-  if (kept->held || (*definite && ip->rec->napplications > 1)) PetscFunctionReturn(0);
+  PetscCall(FilteredApplyPC(tao, recycle->pc, r, d, definite));
+  recycle->ncurrent++;
+  if (recycle->held || (*definite && ip->rec->napplications > 1)) PetscFunctionReturn(0);
   PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
   if (!singular) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceStateHold(tao, kept, definite));
-  kept->negative = negative;
-  if (*definite) PetscCall(FilteredApplyPC(tao, kept->pc, r, d, definite));
+  PetscCall(IPRecycleHold(tao, recycle, definite));
+  recycle->negative = negative;
+  if (*definite) PetscCall(FilteredApplyPC(tao, recycle->pc, r, d, definite));
   PetscFunctionReturn(0);
 }
 
@@ -263,16 +263,16 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 }
 
 /* Adds a direction computed from the residual r, which is zero on W. The basis must not be full. */
-PetscErrorCode IPFilteredExtend(Tao tao, IPSubspaceState *kept, Vec r, PetscBool *extended)
+PetscErrorCode IPFilteredExtend(Tao tao, IPRecycle *recycle, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f     = IPFilteredOf(tao);
-  IPBasis      *basis = &kept->basis;
+  IPBasis      *basis = &recycle->basis;
   Vec           d;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
-  PetscCall(FilteredPrecondition(tao, kept, r, d, extended));
+  PetscCall(FilteredPrecondition(tao, recycle, r, d, extended));
   PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, d, NULL, NULL));
@@ -334,7 +334,7 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(ip->terms->t, &Dt));
-  PetscCall(IPSubspaceStateStiffnessOfTerms(tao, Dt));
+  PetscCall(IPRecycleStiffnessOfTerms(tao, Dt));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &D));
   PetscCall(VecPointwiseMult(D, ip->stiff->rho, slack->w));
   PetscCall(VecGetLocalSize(D, &n));
@@ -351,7 +351,7 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
   PetscCall(VecRestoreArrayRead(slack->z, &z));
   PetscCall(VecRestoreArray(Dt, &dt));
   PetscCall(VecRestoreArray(D, &d));
-  PetscCall(IPSubspaceStateCondense(tao, D, Dt, &A));
+  PetscCall(IPRecycleCondense(tao, D, Dt, &A));
   PetscCall(FilteredSetUpReduced(tao, basis, A, possible));
   if (*possible) PetscCall(IPReducedSetSprings(IPFilteredOf(tao)->reduced, D, Dt));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &D));
@@ -364,7 +364,7 @@ static PetscErrorCode FilteredSetUpHeld(Tao tao, const IPBasis *basis, PetscBool
    Sets up the method for the present Hessian. The initially active rows follow from slacks and multipliers. *possible:
    false if K_WW is not positive definite.
 */
-PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+PetscErrorCode IPFilteredSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPFiltered   *f  = IPFilteredOf(tao);
@@ -372,11 +372,11 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPSubspaceState *kept, PetscBool *possib
 
   PetscFunctionBegin;
   held = (PetscBool)(f->newton && ip->terms->n);
-  if (!f->centre) PetscCall(FilteredCreate(tao, &kept->basis));
-  f->reduced = &kept->reduced;
+  if (!f->centre) PetscCall(FilteredCreate(tao, &recycle->basis));
+  f->reduced = &recycle->reduced;
   *possible  = PETSC_FALSE;
-  if (!held || !kept->whole) PetscCall(FilteredSetUpReduced(tao, &kept->basis, ip->hess->H, possible));
-  if (!*possible && held) PetscCall(FilteredSetUpHeld(tao, &kept->basis, possible));
+  if (!held || !recycle->whole) PetscCall(FilteredSetUpReduced(tao, &recycle->basis, ip->hess->H, possible));
+  if (!*possible && held) PetscCall(FilteredSetUpHeld(tao, &recycle->basis, possible));
   if (*possible) PetscCall(FilteredGuess(tao));
   PetscFunctionReturn(0);
 }
@@ -399,16 +399,16 @@ PetscErrorCode IPFilteredTakeAll(Tao tao, IS *W)
    differ much from the full one, and its laws of norm terms may be much harder to satisfy. *possible: false if K is not
    positive definite.
 */
-PetscErrorCode IPFilteredWiden(Tao tao, IPSubspaceState *kept, PetscBool *possible)
+PetscErrorCode IPFilteredWiden(Tao tao, IPRecycle *recycle, PetscBool *possible)
 {
   IPFiltered *f = IPFilteredOf(tao);
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(tao, "The reduced problem is not solved with few directions: it is extended to all unknowns\n"));
-  kept->whole = PETSC_TRUE;
+  recycle->whole = PETSC_TRUE;
   PetscCall(ISDestroy(&f->W));
   PetscCall(IPFilteredTakeAll(tao, &f->W));
-  PetscCall(IPSubspaceStateUpdate(tao, kept, possible));
-  if (*possible) PetscCall(IPFilteredSetUp(tao, kept, possible));
+  PetscCall(IPRecycleUpdate(tao, recycle, possible));
+  if (*possible) PetscCall(IPFilteredSetUp(tao, recycle, possible));
   PetscFunctionReturn(0);
 }

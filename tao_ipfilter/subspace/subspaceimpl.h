@@ -164,14 +164,14 @@ typedef struct {
   PetscObjectState K_state;
   IPBasis          basis;
   IPReduced        reduced;
-} IPSubspaceState;
+} IPRecycle;
 
 /* State of the filtered subspace method during a solve */
 typedef struct {
   PetscBool      newton;  /* whether Newton's method is used, since the objective is not quadratic */
-  PetscContainer kept;    /* contains an IPSubspaceState */
+  PetscContainer recycle; /* contains an IPRecycle */
   IS             W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
-  IPReduced     *reduced; /* the reduced problem in `kept`; NULL: not set up */
+  IPReduced     *reduced; /* the reduced problem in `recycle`; NULL: not set up */
   Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal      f;                   /* f at that point */
   PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
@@ -243,20 +243,19 @@ PETSC_INTERN PetscErrorCode IPReducedReleaseTerms(const IPReduced *, Vec coeffic
 PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved);
 
-/* state.c, beside the public functions */
-PETSC_INTERN PetscErrorCode IPSubspaceStateCompose(Tao, PetscBool attach);
-PETSC_INTERN PetscErrorCode IPSubspaceStateGet(Tao, IPSubspaceState **);
-PETSC_INTERN PetscErrorCode IPSubspaceStateReset(IPSubspaceState *);
-PETSC_INTERN PetscErrorCode IPSubspaceStateStiffnessOfTerms(Tao, Vec Dt);
-PETSC_INTERN PetscErrorCode IPSubspaceStateCondense(Tao, Vec D, Vec Dt, Mat *A);
-PETSC_INTERN PetscErrorCode IPSubspaceStateHold(Tao, IPSubspaceState *, PetscBool *possible);
-PETSC_INTERN PetscErrorCode IPSubspaceStateReconsider(Tao, IPSubspaceState *, PetscReal left, PetscBool *possible);
-PETSC_INTERN PetscErrorCode IPSubspaceStateUpdate(Tao, IPSubspaceState *, PetscBool *possible);
+/* recycle.c */
+PETSC_INTERN PetscErrorCode IPRecycleGet(Tao, IPRecycle **);
+PETSC_INTERN PetscErrorCode IPRecycleReset(IPRecycle *);
+PETSC_INTERN PetscErrorCode IPRecycleStiffnessOfTerms(Tao, Vec Dt);
+PETSC_INTERN PetscErrorCode IPRecycleCondense(Tao, Vec D, Vec Dt, Mat *A);
+PETSC_INTERN PetscErrorCode IPRecycleHold(Tao, IPRecycle *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPRecycleReconsider(Tao, IPRecycle *, PetscReal left, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
 
 /* subspace.c */
 PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);
-PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPSubspaceState *, PetscBool *possible);
-PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPSubspaceState *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPRecycle *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
@@ -264,13 +263,16 @@ PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
 PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
 PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPSubspaceState *, Vec r, PetscBool *extended);
+PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPRecycle *, Vec r, PetscBool *extended);
 
 /* monitor.c */
 PETSC_INTERN PetscErrorCode IPFilteredMonitor(Tao, PetscBool *monitored);
 
 /* newton.c */
 PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
+
+/* api.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPSubspaceCompose(Tao, PetscBool attach);
 
 /* method.c: min f(x), c_I(x) >= 0 on the filtered subspace */
 PETSC_INTERN const IPMethodOps IPMethodSubspace;

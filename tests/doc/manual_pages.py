@@ -1,4 +1,4 @@
-"""Options that the plugin asks for, and options on its manual pages (/*@ @*/ and /*MC M*/): whatever stands on one side only is printed.
+"""Manual pages (/*@ @*/ and /*MC M*/) beside the code: options that are only asked for, or only documented; pages of functions that lack a part.
 
     python3 manual_pages.py TOP
 
@@ -66,5 +66,49 @@ def check(top, folder):
         print("  " + finding)
 
 
+def parameters(signature):
+    """Names of the parameters of a function"""
+    text = " ".join(signature.split())
+    parts, depth = [""], 0
+    for c in text[text.index("(") + 1 : text.rindex(")")]:
+        depth += (c in "([") - (c in ")]")
+        if c == "," and not depth:
+            parts.append("")
+        else:
+            parts[-1] += c
+    found = (re.search(r"\(\*\s*(\w+)", p) or re.search(r"(\w+)\s*(?:\[[^\]]*\])*\)?$", p.strip()) for p in parts if p.strip() != "void")
+    return [match.group(1) for match in found]
+
+
+def faults(page, signature):
+    """What PETSc's format of a manual page asks for and this page of a function does not have"""
+    name = re.search(r"(\w+)\(", signature).group(1)
+    listed, section = [], ""
+    for line in page.split("\n"):
+        heading = re.match(r"\s*(\w[\w /]*):$", line)
+        item = re.match(r"\s*[+.-]\s*(\w+)\s+-\s", line)
+        section = heading.group(1) if heading else section
+        if item and re.match(r"(In|Out)put", section):
+            listed.append(item.group(1))
+    if sorted(set(listed)) != sorted(parameters(signature)):
+        yield f"the page lists the parameters {' '.join(listed)}, the function has {' '.join(parameters(signature))}"
+    for what, pattern in (("first line NAME - Sentence", rf"\s*{name} - [A-Z]"), ("Level", r"(?s).*Level: (beginner|intermediate|advanced|developer)"), ("Collective", r"(?s).*\n\s*(Not |Logically |)Collective"), (".seealso", r"(?s).*\n\.seealso: ")):
+        if not re.match(pattern, page):
+            yield "no " + what
+
+
+def check_functions(top, folder):
+    findings, n = [], 0
+    for path in sorted(glob.glob(os.path.join(top, folder, "**", "*.c"), recursive=True)):
+        for page, signature in re.findall(r"/\*@C?\n(.*?)@\*/\n(.*?)\n\{", open(path).read(), flags=re.S):
+            n += 1
+            findings += [f"{os.path.relpath(path, top)}: {signature.split('(')[0].split()[-1]}: {fault}" for fault in faults(page, signature)]
+    print(f"{folder}: {'no manual pages found' if not n else 'every page has the parts of a manual page' if not findings else ''}")
+    for finding in findings:
+        print("  " + finding)
+
+
 for folder in ("pc_amgf", "tao_ipfilter"):
     check(sys.argv[1], folder)
+for folder in ("pc_amgf", "tao_ipfilter", "src"):
+    check_functions(sys.argv[1], folder)

@@ -18,7 +18,7 @@ struct _n_ContactCyclic {
 };
 
 /*@
-  ContactSetCyclic - Tells a contact where its bodies are cut because of cyclic symmetry
+  ContactSetCyclic - Sets the cyclic symmetries of the bodies of a contact
 
   Collective
 
@@ -30,7 +30,8 @@ struct _n_ContactCyclic {
   Level: intermediate
 
   Note:
-  The rows of a vertex on the second face of a cut and of its image on the first face become one.
+  Each symmetry has two faces, between which the bodies are cut. The row of a vertex on the second face is added to the
+  row of its image on the first face.
 
 .seealso: `ContactCreate()`, `MeshGetCyclicImages()`
 @*/

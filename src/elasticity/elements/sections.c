@@ -114,13 +114,13 @@ static PetscErrorCode SectionCut(Elasticity e, const PetscScalar sides[], PetscI
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. body       - number of the body
-. point      - a point of the plane [length]
-- axis       - normal of the plane, of any length but 0
++ e     - the context
+. body  - number of the body
+. point - a point of the plane [length]
+- axis  - normal of the plane, of any length but 0
 
   Output Parameter:
-. ncells - number of cells that the plane cuts on all ranks; negative: one of them is cut by another section, too
+. ncells - number of cells that the plane cuts, on all ranks; negative: another section also cuts one of them
 
   Level: beginner
 
@@ -155,14 +155,14 @@ PetscErrorCode ElasticityAddSection(Elasticity e, PetscInt body, const PetscReal
 }
 
 /*@
-  ElasticitySetShortening - Sets by how much a section shortens its body
+  ElasticitySetShortening - Sets the length by which a section shortens its body
 
-  Logically collective
+  Logically Collective
 
   Input Parameters:
-+ elasticity - the context
++ e          - the context
 . section    - number of the section, in the order of `ElasticityAddSection()`
-- shortening - [length]
+- shortening - the shortening [length]
 
   Level: beginner
 
@@ -181,11 +181,11 @@ PetscErrorCode ElasticitySetShortening(Elasticity e, PetscInt section, PetscReal
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per node [length]
++ e - the context
+- u - displacement, global, 3 components per node [length]
 
   Output Parameter:
-. force - of each section, along its axis; positive: tension [force]. Infinite where a cut cell is inverted
+. force - force of each section along its axis, positive for tension [force]; infinite if a cut cell is inverted
 
   Level: beginner
 

@@ -72,7 +72,7 @@ void ThermalSubtract(const PetscReal fit[4], CellState *cell)
   Not Collective
 
   Input Parameters:
-+ elasticity  - the context
++ e           - the context
 . body        - the body, from 0; `PETSC_DECIDE` for every body with thermal expansion
 . temperature - function that gives the temperature at a position in the undeformed body
 - ctx         - its context
@@ -114,15 +114,15 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
   Not Collective
 
   Input Parameters:
-+ elasticity - the context
-- fits       - 4 values per local cell, from `ElasticityFitTemperature()`, copied; `NULL`: no temperature. Values of
-               bodies without thermal expansion must be 0
++ e    - the context
+- fits - 4 values per local cell, from `ElasticityFitTemperature()`, copied; `NULL`: no temperature. Values of bodies
+         without thermal expansion must be 0
 
   Level: intermediate
 
   Notes:
-  Energy, force, stress and the error estimate are those of the elastic strain from then on. The tangent of laws of
-  small strain, which alone expand, does not depend on it.
+  Energy, force, stress and the error estimate are then computed from the elastic strain. Only laws of small strain have
+  thermal expansion, and their tangent does not depend on the temperature.
 
 .seealso: `ElasticityFitTemperature()`
 @*/

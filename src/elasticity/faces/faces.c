@@ -104,15 +104,15 @@ static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3
 }
 
 /*@
-  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: a dead
-  traction's load, or the stiffness of springs
+  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: the load of a
+  dead traction, or the stiffness of springs
 
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. face       - name of the face, "<body>.<face>"
-- value      - x, y, z per undeformed area
++ e     - the context
+. face  - name of the face, "<body>.<face>"
+- value - x, y, z per undeformed area
 
   Output Parameter:
 . total - global vector; the integral is added to it, on all rows
@@ -206,11 +206,11 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. face       - name of the face, "<body>.<face>"
-. resultant  - the force [force]
-. moment     - the moment about the point where the force acts [force length]
-- point      - that point; `NULL`: the face's centroid [length]
++ e         - the context
+. face      - name of the face, "<body>.<face>"
+. resultant - the force [force]
+. moment    - the moment about the point where the force acts [force length]
+- point     - that point; `NULL`: the face's centroid [length]
 
   Output Parameter:
 . force - global vector; the load is added to it, on all rows, the prescribed ones too [force]

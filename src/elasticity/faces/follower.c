@@ -63,10 +63,10 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. face       - name of the face, "<body>.<face>"
-. pressure   - positive pushes on the body [force/length^2]
-- u          - displacement, global [length]
++ e        - the context
+. face     - name of the face, "<body>.<face>"
+. pressure - positive pushes on the body [force/length^2]
+- u        - displacement, global [length]
 
   Output Parameters:
 + force - global vector; the load at u is added to it, on all rows [force]

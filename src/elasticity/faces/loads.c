@@ -78,7 +78,7 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
   Collective
 
   Input Parameter:
-. elasticity - the context
+. e - the context
 
   Output Parameter:
 . mass - new global vector, the same positive value for the 3 components of a node [length^3]
@@ -111,9 +111,9 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. body       - the body, from 0; `PETSC_DECIDE` for every body
-- density    - the force per reference volume [force/length^3]
++ e       - the context
+. body    - the body, from 0; `PETSC_DECIDE` for every body
+- density - the force per reference volume [force/length^3]
 
   Output Parameter:
 . force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
@@ -197,9 +197,9 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. face       - name of the face, "<body>.<face>"
-- pressure   - positive pushes on the body [force/length^2]
++ e        - the context
+. face     - name of the face, "<body>.<face>"
+- pressure - positive pushes on the body [force/length^2]
 
   Output Parameter:
 . force - global vector; the load is added to it, on all rows, the prescribed ones too [force]

@@ -10,11 +10,11 @@
   Collective
 
   Input Parameters:
-+ elasticity - the context
-. stiffness  - stiffness of the springs to the ground, one value per row, not negative, referenced; `NULL`: no such
-               springs [force/length]
-- between    - stiffness matrix of springs between unknowns, symmetric positive semidefinite, referenced; `NULL`: no
-               such springs [force/length]
++ e         - the context
+. stiffness - stiffness of the springs to the ground, one value per row, not negative, referenced; `NULL`: no such
+              springs [force/length]
+- between   - stiffness matrix of springs between unknowns, symmetric positive semidefinite, referenced; `NULL`: no such
+              springs [force/length]
 
   Level: intermediate
 

@@ -126,8 +126,8 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per vertex [length]
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
 
   Output Parameters:
 + bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
@@ -142,13 +142,12 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
   second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
   the border of a body.
 
-  Smooth solutions: on manufactured ones and Lame's sphere estimate over true norm is 0.9 to 1.3 from 8 cells across the
-  body on, and nears 1 as the mesh is refined. An element that locks hides part of its error in |e|; |e|/sqrt(2 E) with
-  its own, too small energy still tells it. Errors of a solver, of the loads or of the geometry are not included. In
-  bodies
-  of one layer of cells the estimate is rough.
+  For smooth solutions (manufactured ones, and Lame's sphere) with at least 8 cells across the body, the ratio of
+  estimate to true norm is 0.9 to 1.3, and tends to 1 as the mesh is refined. An element that locks has a too small
+  energy E; |e|/sqrt(2 E) shows its error even though |e| misses a part of it. Errors of the solver, of the loads and of
+  the geometry are not included. In bodies with one layer of cells the estimate is rough.
 
-  If a cell is inverted the estimate is infinite.
+  If a cell is inverted, the estimate is infinite.
 
   References:
   Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.

@@ -41,13 +41,13 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 }
 
 /*@
-  ElasticityNodalStress - Computes the Cauchy stress at the nodes, recovered from the cells about each
+  ElasticityNodalStress - Computes the Cauchy stress at the nodes, recovered from the cells around each node
 
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per vertex [length]
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
 
   Output Parameter:
 . stress - 6 values per node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
@@ -56,10 +56,10 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   Level: intermediate
 
   Notes:
-  Displacement gradient and dilatation are recovered by superconvergent patches, as for the error estimate, body by
-  body, and the law gives the stress of them: second order up to the surface, where the cells' own stress is first
-  order. A node that several bodies share has the mean of their values. A node at which the material is inverted has
-  `PETSC_INFINITY`.
+  Displacement gradient and dilatation are recovered by superconvergent patches, body by body, as for the error
+  estimate. The law gives the stress from them. It converges with second order up to the surface; the stress of the
+  cells is of first order. A node of several bodies gets the mean of their values. A node at which the material is
+  inverted gets `PETSC_INFINITY`.
 
 .seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
 @*/
@@ -97,12 +97,12 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per vertex [length]
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
 
   Output Parameters:
-+ npoints - quadrature points of all local cells
-. places  - 3 coordinates a point, undeformed, cell by cell [length]; free with `PetscFree()`
++ npoints - number of quadrature points of all local cells
+. places  - 3 undeformed coordinates per point, cell by cell [length]; free with `PetscFree()`
 - stress  - 6 values per point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
 
   Level: intermediate
@@ -150,8 +150,8 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per vertex [length]
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
 
   Output Parameter:
 . density - mean over each local cell, in the order of the mesh's cells [force/length^2]; free with `PetscFree()`

@@ -8,10 +8,10 @@
   Not Collective
 
   Input Parameter:
-. stress - xx yy zz xy yz zx
+. stress - the components xx yy zz xy yz zx, in any unit
 
   Output Parameter:
-. principal - the three values, the largest first
+. principal - the three principal values, the largest first, in the same unit
 
   Level: intermediate
 

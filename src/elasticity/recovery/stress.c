@@ -13,17 +13,17 @@ PetscReal StressVonMises(const PetscReal s[6])
   Collective
 
   Input Parameters:
-+ elasticity - the context
-- u          - displacement, global, 3 components per node [length]
++ e - the context
+- u - displacement, global, 3 components per node [length]
 
   Output Parameter:
-. stress - 7 values a local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];
+. stress - 7 values per local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];
            free with `PetscFree()`
 
   Level: intermediate
 
   Notes:
-  The stress is the one whose work is the energy: in a cell of `ELEMENT_BBAR` its pressure is that of the mean
+  The stress is conjugate to the strain of the element: in a cell of `ELEMENT_BBAR` the pressure is that of the mean
   dilatation. An inverted cell has the value `PETSC_INFINITY`.
 
 .seealso: `ElasticityForce()`, `ElasticityCreate()`

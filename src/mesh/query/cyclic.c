@@ -161,15 +161,14 @@ static PetscErrorCode CyclicMatch(const SceneCyclic *cut, const PetscReal axis[3
   Output Parameters:
 + turn   - rotation that moves the first face onto the second one, minus the identity
 . n      - number of nodes of the second face that this rank owns
-. nodes  - their global numbers
-- images - the global numbers of the nodes of the first face that are moved onto them; of a node on the axis its own
+. nodes  - global numbers of these nodes; free with `PetscFree()`
+- images - global numbers of the nodes of the first face that are moved onto them; a node on the axis is its own image;
+           free with `PetscFree()`
 
   Level: developer
 
   Note:
-  It is an error if 360 degrees is not a multiple of the angle between the faces, or if the faces have different
-  meshes. The caller
-  frees both lists.
+  It is an error if 360 degrees is not a multiple of the angle between the faces, or if the faces have different meshes.
 
 .seealso: `MeshGetFaceDofs()`
 @*/
