@@ -162,21 +162,45 @@ static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
   PetscFunctionReturn(0);
 }
 
+/* Broadcasts the first rank's verdict. An error on the first rank is raised on all ranks. */
+static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
+{
+  PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(said, 2, MPI_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
+  PetscCall(error);
+  PetscCheck(!said[0], PETSC_COMM_SELF, (PetscErrorCode)said[0],
+    "The reduced problem of the filtered subspace failed on the first rank, with error %d", said[0]);
+  *verdict = (PetscBool)said[1];
+  PetscFunctionReturn(0);
+}
+
+/* Raises an error of the first rank on all ranks. error: what a function returned that only the first rank needs */
+static PetscErrorCode ReducedAgree(const IPReduced *r, PetscErrorCode error)
+{
+  PetscBool none = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedBroadcast(r, error, &none));
+  PetscFunctionReturn(0);
+}
+
 /* Gathers J_W, followed by T_W if there are norm terms */
-static PetscErrorCode ReducedGatherJacobian(Mat J, const IPTerms *terms, PetscInt nw, const PetscInt w[],
-  PetscBool first, Mat *S)
+static PetscErrorCode ReducedGatherJacobian(const IPReduced *r, Mat J, const IPTerms *terms, PetscInt nw,
+  const PetscInt w[], Mat *S)
 {
   Mat JW, TW;
 
   PetscFunctionBegin;
   if (!terms->n) {
-    PetscCall(ReducedGatherRows(J, nw, w, first, S));
+    PetscCall(ReducedGatherRows(J, nw, w, r->first, S));
     PetscFunctionReturn(0);
   }
-  PetscCall(ReducedGatherRows(J, nw, w, first, &JW));
-  PetscCall(ReducedGatherRows(terms->T, nw, w, first, &TW));
+  PetscCall(ReducedGatherRows(J, nw, w, r->first, &JW));
+  PetscCall(ReducedGatherRows(terms->T, nw, w, r->first, &TW));
   *S = NULL;
-  if (first) PetscCall(ReducedStackRows(JW, TW, S));
+  PetscCall(ReducedAgree(r, r->first ? ReducedStackRows(JW, TW, S) : (PetscErrorCode)0));
   PetscCall(MatDestroy(&TW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -215,20 +239,6 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(PetscFree3(r->system.T, r->system.t, r->system.G));
   PetscCall(PetscFree4(r->Z, r->g, r->x, r->z));
   PetscCall(PetscMemzero(r, sizeof(*r)));
-  PetscFunctionReturn(0);
-}
-
-/* Broadcasts the first rank's verdict. An error on the first rank is raised on all ranks. */
-static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
-{
-  PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(said, 2, MPI_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
-  PetscCall(error);
-  PetscCheck(!said[0], PETSC_COMM_SELF, (PetscErrorCode)said[0],
-    "The reduced problem of the filtered subspace failed on the first rank, with error %d", said[0]);
-  *verdict = (PetscBool)said[1];
   PetscFunctionReturn(0);
 }
 
@@ -344,15 +354,28 @@ static PetscErrorCode ReducedAppendCompanions(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
+/* Allocates the system of at most kmax directions and companions */
+static PetscErrorCode ReducedAllocate(IPReduced *r, PetscInt kmax)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  s->kmax        = kmax;
+  s->ncompanions = r->companions.n;
+  s->companion   = r->companions.row;
+  PetscCall(PetscMalloc3(kmax * kmax, &s->T, kmax, &s->t, kmax, &s->G));
+  PetscCall(PetscMalloc4((size_t)r->n * (size_t)kmax, &r->Z, r->n, &r->g, r->n, &r->x, r->n, &r->z));
+  PetscFunctionReturn(0);
+}
+
 /* Sets up the space for a new K or W: gathers and factors K_WW */
 static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool terms,
   PetscBool *definite)
 {
-  PetscMPIInt      rank;
-  IPReducedSystem *s = &r->system;
-  IS               all, mine, places;
-  const PetscInt  *w;
-  PetscInt         nw;
+  PetscMPIInt     rank;
+  IS              all, mine, places;
+  const PetscInt *w;
+  PetscInt        nw;
 
   PetscFunctionBegin;
   PetscCall(IPReducedDestroy(r));
@@ -374,13 +397,30 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(ISDestroy(&places));
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedFactor(r, terms, definite));
-  s->kmax        = r->companions.n + basis->max;
-  s->ncompanions = r->companions.n;
-  s->companion   = r->companions.row;
-  PetscCall(PetscMalloc3(s->kmax * s->kmax, &s->T, s->kmax, &s->t, s->kmax, &s->G));
-  PetscCall(PetscMalloc4((size_t)r->n * (size_t)s->kmax, &r->Z, r->n, &r->g, r->n, &r->x, r->n, &r->z));
+  PetscCall(ReducedAgree(r, ReducedAllocate(r, r->companions.n + basis->max)));
   r->K_id = ((PetscObject)K)->id;
   PetscCall(PetscObjectStateGet((PetscObject)K, &r->K_state));
+  PetscFunctionReturn(0);
+}
+
+/* Sets up the system's rows on this rank; on all but the first there are none. JW: J_W, followed by T_W */
+static PetscErrorCode ReducedSetLocalRows(IPReduced *r, Mat JW, PetscBool *definite)
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  s->m = r->m + 2 * r->nterms;
+  PetscCall(
+    PetscMalloc5((size_t)s->m * (size_t)s->kmax, &s->JZ, s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
+  PetscCall(PetscCalloc1(s->m, &s->base));
+  PetscCall(PetscArrayzero(s->lambda, s->m));
+  PetscCall(PetscArrayzero(s->y, s->kmax));
+  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
+  PetscCall(IPComplianceSetRows(&r->compliance, JW, r->nterms ? 0 : s->kmax));
+  if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
+  if (!s->k) PetscCall(ReducedAppendCompanions(r));
+  if (r->nterms)
+    PetscCall(r->lawsops->create(r->m, r->nterms, s->kmax, r->KWW, r->compliance.F, JW, &r->laws, definite));
   PetscFunctionReturn(0);
 }
 
@@ -388,12 +428,10 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
 static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, const IPTerms *terms, Vec c,
   PetscBool *definite)
 {
-  IPReducedSystem *s     = &r->system;
-  PetscErrorCode   error = (PetscErrorCode)0;
-  IS               all;
-  Mat              JW;
-  const PetscInt  *w;
-  PetscInt         nw;
+  IS              all;
+  Mat             JW;
+  const PetscInt *w;
+  PetscInt        nw;
 
   PetscFunctionBegin;
   PetscCall(IPReducedRelease(r));
@@ -405,23 +443,12 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   PetscCall(ISAllGather(r->W, &all));
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
-  PetscCall(ReducedGatherJacobian(J, terms, nw, w, r->first, &JW));
+  PetscCall(ReducedGatherJacobian(r, J, terms, nw, w, &JW));
   PetscCall(ISRestoreIndices(all, &w));
   PetscCall(ISDestroy(&all));
   PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
   if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
-  s->m = r->m + 2 * r->nterms;
-  PetscCall(
-    PetscMalloc5((size_t)s->m * (size_t)s->kmax, &s->JZ, s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
-  PetscCall(PetscCalloc1(s->m, &s->base));
-  PetscCall(PetscArrayzero(s->lambda, s->m));
-  PetscCall(PetscArrayzero(s->y, s->kmax));
-  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
-  PetscCall(IPComplianceSetRows(&r->compliance, JW, r->nterms ? 0 : s->kmax));
-  if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
-  if (!s->k) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms) error = ops->create(r->m, r->nterms, s->kmax, r->KWW, r->compliance.F, JW, &r->laws, definite);
-  PetscCall(ReducedBroadcast(r, error, definite));
+  PetscCall(ReducedBroadcast(r, ReducedSetLocalRows(r, JW, definite), definite));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
@@ -505,7 +532,7 @@ PetscErrorCode IPReducedSetSprings(IPReduced *r, Vec D, Vec Dt)
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(s->m, &s->spring, s->m, &s->start));
+  PetscCall(ReducedAgree(r, PetscMalloc2(s->m, &s->spring, s->m, &s->start)));
   PetscCall(ReducedFetch(r->to_rows, D, r->on_rows, r->m, s->spring));
   PetscCall(ReducedFetch(r->to_terms, Dt, r->on_terms, 2 * r->nterms, s->spring + r->m));
   PetscFunctionReturn(0);
@@ -543,19 +570,12 @@ static void ReducedLoad(IPReduced *r, PetscInt j, const PetscReal pg[])
   if (j >= r->companions.n) r->system.t[j] -= pg[j - r->companions.n];
 }
 
-/*
-   Sets the point to which v is relative: its gradient g, P^T g, constraint values c and, with norm terms, their values.
-   With norm terms the present forces are subtracted from g.
-*/
-PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
+/* Computes what follows from the forces r->g and the gaps s->gap: compliances, and loads of the directions */
+static PetscErrorCode ReducedCenterFirst(IPReduced *r, const PetscReal pg[])
 {
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  PetscCall(ReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
-  PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
-  if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
-  if (!r->first) PetscFunctionReturn(0);
   if (s->spring) PetscCall(PetscArraycpy(s->start, s->gap, s->m));
   if (r->laws) {
     PetscCall(PetscArraycpy(s->base, s->lambda, s->m));
@@ -574,6 +594,22 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   PetscFunctionReturn(0);
 }
 
+/*
+   Sets the point to which v is relative: its gradient g, P^T g, constraint values c and, with norm terms, their values.
+   With norm terms the present forces are subtracted from g.
+*/
+PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
+{
+  IPReducedSystem *s = &r->system;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
+  PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
+  if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
+  PetscCall(ReducedAgree(r, r->first ? ReducedCenterFirst(r, pg) : (PetscErrorCode)0));
+  PetscFunctionReturn(0);
+}
+
 /* Adds the directions of the basis that the reduced problem does not have yet. pg: P^T g of all directions. */
 PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscReal pg[])
 {
@@ -583,7 +619,7 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
 
   PetscFunctionBegin;
   if (most <= 0) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1((size_t)r->n * (size_t)most, &Q));
+  PetscCall(ReducedAgree(r, PetscMalloc1((size_t)r->n * (size_t)most, &Q)));
   while (s->k < before + basis->n) {
     const PetscInt k = s->k, n = PetscMin(chunk, before + basis->n - k);
 
@@ -595,8 +631,8 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
       PetscCall(PetscArrayzero(T, before));
       PetscCall(PetscArraycpy(T + before, &basis->gram[(k + j - before) * basis->max], k + n - before));
     }
-    if (r->first) PetscCall(ReducedAppendColumns(r, n, Q));
-    else s->k += n;
+    PetscCall(ReducedAgree(r, r->first ? ReducedAppendColumns(r, n, Q) : (PetscErrorCode)0));
+    if (!r->first) s->k += n;
     for (PetscInt j = k; j < k + n && r->first; j++) ReducedLoad(r, j, pg);
   }
   PetscCall(PetscFree(Q));
@@ -654,7 +690,7 @@ static PetscErrorCode ReducedRecoverBySolve(IPReduced *r, PetscReal w[])
 
 /* Computes w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y) without a solve, from columns that are known. r->x:
    K_WW^-1 g */
-static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
+static PetscErrorCode ReducedRecoverFirst(IPReduced *r, PetscReal w[])
 {
   const IPReducedSystem *s     = &r->system;
   const PetscReal        minus = -1.0, one = 1.0;
@@ -669,6 +705,19 @@ static PetscErrorCode ReducedRecover(IPReduced *r, PetscReal w[])
   PetscCall(PetscBLASIntCast(r->n, &n));
   PetscCall(PetscBLASIntCast(s->k, &k));
   if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &n, &k, &minus, r->Z, &n, s->y, &inc, &one, w, &inc));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Sets the entries of v in W to w */
+static PetscErrorCode ReducedRecover(IPReduced *r, Vec v)
+{
+  PetscReal *w;
+
+  PetscFunctionBegin;
+  PetscCall(ReducedAgree(r, PetscMalloc1(r->n, &w)));
+  PetscCall(ReducedAgree(r, r->first ? ReducedRecoverFirst(r, w) : (PetscErrorCode)0));
+  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
+  PetscCall(PetscFree(w));
   PetscFunctionReturn(0);
 }
 
@@ -694,16 +743,12 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   IPReducedSystem *s    = &r->system;
   MPI_Comm         comm = PetscObjectComm((PetscObject)v);
   PetscInt         counts[3];
-  PetscReal       *w = NULL;
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
   PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(r->n, &w));
-  if (r->first) PetscCall(ReducedRecover(r, w));
-  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
-  PetscCall(PetscFree(w));
+  PetscCall(ReducedRecover(r, v));
   PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
   if (terms) PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
@@ -786,7 +831,6 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
   PetscBool *solved)
 {
   IPReducedSystem *s = &r->system;
-  PetscReal       *w;
 
   PetscFunctionBegin;
   *solved =
@@ -797,11 +841,8 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
   PetscCall(ReducedFetch(r->to_rows, r->scale ? force : c, r->on_rows, r->m, s->gap));
   PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveActiveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(r->n, &w));
-  if (r->first) PetscCall(ReducedRecover(r, w));
   PetscCall(VecZeroEntries(v));
-  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
-  PetscCall(PetscFree(w));
+  PetscCall(ReducedRecover(r, v));
   PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
   if (r->scale) PetscCall(VecPointwiseMult(force, force, r->scale));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)v)));
