@@ -83,11 +83,19 @@ PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 /*
    lines.c: SceneKeysGetLine() returns the line of a key, 0 if it is not known. SceneKeysAddLine() puts the line before
    a message if it is known. SceneKeysRaise() raises an error that occurred while the scene was read, with file and
-   line.
+   line. SceneKindOf() returns the word for an entry of a list: body for bodies.
 */
 PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
 PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
+PETSC_INTERN const char    *SceneKindOf(const char list[]);
+
+/*
+   nested.c: SceneKeysSayNested() rewrites the full keys of a message as a user writes them: bodies_slab_young becomes
+   key "young" of body "slab". SceneKeyOf() returns the last part of a full key.
+*/
+PETSC_INTERN const char    *SceneKeyOf(SceneKeys, const char key[]);
+PETSC_INTERN PetscErrorCode SceneKeysSayNested(SceneKeys, size_t size, char message[]);
 
 /*
    parse.c: converts texts to values. key: key for error messages. A list must have *n entries, or any number of entries

@@ -81,6 +81,7 @@ PetscErrorCode SceneKeysError(SceneKeys keys, const char format[], ...)
   PetscCall(PetscVSNPrintf(keys->error, sizeof(keys->error), format, NULL, args));
   va_end(args);
   PetscCall(SceneKeysAddLine(keys, sizeof(keys->error), keys->error));
+  PetscCall(SceneKeysSayNested(keys, sizeof(keys->error), keys->error));
   PetscFunctionReturn(0);
 }
 
@@ -212,6 +213,7 @@ static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], si
 static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], char meant[], size_t length)
 {
   const char **names, *nearest, *rest;
+  char         full[SCENE_KEY_LENGTH];
   size_t       below, distance, letters;
   PetscInt     n;
 
@@ -231,9 +233,10 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   PetscCall(OptionsNearest(n, names, rest, &nearest));
   PetscCall(OptionsDistance(rest, nearest, &distance));
   PetscCall(PetscStrlen(rest, &letters));
-  if (2 * distance < PetscMax(letters, 3))
-    PetscCall(PetscSNPrintf(meant, length, "the nearest valid key is \"%.*s%s\"", (int)below, unknown, nearest));
-  else {
+  if (2 * distance < PetscMax(letters, 3)) {
+    PetscCall(PetscSNPrintf(full, sizeof(full), "%.*s%s", (int)below, unknown, nearest));
+    PetscCall(PetscSNPrintf(meant, length, "the nearest valid key is \"%s\"", SceneKeyOf(keys, full)));
+  } else {
     PetscCall(PetscStrncpy(meant, "there are", length));
     for (PetscInt k = 0; k < n; ++k) {
       PetscCall(PetscStrlcat(meant, k ? ", " : " ", length));
@@ -242,6 +245,20 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
+}
+
+/* Raises an error whose message has full keys. The keys are rewritten as a user writes them. */
+static PetscErrorCode SceneKeysRaiseNamed(SceneKeys keys, const char format[], ...)
+{
+  char    message[2048];
+  va_list args;
+
+  PetscFunctionBegin;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(message, sizeof(message), format, NULL, args));
+  va_end(args);
+  PetscCall(SceneKeysSayNested(keys, sizeof(message), message));
+  SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, message);
 }
 
 /*
@@ -276,8 +293,8 @@ static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[],
     PetscCall(PetscStrlcat(below, below[0] ? ", " : "", sizeof(below)));
     PetscCall(PetscStrlcat(below, keys->asked[i] + length + 1, sizeof(below)));
   }
-  PetscCheck(!below[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s%s takes no value, but keys below it: %s", keys->file,
-    where, unknown, below);
+  if (below[0])
+    PetscCall(SceneKeysRaiseNamed(keys, "%s%s takes no value, but keys below it: %s", where, unknown, below));
   PetscFunctionReturn(0);
 }
 
@@ -290,15 +307,17 @@ static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[]
   PetscFunctionBegin;
   if (line) PetscCall(PetscSNPrintf(where, sizeof(where), "line %zu: ", line));
   PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
-    "%s: %sin the key \"%s\" there is a comma: a name is a letter, then letters, digits, _ or -", keys->file, where,
+    "%s: %sthe key \"%s\" contains a comma: a name is a letter, then letters, digits, _ or -", keys->file, where,
     unknown);
-  PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
-    "%s: %sthe key \"%s\" ends in a number: write decimals with a point (0.3), and several values in brackets ([1, 2])",
-    keys->file, where, unknown);
+  if (SceneKeyIsNumber(unknown))
+    PetscCall(SceneKeysRaiseNamed(keys,
+      "%sthe key \"%s\" is a number: write decimals with a point (0.3), and several values in brackets ([1, 2])", where,
+      unknown));
   PetscCall(SceneKeysRaiseDashes(keys, unknown, where));
   PetscCall(SceneKeysRaiseNested(keys, unknown, where));
   PetscCall(SceneKeysExplain(keys, unknown, meant, sizeof(meant)));
-  SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %sunknown key \"%s\"; %s", keys->file, where, unknown, meant);
+  PetscCall(SceneKeysRaiseNamed(keys, "%sunknown key \"%s\"; %s", where, unknown, meant));
+  PetscFunctionReturn(0);
 }
 
 /* Raises the first error of the file: an unknown key, or otherwise the first wrong value. */

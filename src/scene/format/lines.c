@@ -39,16 +39,25 @@ static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENG
   if (length < SCENE_KEY_LENGTH) (void)snprintf(key, SCENE_KEY_LENGTH, "%.*s", (int)length, text);
 }
 
+/* Words for an entry of a list, and the list. The first word of a list is the one that messages use. */
+static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
+  {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
+  {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"}, {"connector", "connectors"},
+  {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"}, {"refinement", "refinements"},
+  {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material", "materials"}, {"material name", "materials"},
+  {"face", "faces"}, {"symmetry plane", "symmetry"}, {"body force", "body_forces"}, {"probe", "probes"}};
+
+const char *SceneKindOf(const char list[])
+{
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
+    if (!strcasecmp(list, kinds[k][1])) return kinds[k][0];
+  }
+  return list;
+}
+
 /* Returns the list to whose entries the last word before `end` refers, for example bodies for body; NULL: none. */
 static const char *LineGetList(const char text[], const char *end)
 {
-  static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
-    {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
-    {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"},
-    {"connector", "connectors"}, {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"},
-    {"refinement", "refinements"}, {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material name", "materials"},
-    {"material", "materials"}};
-
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
     const size_t length = strlen(kinds[k][0]);
     const char  *at     = end - length;
@@ -112,5 +121,6 @@ PetscErrorCode SceneKeysRaise(SceneKeys keys, const RankError *error)
   if (!strncmp(text, keys->file, length) && !strncmp(text + length, ": ", 2)) text += length + 2;
   PetscCall(PetscStrncpy(message, text, sizeof(message)));
   PetscCall(SceneKeysAddLine(keys, sizeof(message), message));
+  PetscCall(SceneKeysSayNested(keys, sizeof(message), message));
   SETERRQ(keys->comm, error->code, "%s: %s", keys->file, message);
 }

@@ -40,8 +40,8 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   if (!n) PetscCall(SceneKeysError(keys, "%s_times is empty, or the numbers of times and values differ", owner));
   for (PetscInt i = 1; i < n; ++i) {
     if (!(time[i] > time[i - 1]))
-      PetscCall(
-        SceneKeysError(keys, "%s_times do not ascend: %g comes after %g", owner, (double)time[i], (double)time[i - 1]));
+      PetscCall(SceneKeysError(keys, "%s_times must ascend, but %g comes after %g", owner, (double)time[i],
+        (double)time[i - 1]));
   }
   if (n && SceneIsDynamic(scene)) ramp->start = TableInterpolate(n, time, value, 0.0);
   for (PetscInt k = 0; n && k < scene->nsteps; ++k)

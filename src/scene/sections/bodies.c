@@ -33,11 +33,11 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
     body->order = 1;
     PetscCall(SceneRefuseOfRigid(keys, owner, body));
     PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
-    PetscCall(SceneFinishInertia(keys, scene, owner, body));
+    PetscCall(SceneFinishInertia(keys, scene, body));
     PetscFunctionReturn(0);
   }
   PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
-  PetscCall(SceneFinishInertia(keys, scene, owner, body));
+  PetscCall(SceneFinishInertia(keys, scene, body));
   PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order)

@@ -73,14 +73,13 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionBegin;
   if (!MaterialYields(material)) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
-    PetscCall(SceneKeysError(keys, "%s_yield = %g is not the first of %s_yield_stresses, %g: leave it out", owner,
-      (double)h->yield, owner, (double)h->stresses.value[0]));
+    PetscCall(SceneKeysError(keys, "%s_yield = %g is not the first of yield_stresses, %g: leave it out", owner,
+      (double)h->yield, (double)h->stresses.value[0]));
   if (h->stresses.n) h->yield = h->stresses.value[0];
   PetscCall(SceneHasKey(keys, owner, "yield", &has));
   if (!has && h->yield == 0.0)
     PetscCall(SceneKeysError(keys,
-      "the key \"%s_yield\" is missing; a table of %s_plastic_strains and %s_yield_stresses may replace it", owner,
-      owner, owner));
+      "the key \"%s_yield\" is missing; a table of plastic_strains and yield_stresses may replace it", owner));
   if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysErrorOf(keys, owner, key, why));
   PetscFunctionReturn(0);
 }

@@ -294,14 +294,14 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneHasKey(keys, owner, "shear_limit", &limit));
   if (pair->interference_ramp >= 0 && !interference)
     PetscCall(
-      SceneKeysError(keys, "%s_ramp is the ramp of an interference, but %s_interference is missing", owner, owner));
+      SceneKeysError(keys, "%s_ramp is the ramp of an interference, but the key interference is missing", owner));
   if (pair->interference_ramp >= 0 && interference &&
       (pair->interference >= PETSC_INFINITY || pair->interference == 0.0))
     PetscCall(SceneKeysError(keys,
-      "%s_interference is true, false or 0; with a ramp it must be the largest intended overlap", owner));
+      "%s_interference must be the largest intended overlap if it has a ramp; it is true, false or 0", owner));
   if (pair->friction_ramp >= 0 && !coefficient)
     PetscCall(
-      SceneKeysError(keys, "%s_friction_ramp is the ramp of a coefficient, but %s_friction is missing", owner, owner));
+      SceneKeysError(keys, "%s_friction_ramp is the ramp of a coefficient, but the key friction is missing", owner));
   if (limit && !coefficient) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }

@@ -11,11 +11,10 @@ static PetscErrorCode DynamicsCheck(SceneKeys keys, const SceneDynamics *d)
 {
   PetscFunctionBegin;
   DynamicsRequire(d->time_step > 0.0, keys, "dynamics_time_step is %g, which must be above 0", (double)d->time_step);
-  DynamicsRequire(d->end_time >= d->time_step, keys,
-    "dynamics_end_time is %g, which must be at least dynamics_time_step, %g", (double)d->end_time,
-    (double)d->time_step);
+  DynamicsRequire(d->end_time >= d->time_step, keys, "dynamics_end_time is %g, which must be at least time_step, %g",
+    (double)d->end_time, (double)d->time_step);
   DynamicsRequire(d->end_time <= (PetscReal)SCENE_MAX_STEPS * d->time_step, keys,
-    "dynamics_time_step is %g, which makes more than %d steps up to dynamics_end_time, %g", (double)d->time_step,
+    "dynamics_time_step is %g, which makes more than %d steps up to end_time, %g", (double)d->time_step,
     SCENE_MAX_STEPS, (double)d->end_time);
   DynamicsRequire(d->tolerance >= 0.0 && d->tolerance < 1.0, keys,
     "dynamics_tolerance is %g, which must be above 0 and below 1", (double)d->tolerance);
@@ -51,7 +50,7 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const char owner[], const SceneBody *body)
+PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const SceneBody *body)
 {
   const PetscReal *v = body->velocity, *w = body->spin;
 
@@ -60,7 +59,7 @@ PetscErrorCode SceneFinishInertia(SceneKeys keys, Scene scene, const char owner[
     (double)body->material.density);
   if (SceneIsDynamic(scene)) {
     DynamicsRequire(body->material.density > 0.0 || body->material.type == MATERIAL_RIGID, keys,
-      "body \"%s\" has no density, which dynamics needs: the key \"%s_density\" is missing, or 0", body->name, owner);
+      "body \"%s\" has no density, which dynamics needs: the key density is missing, or 0", body->name);
   } else {
     DynamicsRequire(!(v[0] || v[1] || v[2] || w[0] || w[1] || w[2]), keys,
       "body \"%s\" has an initial velocity, and the scene has no dynamics: add dynamics: {time_step: ..., end_time: "

@@ -45,7 +45,7 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps
   PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
-  if (steps && factors) PetscCall(SceneKeysError(keys, "load_steps and load_factors exclude each other"));
+  if (steps && factors) PetscCall(SceneKeysError(keys, "load_steps and factors of load exclude each other"));
   if ((steps || factors) && SceneIsDynamic(scene))
     PetscCall(SceneKeysError(keys, "%s and dynamics exclude each other: time_step and end_time set the load steps",
       steps ? "load_steps" : "load_factors"));
@@ -87,7 +87,8 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
   if (reserved)
     PetscCall(SceneKeysError(keys,
-      "the ramp name \"%s\" is taken by the load itself; its factors are given by load_factors", ramp->name));
+      "ramp \"%s\": this name is reserved for the load program, whose factors are in load: {factors: [...]}",
+      ramp->name));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));

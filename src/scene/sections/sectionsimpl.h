@@ -17,7 +17,7 @@ PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
 /* dynamics.c: time steps, which are read before the ramps; and properties of bodies that time steps require */
 PETSC_INTERN PetscErrorCode SceneReadDynamics(SceneKeys, Scene, const SceneList *);
-PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owner[], const SceneBody *);
+PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const SceneBody *);
 
 /* constants.c: constants of a material's law, with the keys <owner>_<constant> */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);

@@ -92,7 +92,7 @@ static PetscErrorCode SceneReadStl(SceneKeys keys, SceneBody *body)
 
   PetscFunctionBegin;
   if (scale <= 0 || PetscIsInfOrNanReal(scale))
-    PetscCall(SceneKeysErrorOf(keys, body->name, "scale", " must be positive"));
+    PetscCall(SceneKeysError(keys, "bodies_%s_scale is %g, which must be above 0", body->name, (double)scale));
   else
     PetscCall(SceneStlCreate(keys->comm, body->gmsh.file, scale, &body->stl, &body->own[SURFACE_POINT],
       &body->own[SURFACE_SIZE]));
