@@ -26,16 +26,17 @@ typedef struct {
   }
 
 static const RealOption real_options[] = {
-  IP_REAL("mu_init", mu0, 1.0, "cold start: barrier parameter"),
-  IP_REAL("slack_init", s0, 1.0, "cold start: slacks"),
-  IP_REAL("dual_init", z0, 10.0, "cold start: multipliers of the slacks"),
-  IP_REAL("gamma_phi", gamma_phi, 1e-8, "sufficient reduction of the barrier function"),
-  IP_REAL("eta_phi", eta_phi, 1e-8, "Armijo's constant"),
-  IP_REAL("delta_max", delta_max, 1e20, "largest regularization"),
+  IP_REAL("mu_init", mu0, 1.0, "barrier parameter at a cold start"),
+  IP_REAL("slack_init", s0, 1.0, "slacks at a cold start"),
+  IP_REAL("dual_init", z0, 10.0, "multipliers of the slacks at a cold start"),
+  IP_REAL("gamma_phi", gamma_phi, 1e-8,
+    "fraction of the violation by which an accepted step must reduce the barrier function"),
+  IP_REAL("eta_phi", eta_phi, 1e-8, "fraction of the predicted decrease that a step must reach (Armijo)"),
+  IP_REAL("delta_max", delta_max, 1e20, "largest shift of an indefinite Hessian"),
   IP_REAL("proximal", proximal, 1e-5,
-    "condensed equality constraints: stiffness that resists them as a fraction of their weights"),
+    "for condensed equality constraints: size of the proximal term relative to the weights of the constraints"),
   IP_REAL("filter_switch", filter_switch, 10.0,
-    "the filter is used once (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
+    "the filter is used if (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
   IP_REAL("dual_inf_tol", dual_inf_tol, -1.0,
     "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
   IP_REAL("constr_viol_tol", constr_viol_tol, -1.0,
@@ -44,7 +45,7 @@ static const RealOption real_options[] = {
     "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else "
     "none"),
   IP_REAL("direct_memory", direct_memory, 2000,
-    "MB over all ranks that MUMPS may take for the whole matrix where the Krylov method fails; 0: never"),
+    "memory in MB, over all ranks, that MUMPS may use for the whole matrix if the Krylov method fails; 0: never"),
 };
 
 /* Sets all options to their defaults */
@@ -76,11 +77,11 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   }
   PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
     TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "starting slacks and multipliers", TAOIPFILTER, IPStarts,
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "Slacks and multipliers at the start", TAOIPFILTER, IPStarts,
     (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "How the barrier parameter is updated", TAOIPFILTER,
     IPBarrierRules, (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "measure of the KKT error", TAOIPFILTER, IPKKTMeasures,
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "Measure of the KKT error", TAOIPFILTER, IPKKTMeasures,
     (PetscEnum)opt->measure, (PetscEnum *)&opt->measure, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing",
     "Tolerance of the linear solver: derived from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings,

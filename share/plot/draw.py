@@ -165,6 +165,13 @@ def mirrored(args, data):
     return data
 
 
+def body_of_vertices(run):
+    owner = np.zeros(len(run.vertices))
+    for body, cell in zip(run.body, run.cells):
+        owner[cell] = body
+    return owner
+
+
 def warped(grid, scale):
     warp = vtkWarpVector()
     grid.GetPointData().SetActiveVectors("displacement")
@@ -186,21 +193,34 @@ def face_status(skin):
     add(skin.GetCellData(), "colour", [np.round(np.median(status[nodes[a:b]])) for a, b in zip(ends[:-1], ends[1:])])
 
 
+def part_of(skin, keep):
+    """Some faces of a surface, with the values of its vertices"""
+    part, array, faces, (ends, nodes) = vtkPolyData(), vtkCellArray(), np.flatnonzero(keep), faces_of(skin)
+    sizes = np.diff(ends)[faces]
+    chosen = np.concatenate([nodes[ends[f] : ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
+    array.SetData(ids(np.concatenate([[0], np.cumsum(sizes)])), ids(chosen))
+    part.SetPoints(skin.GetPoints())
+    part.SetPolys(array)
+    part.GetPointData().ShallowCopy(skin.GetPointData())
+    return part
+
+
 def parted(skin):
     """The faces all of whose vertices have a value, and the others"""
     valued, (ends, nodes) = np.isfinite(vtk_to_numpy(skin.GetPointData().GetArray("colour"))), faces_of(skin)
     whole = np.logical_and.reduceat(valued[nodes], ends[:-1])
-    parts = []
-    for keep in (whole, ~whole):
-        part, array, faces = vtkPolyData(), vtkCellArray(), np.flatnonzero(keep)
-        sizes = np.diff(ends)[faces]
-        chosen = np.concatenate([nodes[ends[f] : ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
-        array.SetData(ids(np.concatenate([[0], np.cumsum(sizes)])), ids(chosen))
-        part.SetPoints(skin.GetPoints())
-        part.SetPolys(array)
-        part.GetPointData().AddArray(skin.GetPointData().GetArray("colour"))
-        parts.append(part)
-    return parts
+    return part_of(skin, whole), part_of(skin, ~whole)
+
+
+def by_body(faces):
+    """The faces of each body. Those of the body with the most faces are last, since the last ones are drawn in front"""
+    ends, nodes = faces_of(faces)
+    if not len(ends) - 1:
+        return
+    bodies = vtk_to_numpy(faces.GetPointData().GetArray("body"))[nodes[ends[:-1]]]
+    numbers, counts = np.unique(bodies, return_counts=True)
+    for body in numbers[np.argsort(counts)]:
+        yield part_of(faces, bodies == body)
 
 
 def continuous_table(low, high):
@@ -277,8 +297,10 @@ def actor_of(data, colour, width, table=None):
     return actor
 
 
-def faces_actor(args, part, table):
+def faces_actor(args, part, table, layer):
+    """Faces of a higher layer are drawn in front of those that they touch"""
     actor = actor_of(part, GREY, 0.5, table)
+    actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(0, -100 * layer)
     actor.GetProperty().SetAmbient(0.45)
     actor.GetProperty().SetDiffuse(0.6)
     if not args.no_edges:
@@ -336,7 +358,7 @@ def legend(args, run, table, pixels):
         actors = colour_names(args.field.replace("_", " "), table, pixels)
     else:
         actors = colour_bar(f"{LABELS.get(args.field, args.field)} [{run.unit(args.field)}]", table)
-    if args.field.startswith("contact_"):
+    if args.field.startswith("contact_") and not args.contact_only:
         actors.append(text_at("grey: not in a pair", BODIES * WIDTH + 12, 14, 14))
     return actors
 
@@ -353,8 +375,10 @@ def text_at(text, x, y, size):
 def caption(args, run, step, scale, cells, displacement):
     nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
     largest = np.linalg.norm(displacement[nodes], axis=1).max()
-    size = f"largest {largest:.3g} [{run.unit('displacement')}]"
-    return f"load step {step}, displacement drawn x {scale:.3g} ({size}); grey lines: undeformed"
+    unit = run.unit("displacement")
+    size = f"largest displacement {largest:.3g}" + (f" {unit}" if unit != "length" else "")
+    drawn = "to scale" if scale == 1 else f"{scale:.3g} times as large"
+    return f"load step {step}; {size}, drawn {drawn}; grey lines: undeformed"
 
 
 def contact_box(args, run, step, cells, points):
@@ -426,6 +450,7 @@ def scene_of(args, run):
     scale = displacement_scale(args, run, cells, displacement)
     grid = body_grid(run, cells)
     add(grid.GetPointData(), "displacement", displacement)
+    add(grid.GetPointData(), "body", body_of_vertices(run))
     outline = mirrored(args, sharp_edges(surface(grid)))
     by_cell = len(values) == len(run.cells)
     shown = values[cells] if by_cell else values[np.unique(np.concatenate([run.cells[c] for c in cells]))]
@@ -436,9 +461,10 @@ def scene_of(args, run):
     coloured, plain = (skin, None) if by_cell else parted(skin)
     if args.field.startswith("contact_status"):
         face_status(coloured)
-    for part, colours in ((coloured, table), (plain, None)):
-        if part and part.GetNumberOfCells() and (colours or not args.contact_only):
-            bodies.AddActor(faces_actor(args, mirrored(args, part), colours))
+    parts = [(part, table) for part in by_body(coloured)] if args.contact_only else [(coloured, table), (plain, None)]
+    for layer, (part, colours) in enumerate(parts):
+        if part and part.GetNumberOfCells():
+            bodies.AddActor(faces_actor(args, mirrored(args, part), colours, layer if args.contact_only else 0))
     skin = mirrored(args, skin)
     for renderer in (bodies, page):
         renderer.SetBackground(1, 1, 1)

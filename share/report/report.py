@@ -24,6 +24,23 @@ END = {
     5: "A signal ended the run.",
     6: "Results could not be written.",
 }
+PHASES = {
+    "setup": "set-up",
+    "contact_search": "contact: search for opposite facets",
+    "contact_integrals": "contact: gaps",
+    "contact": "contact: everything else",
+    "amg_setup": "AMG: set-up",
+    "amg_apply": "AMG: applications",
+    "filter_setup": "filter: set-up",
+    "filter_apply": "filter: applications",
+    "directions": "subspace method: new directions",
+    "reduced_factor": "subspace method: factorization on the contact unknowns",
+    "reduced": "subspace method: rest of the reduced problem",
+    "optimizer": "optimizer: everything else",
+    "measures": "forces, stresses, penetration",
+    "results": "probes and fields of files",
+    "comparison": "comparison without contact",
+}
 STYLE = """
 body { font: 15px/1.5 sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em; color: #222 }
 h1 { margin-bottom: 0 } h2 { border-bottom: 1px solid #ccc; margin-top: 2em }
@@ -44,7 +61,7 @@ def check():
 
 
 def text(value):
-    """A cell of a table: numbers with five digits"""
+    """A cell of a table: numbers with five digits. Components of a vector below 1e-9 of the largest one are 0"""
     if value is None:
         return "-"
     if isinstance(value, bool):
@@ -52,7 +69,8 @@ def text(value):
     if isinstance(value, float):
         return f"{value:.5g}"
     if isinstance(value, list):
-        return ", ".join(text(part) for part in value)
+        size = max((abs(part) for part in value if isinstance(part, (int, float))), default=0)
+        return ", ".join(text(0 if isinstance(part, float) and abs(part) < 1e-9 * size else part) for part in value)
     return html.escape(str(value))
 
 
@@ -72,19 +90,19 @@ def pictures(base, run):
     """Stress, displacement and contact pressure of the last load step that is on disk"""
     import draw
 
-    wanted = [("stress", "nodal_von_mises", []), ("displacement", "displacement", ["--scale", "auto"])]
+    wanted = [("Von Mises stress", "nodal_von_mises", []), ("Displacement", "displacement", ["--scale", "auto"])]
     if run["steps"][-1]["pairs"]:
-        wanted.append(("contact pressure", "contact_pressure", ["--contact-only"]))
+        wanted.append(("Contact pressure", "contact_pressure", ["--contact-only"]))
     for caption, field, options in wanted:
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "picture.png")
             try:
                 draw.draw([base, file, "--field", field, *options])
             except SystemExit as reason:
-                yield f"<p>There is no picture of the {caption}: {html.escape(str(reason.code))}.</p>\n"
+                yield f"<p>No picture: {caption.lower()}: {html.escape(str(reason.code))}.</p>\n"
                 continue
             with open(file, "rb") as stream:
-                yield image(stream.read(), f"{caption[0].upper()}{caption[1:]}, last load step")
+                yield image(stream.read(), f"{caption}, last load step")
 
 
 def history(base):
@@ -128,11 +146,12 @@ def peak(values):
 
 
 def forces(step):
-    keys = ["force", "normal_force", "area", "pressure"]
-    heading = ["pair", "force on the nonmortar side (x, y, z)", "normal force", "area", "largest pressure"]
+    keys = ["force", "normal_force", "area", "pressure", "penetration"]
+    heading = ["pair", "force on the nonmortar side (x, y, z)", "normal force", "contact area", "largest pressure"]
+    heading += ["largest penetration"]
     if any(pair["shear_force"] or pair["dissipated"] for pair in step["pairs"]):
         keys += ["shear_force", "stick_area", "slip_area", "dissipated"]
-        heading += ["shear force", "stick area", "slip area", "dissipated"]
+        heading += ["shear force", "area that sticks", "area that slips", "work of friction"]
     if step["pairs"]:
         yield table(heading, [[pair["name"], *(pair[key] for key in keys)] for pair in step["pairs"]])
     keys = ["name", "reaction", "moment"]
@@ -140,37 +159,45 @@ def forces(step):
     if step["rigid_bodies"]:
         keys = ["name", "position", "rotation"]
         yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"], [[body[key] for key in keys] for body in step["rigid_bodies"]])
+    yield "<p>Forces on each body. Their resultant should be 0.</p>\n"
     keys = ["name", "contact", "reaction", "load", "balance"]
-    heading = ["body", "contact", "reaction", "load", "residual of the forces over the sum of their sizes"]
+    heading = ["body", "contact (x, y, z)", "reaction (x, y, z)", "load (x, y, z)"]
+    heading += ["resultant, relative to the sum of the magnitudes"]
     yield table(heading, [[body[key] for key in keys] for body in step["bodies"]])
+
+
+def percent(fraction):
+    return None if fraction is None else float(f"{100 * fraction:.2g}")
 
 
 def accuracy(run, step):
     mesh = step["error_estimate"]
-    rows = [["mesh (stress recovery)", None if mesh is None else mesh**2], ["solver", step["algebraic_error"]]]
-    yield table(["source", "estimated error in energy over the energy"], rows)
+    solver = step["algebraic_error"]
+    rows = [["the mesh (from stress recovery)", None if mesh is None else percent(mesh**2)], ["the solver", percent(solver)]]
+    yield table(["error caused by", "estimated error of the energy [%]"], rows)
     if mesh is not None:
-        yield table(["body", "part of the mesh's error in the energy norm, over that of the displacement"], list(step["body_errors"].items()))
+        yield "<p>Contribution of each body to the error of the mesh in the energy norm. Refine the body with the largest one.</p>\n"
+        yield table(["body", "error in the energy norm [%]"], [[body, percent(error)] for body, error in step["body_errors"].items()])
     if run.get("accuracy"):
         asked = run["accuracy"]
-        yield f"<p>Requested: {text(asked['target'])}. {html.escape(str(asked['end']))}</p>\n"
+        yield f"<p>Requested accuracy: {text(asked['target'])}. {html.escape(str(asked['end']))}</p>\n"
         keys = [key for key in asked["levels"][0] if not isinstance(asked["levels"][0][key], (list, dict))]
-        yield table(keys, [[level[key] for key in keys] for level in asked["levels"]])
-        yield "<p>Errors of the meshes are over the energy, or over a pair's force where that is larger.</p>\n"
+        yield table([key.replace("_", " ") for key in keys], [[level[key] for key in keys] for level in asked["levels"]])
+        yield "<p>Errors of the meshes are relative to the energy, or to the force of a pair if that error is larger.</p>\n"
 
 
 def steps(run):
     columns = {
         "step": "step",
         "load": "load factor",
-        "constraints": "contact rows",
+        "constraints": "contact constraints",
         "contact_updates": "contact updates",
         "ip_iterations": "iterations",
         "amg_applications": "AMG applications",
         "cuts": "cuts",
         "energy": "energy",
-        "equilibrium": "residual",
-        "gap_true": "smallest gap",
+        "equilibrium": "unbalanced forces, relative",
+        "gap_true": "smallest gap (negative: penetration)",
         "reason": "result",
     }
     yield table(columns.values(), [[step[key] for key in columns] for step in run["steps"]])
@@ -178,8 +205,8 @@ def steps(run):
 
 def time_and_memory(run):
     total = run["time"]["total"]
-    phases = [(name.replace("_", " "), seconds) for name, seconds in run["time"].items()]
-    rows = [[name, seconds, 100 * seconds / total if total else None] for name, seconds in phases]
+    phases = [(PHASES.get(name, name.replace("_", " ")), seconds) for name, seconds in run["time"].items() if seconds]
+    rows = [[name, f"{seconds:.3g}", f"{100 * seconds / total:.1f}" if total else None] for name, seconds in phases]
     yield table(["phase", "time [s]", "share [%]"], rows)
     memory = run["peak_memory_bytes"]
     yield f"<p>Peak memory: {memory / 1e6:.0f} MB, {memory / 1e3 / max(run['dofs'], 1):.2f} kB per unknown.</p>\n"
@@ -205,6 +232,7 @@ def page(base, run, scene, command, versions):
         yield from pictures(base, run)
         yield "<h2>History</h2>\n" + history(base)
         yield f"<h2>Forces, load step {last['step']}</h2>\n"
+        yield f"<p>In the units of the scene{': ' + text(run['units']) if run['units'] else ''}.</p>\n"
         yield from forces(last)
         yield f"<h2>Accuracy, load step {last['step']}</h2>\n"
         yield from accuracy(run, last)

@@ -93,12 +93,12 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(numbers); ++i)
     PetscCheck(!PetscIsInfOrNanReal(numbers[i].value) && numbers[i].value >= numbers[i].least, comm,
-      PETSC_ERR_FILE_UNEXPECTED, "the state is damaged: its %s is %g", numbers[i].name, (double)numbers[i].value);
+      PETSC_ERR_FILE_UNEXPECTED, "the checkpoint is damaged: its %s is %g", numbers[i].name, (double)numbers[i].value);
   PetscCheck(checkpoint->previous_time <= checkpoint->time, comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its previous_time %g is later than its time %g", (double)checkpoint->previous_time,
+    "the checkpoint is damaged: its previous_time %g is later than its time %g", (double)checkpoint->previous_time,
     (double)checkpoint->time);
   PetscCheck((PetscReal)checkpoint->step == PetscFloorReal(checkpoint->time), comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its step %" PetscInt_FMT " does not match its time %g", checkpoint->step,
+    "the checkpoint is damaged: its step %" PetscInt_FMT " does not match its time %g", checkpoint->step,
     (double)checkpoint->time);
   PetscFunctionReturn(0);
 }

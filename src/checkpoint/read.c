@@ -83,7 +83,7 @@ static PetscErrorCode RestartCheckNumbers(Restart *r, const char name[], Vec v)
   PetscFunctionBegin;
   PetscCall(VecNorm(v, NORM_1, &sum));
   PetscCheck(!PetscIsInfOrNanReal(sum), r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its %s has values that are not numbers", name);
+    "it is damaged: its %s has values that are not numbers", name);
   PetscFunctionReturn(0);
 }
 
@@ -119,7 +119,7 @@ static PetscErrorCode RestartCompare(Restart *r)
   PetscCall(ISDestroy(&is));
   PetscCall(SceneCompare(r->scene, text, difference, sizeof(difference)));
   PetscCall(PetscFree(text));
-  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it belongs to another scene: in %s", difference);
+  PetscCheck(!difference[0], r->comm, PETSC_ERR_USER_INPUT, "it belongs to another scene: %s", difference);
   PetscFunctionReturn(0);
 }
 
@@ -134,7 +134,7 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 
     PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, name, &has));
     PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-      "the state has no \"%s\": an earlier version of the program wrote it; start without -restart", name);
+      "it has no \"%s\", since an earlier version of the program wrote it; start without -restart", name);
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, CheckpointNumber(checkpoint, i)));
   }
   PetscCall(PetscCalloc1(r->scene->nbolts, &checkpoint->shortening));
@@ -157,8 +157,8 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, &then));
     PetscCall(SceneGetFactor(r->scene, k, checkpoint->time, &now));
     PetscCheck(PetscAbsReal(now - then) <= 1e-9 * PetscMax(1, PetscAbsReal(then)), r->comm, PETSC_ERR_USER_INPUT,
-      "at its time %g the factor of ramp \"%s\" was %g, and in the scene it is %g", (double)checkpoint->time, ramp,
-      (double)then, (double)now);
+      "at time %g the factor of ramp \"%s\" is %g in the checkpoint, but %g in the scene", (double)checkpoint->time,
+      ramp, (double)then, (double)now);
   }
   PetscFunctionReturn(0);
 }
@@ -215,15 +215,14 @@ static PetscErrorCode RestartFindCells(Restart *r, PetscBool mixed, PetscInt nin
     mesh->first[c]  = at;
     for (PetscInt i = at; i < at + n; ++i) {
       PetscCheck(mesh->c[i] >= 0 && mesh->c[i] < mesh->nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-        "the state is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT
-        ", but there are only %" PetscInt_FMT,
-        c, mesh->c[i], mesh->nvertices);
+        "it is damaged: cell %" PetscInt_FMT " has the vertex %" PetscInt_FMT ", but there are only %" PetscInt_FMT, c,
+        mesh->c[i], mesh->nvertices);
     }
     at += n;
   }
   sound = (PetscBool)(at == nindices && (!mesh->ncells || mesh->nnodes[mesh->ncells - 1]));
   PetscCheck(sound, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its %" PetscInt_FMT " cells do not match the numbers of their nodes", mesh->ncells);
+    "it is damaged: its %" PetscInt_FMT " cells do not match the numbers of their nodes", mesh->ncells);
   PetscFunctionReturn(0);
 }
 
@@ -302,8 +301,7 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
   PetscCall(RestartCheckNumbers(r, name, stored));
   PetscCall(VecGetSize(stored, &size));
   PetscCheck(!r->locator || size == components * r->mesh.nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the state is damaged: its %s has %" PetscInt_FMT " values for %" PetscInt_FMT " vertices", name, size,
-    r->mesh.nvertices);
+    "it is damaged: its %s has %" PetscInt_FMT " values for %" PetscInt_FMT " vertices", name, size, r->mesh.nvertices);
   PetscCall(VecGetArrayRead(stored, &s));
   if (r->locator) {
     PetscCall(MeshLocatorGetPlaces(r->locator, &places));
@@ -401,9 +399,9 @@ static PetscErrorCode RestartCheckFile(const Restart *r)
     (void)fclose(stream);
   }
   PetscCallMPI(MPI_Bcast(length, 2, MPIU_INT64, 0, r->comm));
-  PetscCheck(length[0] >= 0, r->comm, PETSC_ERR_FILE_READ, "it is no HDF5 file");
+  PetscCheck(length[0] >= 0, r->comm, PETSC_ERR_FILE_READ, "it is not an HDF5 file");
   PetscCheck(length[0] >= length[1], r->comm, PETSC_ERR_FILE_READ,
-    "of its %" PetscInt64_FMT " bytes %" PetscInt64_FMT " are there", length[1], length[0]);
+    "it is incomplete: it has %" PetscInt64_FMT " bytes instead of %" PetscInt64_FMT, length[0], length[1]);
   PetscFunctionReturn(0);
 }
 
@@ -415,7 +413,7 @@ static PetscErrorCode RestartReadFile(Restart *r, Checkpoint checkpoint, PetscBo
   PetscCall(RestartCheckFile(r));
   PetscCall(PetscViewerHDF5Open(r->comm, r->file, FILE_MODE_READ, &r->viewer));
   PetscCall(PetscViewerHDF5HasAttribute(r->viewer, NULL, "largest_increment", &has));
-  PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED, "it holds other results");
+  PetscCheck(has, r->comm, PETSC_ERR_FILE_UNEXPECTED, "it is not a checkpoint");
   PetscCall(RestartCompare(r));
   PetscCall(RestartReadNumbers(r, checkpoint));
   PetscCall(RestartIsSame(r, same));

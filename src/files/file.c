@@ -114,7 +114,8 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscCall(PetscPopErrorHandler());
   /* If the disk is full, a rank may fail in the middle of a collective write. It must not wait for the other ranks. */
   if (ierr && part.renamed) (void)remove(part.name);
-  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\", is the disk full? %s", file, message);
+  PetscCheck(!ierr, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE, "cannot write \"%s\" (is the disk full?): %s", file,
+    message);
   if (commit && part.renamed) PetscCall(FileCommitBegin(comm, part.name, file, commit));
   else PetscCall(FileRename(comm, &part, file));
   PetscFunctionReturn(0);

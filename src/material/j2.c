@@ -263,22 +263,22 @@ PetscBool MaterialCheckHardening(const MaterialHardening *h, const char **key, c
 
   if (!J2CheckTable(h, key, why, length)) return PETSC_FALSE;
   *key = h->stresses.n ? "yield_stresses" : "yield";
-  (void)snprintf(why, length, "= %g, which must be above 0", (double)h->yield);
+  (void)snprintf(why, length, "is %g, which must be above 0", (double)h->yield);
   if (!(h->yield > 0)) return PETSC_FALSE;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(positive); ++i) {
     *key = positive[i].key;
-    (void)snprintf(why, length, "= %g, which must not be below 0%s", (double)positive[i].value,
+    (void)snprintf(why, length, "is %g, which must not be below 0%s", (double)positive[i].value,
       i < 2 ? ": a law with softening has no unique solution" : "");
     if (!(positive[i].value >= 0)) return PETSC_FALSE;
   }
-  (void)snprintf(why, length, "= %g, which needs a saturation", (double)h->rate);
+  (void)snprintf(why, length, "is %g, which needs a saturation", (double)h->rate);
   if (h->rate > 0 && h->saturation == 0) return PETSC_FALSE;
   *key = "saturation";
   (void)snprintf(why, length,
-    "= %g, which must not be below the yield stress %g: a law with softening has no unique solution",
+    "is %g, which must not be below the yield stress %g: a law with softening has no unique solution",
     (double)h->saturation, (double)h->yield);
   if (h->rate > 0 && !(h->saturation >= h->yield)) return PETSC_FALSE;
-  (void)snprintf(why, length, "= %g, which needs a saturation_rate", (double)h->saturation);
+  (void)snprintf(why, length, "is %g, which needs a saturation_rate", (double)h->saturation);
   return (PetscBool) !(h->saturation != 0 && h->rate == 0);
 }
 

@@ -51,7 +51,7 @@ static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char name[], const 
     if (k) PetscCall(PetscStrlcat(all, words[k + 1] ? ", " : " or ", sizeof(all)));
     PetscCall(PetscStrlcat(all, words[k], sizeof(all)));
   }
-  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", and needs %s", name, value, all);
+  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", but needs %s", name, value, all);
   PetscFunctionReturn(0);
 }
 
@@ -69,11 +69,11 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
 
   PetscFunctionBegin;
   if (!OptionGetKind(name, &kind)) PetscFunctionReturn(0);
-  PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, and needs %s", name,
+  PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, but needs %s", name,
     needs[kind]);
   if (missing) PetscFunctionReturn(0);
   PetscCall(OptionValueIsGood(kind, value, &good));
-  PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", and needs %s", name, value, needs[kind]);
+  PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", but needs %s", name, value, needs[kind]);
   PetscCall(OptionCheckChoice(comm, name, value));
   PetscFunctionReturn(0);
 }

@@ -37,8 +37,8 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
   PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));
   PetscCall(TableViewRows(report, TABLE_LEVELS, &SchemaLevels, acc->nlevels, acc->levels, viewer));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  errors relative to the energy, or to the force of a pair if that error "
-                                           "is larger; the errors above are in the energy norm\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  errors are relative to the energy, or to the force of a pair if that error is larger\n"));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %s\n", acc->end));
   PetscFunctionReturn(0);
 }
@@ -59,8 +59,8 @@ static PetscErrorCode AccuracyViewAdapted(const Accuracy *acc, const char how[],
     "Accuracy %g: a mesh of %" PetscInt_FMT " unknowns has an error of %g%s, the solver %g, after %.1f s; ",
     (double)acc->target, now->dofs, (double)now->error, how, (double)now->algebraic, (double)all));
   if (acc->mesh > now->mesh)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "the next has about %" PetscInt_FMT "\n", (PetscInt)next));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "next, a tighter tolerance\n"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "the next mesh has about %" PetscInt_FMT " unknowns\n", (PetscInt)next));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "next: a smaller tolerance\n"));
   PetscFunctionReturn(0);
 }
 
@@ -89,11 +89,11 @@ PetscErrorCode ReportViewNextMesh(const Accuracy *acc, PetscInt refine, PetscVie
   if (acc->adaptive) PetscCall(AccuracyViewAdapted(acc, how, viewer));
   else if (acc->order && !now->mesh && acc->mesh)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "Accuracy %g: error of the mesh %g%s, of the solver %g; next order %" PetscInt_FMT "\n", (double)acc->target,
+      "Accuracy %g: error of the mesh %g%s, of the solver %g; next: order %" PetscInt_FMT "\n", (double)acc->target,
       (double)now->error, how, (double)now->algebraic, acc->order));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "Accuracy %g: error of the mesh %g%s, of the solver %g; next refinement %" PetscInt_FMT "\n", (double)acc->target,
-      (double)now->error, how, (double)now->algebraic, refine));
+      "Accuracy %g: error of the mesh %g%s, of the solver %g; next: refinement %" PetscInt_FMT "\n",
+      (double)acc->target, (double)now->error, how, (double)now->algebraic, refine));
   PetscFunctionReturn(0);
 }

@@ -66,27 +66,28 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
     acc->target, &acc->target, &set));
   PetscCall(PetscOptionsEList("-accuracy_of", "Quantity that must be accurate", "AccuracyAssess", AccuracyTargets,
     ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only the cells where the error is", "AccuracyAssess",
+  PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only where the error is large", "AccuracyAssess",
     acc->adaptive, &acc->adaptive, NULL));
   PetscCall(PetscOptionsReal("-accuracy_share", "Fraction of the requested error that the solver may leave",
     "AccuracyPlan", acc->share, &acc->share, NULL));
-  PetscCall(
-    PetscOptionsReal("-accuracy_max_dofs", "Unknowns a mesh may have", "AccuracyAssess", max_dofs, &max_dofs, NULL));
+  PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Largest number of unknowns of a mesh", "AccuracyAssess", max_dofs,
+    &max_dofs, NULL));
   PetscCall(PetscOptionsInt("-accuracy_order", "Element order of all bodies from the second mesh on", "AccuracyAssess",
     acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
   PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT,
     "-accuracy_order must be 2, not %" PetscInt_FMT ": it raises the order of the first mesh", acc->order);
   PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP,
-    "-accuracy_order does not go with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
+    "-accuracy_order cannot be combined with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT,
-    "-accuracy %g must lie between 0 and 1: it is a relative error", (double)acc->target);
+    "-accuracy is a relative error and must lie between 0 and 1, but is %g", (double)acc->target);
   PetscCheck(acc->share > 0.0 && acc->share < 1.0, comm, PETSC_ERR_USER_INPUT,
-    "-accuracy_share %g must lie between 0 and 1", (double)acc->share);
-  PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs %g must be positive", (double)max_dofs);
+    "-accuracy_share must lie between 0 and 1, but is %g", (double)acc->share);
+  PetscCheck(max_dofs > 0.0, comm, PETSC_ERR_USER_INPUT, "-accuracy_max_dofs must be positive, but is %g",
+    (double)max_dofs);
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-error_estimate", &estimate, NULL));
   PetscCheck(!set || estimate, comm, PETSC_ERR_USER_INPUT,
-    "-accuracy needs the error estimate that -error_estimate 0 switches off");
+    "-accuracy needs the error estimate: remove the option -error_estimate 0");
   acc->adaptive         = (PetscBool)(set && acc->adaptive);
   acc->of               = of;
   acc->max_dofs         = (PetscInt)PetscMin(max_dofs, (PetscReal)PETSC_MAX_INT);
@@ -109,22 +110,24 @@ static PetscErrorCode AccuracyCheckScene(const Accuracy *acc, Scene scene)
 
     if (body->material.type == MATERIAL_RIGID) continue;
     PetscCheck(body->order < 2, acc->comm, PETSC_ERR_USER_INPUT,
-      "-accuracy_order 2 raises the order of the first mesh, and body \"%s\" has order 2 there: leave one of them out",
+      "-accuracy_order 2 raises the order of the bodies, but body \"%s\" has order 2 already: omit the option or the "
+      "key order",
       body->name);
     PetscCheck(body->element != ELEMENT_INCOMPATIBLE, acc->comm, PETSC_ERR_USER_INPUT,
-      "-accuracy_order 2: body \"%s\" has element incompatible, which is of order 1: take full or bbar", body->name);
+      "-accuracy_order 2: body \"%s\" has element incompatible, which exists for order 1 only: use full or bbar",
+      body->name);
     PetscCheck(body->order || body->shape != SHAPE_GMSH, acc->comm, PETSC_ERR_USER_INPUT,
-      "-accuracy_order 2: body \"%s\" has the order of its mesh file's cells: say order: 1, from which it is raised",
+      "-accuracy_order 2: body \"%s\" has the order of the cells in its mesh file: set order: 1 for the first mesh",
       body->name);
   }
   PetscCheck(!acc->order || !scene->nrefinements, acc->comm, PETSC_ERR_SUP,
-    "-accuracy_order 2 does not go with refinements, which the scene has: only hexahedra of order 1 are refined "
+    "-accuracy_order 2 cannot be combined with the refinements of the scene: only hexahedra of order 1 are refined "
     "locally");
   for (PetscInt i = 0; i < scene->nprobes; ++i) npoints += !scene->probes[i].line;
   PetscCheck(acc->of != ACCURACY_PRESSURE || scene->npairs, acc->comm, PETSC_ERR_USER_INPUT,
-    "-accuracy_of pressure is that of the contact pairs, and the scene has none");
+    "-accuracy_of pressure needs contact pairs, but the scene has none");
   PetscCheck(acc->of != ACCURACY_DISPLACEMENT || npoints, acc->comm, PETSC_ERR_USER_INPUT,
-    "-accuracy_of displacement is that of the scene's probes, and it has none at a point");
+    "-accuracy_of displacement needs a probe at a point, but the scene has none");
   PetscFunctionReturn(0);
 }
 
@@ -346,10 +349,13 @@ static PetscErrorCode AccuracyDecideOnMesh(Accuracy *acc, PetscBool *refine)
   PetscFunctionBegin;
   acc->reached = (PetscBool)(!single && now->error <= 2.0 * acc->target);
   *refine      = (PetscBool)(!acc->reached && next <= (PetscReal)acc->max_dofs);
-  if (acc->reached) PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end), "within a factor 2 of the target"));
+  if (acc->reached)
+    PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
+      "requested accuracy reached: the error of the mesh is at most twice the requested one"));
   else if (!*refine)
     PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
-      "TARGET NOT REACHED: %sthe next mesh would have about %g unknowns, -accuracy_max_dofs allows %" PetscInt_FMT,
+      "REQUESTED ACCURACY NOT REACHED: %sthe next mesh would have about %g unknowns, but -accuracy_max_dofs allows "
+      "%" PetscInt_FMT,
       single ? "a single mesh gives no error estimate; " : "", (double)next, acc->max_dofs));
   PetscFunctionReturn(0);
 }
@@ -383,7 +389,7 @@ static PetscErrorCode AccuracyDecideOnTolerance(Accuracy *acc, PetscBool *tighte
   else {
     acc->reached = PETSC_FALSE;
     PetscCall(PetscSNPrintf(acc->end, sizeof(acc->end),
-      "TARGET NOT REACHED: the solver leaves an error of %g, more than its share", (double)now->algebraic));
+      "REQUESTED ACCURACY NOT REACHED: the solver leaves an error of %g, more than its share", (double)now->algebraic));
   }
   PetscFunctionReturn(0);
 }

@@ -23,21 +23,18 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
     const SceneBody *body = &scene->bodies[b];
 
     PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP,
-      "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
       body->name, body->order);
     PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX || SceneBodyIsSurface(body), sim->comm,
       PETSC_ERR_SUP,
-      "-accuracy_adaptive: the rigid body \"%s\" has no stress error by which it could be refined, so that its facets "
-      "would remain: "
-      "leave the option out",
+      "-accuracy_adaptive: the rigid body \"%s\" has curved faces made of facets, which the error of stresses cannot "
+      "refine: use a rigid surface without facets, or omit the option",
       body->name);
   }
   PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
-    "-accuracy_adaptive: the faces of tie \"%s\" would be finer in one place than in another: leave the option out",
-    scene->ties[0].name);
+    "-accuracy_adaptive: the faces of tie \"%s\" must be refined as a whole: omit the option", scene->ties[0].name);
   PetscCheck(!scene->ncyclic, sim->comm, PETSC_ERR_SUP,
-    "-accuracy_adaptive: the faces of the cyclic symmetry \"%s\" would be finer in one place than in another: leave "
-    "the option out",
+    "-accuracy_adaptive: the faces of cyclic symmetry \"%s\" must be refined as a whole: omit the option",
     scene->cyclic[0].name);
   sim->run->marks = marks;
   PetscFunctionReturn(0);

@@ -64,14 +64,14 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSet(report, "friction", (PetscBool)(rubbing > 0),
     "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
   PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
-    scene->npairs ? "contact makes stiff rows" : "no contact, nothing to filter"));
+    scene->npairs ? "contact constraints are stiff" : "no contact, nothing to filter"));
   PetscCall(EffectSet(report, "finite strain", (PetscBool)(finite > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law of finite strain%s", finite, scene->nbodies,
+    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with a law of finite strain%s", finite, scene->nbodies,
     !finite          ? ""
-    : sim->quadratic ? ", one tangent a load step"
+    : sim->quadratic ? ", one tangent per load step"
                      : ", true energy"));
   PetscCall(EffectSet(report, "plasticity", (PetscBool)(plastic > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of a law that yields", plastic, scene->nbodies));
+    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with a law of plasticity", plastic, scene->nbodies));
   PetscCall(EffectSet(report, "rigid bodies", (PetscBool)(rigid > 0),
     "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
   PetscCall(EffectSet(report, "mean dilatation", (PetscBool)(mean > 0),
@@ -95,14 +95,14 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
     "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
   PetscCall(EffectSet(report, "pretension", (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
   PetscCall(EffectSet(report, "weak springs", (PetscBool)(scene->weak_springs > 0.0),
-    scene->weak_springs ? "they hold %" PetscInt_FMT " bodies that move freely" : "weak_springs is not set",
+    scene->weak_springs ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
     sim->springs.nweak));
   PetscCall(EffectSet(report, "thermal strain", (PetscBool)(scene->ntemperatures > 0), "%" PetscInt_FMT " temperatures",
     scene->ntemperatures));
   PetscCall(EffectSet(report, "ties", (PetscBool)(scene->nties + scene->ncyclic > 0),
-    "%" PetscInt_FMT " ties, %" PetscInt_FMT " cuts of sectors", scene->nties, scene->ncyclic));
+    "%" PetscInt_FMT " ties, %" PetscInt_FMT " cyclic symmetries", scene->nties, scene->ncyclic));
   PetscCall(EffectSet(report, "inclined symmetry", (PetscBool)(planes > 0),
-    "%" PetscInt_FMT " symmetry planes along no axis", planes));
+    "%" PetscInt_FMT " symmetry planes that are not normal to an axis", planes));
   if (scene->displacement_bounds)
     PetscCall(EffectSet(report, "displacement bounds", PETSC_TRUE, "from load step %" PetscInt_FMT,
       scene->displacement_bounds));

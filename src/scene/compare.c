@@ -90,7 +90,7 @@ PetscErrorCode SceneCompare(Scene scene, const char text[], char difference[], s
   if (!same) {
     const SceneLines *where = more[0] ? &here : &there;
 
-    PetscCall(PetscSNPrintf(difference, length, "%s%s: the scene has %s where it had %s", where->top, where->entry,
+    PetscCall(PetscSNPrintf(difference, length, "%s%s: the scene has %s, the checkpoint %s", where->top, where->entry,
       SceneLinesSay(&here, more[0]), SceneLinesSay(&there, more[1])));
   }
   PetscCall(PetscFree(own));

@@ -110,7 +110,7 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
   PetscCall(IPCancellation(tao, &times));
   PetscCall(IPErrorBoundOfRelaxation(tao, &work));
   if (ip->relax->times)
-    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", of constraints relaxed by %g", (double)ip->relax->told));
+    PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", with constraints relaxed by %g", (double)ip->relax->told));
   if (times > limit)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
@@ -120,7 +120,8 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
     const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
 
     PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
-      "%s: KKT error %g%s, which have no interior; their relaxation changes the objective by %g times the tolerance",
+      "%s: KKT error %g%s, because they have no interior; the relaxation changes the objective by %g times the "
+      "tolerance",
       share <= trace ? "acceptable" : "no solution", (double)ip->kkt->error, relaxed, (double)(work / ip->tol)));
   } else
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL, "converged: KKT error %g is within %g%s", (double)ip->kkt->error,

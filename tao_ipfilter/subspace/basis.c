@@ -337,7 +337,7 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
   PetscCall(PetscBLASIntCast((PetscInt)size, &lwork));
   PetscCall(PetscMalloc1(lwork, &work));
   PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, work, &lwork, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv said %d of %d directions", (int)info, (int)nb);
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv returned %d for %d directions", (int)info, (int)nb);
   for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(T + j * n, E + (n - 1 - j) * b->max, n));
   PetscCall(PetscFree(work));
   PetscCall(PetscFree2(G, values));

@@ -109,7 +109,7 @@ int main(int argc, char **argv)
                        .nlevels                   = 2,
                        .levels                    = levels,
                        .reached                   = PETSC_TRUE,
-                       .end                       = "within a factor 2 of the target"};
+                       .end = "requested accuracy reached: the error of the mesh is at most twice the requested one"};
   RunReport   report                   = {.nbodies = 2,
                         .bodies                    = bodies,
                         .assemblies                = assemblies,

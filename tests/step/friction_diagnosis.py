@@ -79,4 +79,4 @@ else:
         say(f"{name}: which body moves, and how", step["reason"].startswith("friction does not hold the bodies") and moves(step, named, how, "nothing stops it"), step["reason"])
         say(f"{name}: said at once", step["cuts"] == 0, step["cuts"])
     step = load("driven")["steps"][-1]
-    say("driven: which body moves, and how", step["reason"].startswith("no equilibrium was found") and moves(step, "bar", "moves away along (-1., 0., 0.)", "no solve brings it to rest"), step["reason"])
+    say("driven: which body moves, and how", step["reason"].startswith("no equilibrium was found") and moves(step, "bar", "moves away along (-1., 0., 0.)", "it does not come to rest"), step["reason"])

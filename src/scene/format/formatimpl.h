@@ -83,12 +83,18 @@ PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 /*
    lines.c: SceneKeysGetLine() returns the line of a key, 0 if it is not known. SceneKeysAddLine() puts the line before
    a message if it is known. SceneKeysRaise() raises an error that occurred while the scene was read, with file and
-   line. SceneKindOf() returns the word for an entry of a list: body for bodies.
+   line.
 */
 PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
 PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
-PETSC_INTERN const char    *SceneKindOf(const char list[]);
+
+/*
+   kinds.c: SceneKindOf() returns the word for an entry of a list: body for bodies. SceneListOf() returns the list whose
+   entries the last word before `end` means: bodies for body; NULL: none.
+*/
+PETSC_INTERN const char *SceneKindOf(const char list[]);
+PETSC_INTERN const char *SceneListOf(const char text[], const char *end);
 
 /*
    nested.c: SceneKeysSayNested() rewrites the full keys of a message as a user writes them: bodies_slab_young becomes

@@ -39,34 +39,6 @@ static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENG
   if (length < SCENE_KEY_LENGTH) (void)snprintf(key, SCENE_KEY_LENGTH, "%.*s", (int)length, text);
 }
 
-/* Words for an entry of a list, and the list. The first word of a list is the one that messages use. */
-static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
-  {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
-  {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"}, {"connector", "connectors"},
-  {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"}, {"refinement", "refinements"},
-  {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material", "materials"}, {"material name", "materials"},
-  {"face", "faces"}, {"symmetry plane", "symmetry"}, {"body force", "body_forces"}, {"probe", "probes"}};
-
-const char *SceneKindOf(const char list[])
-{
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
-    if (!strcasecmp(list, kinds[k][1])) return kinds[k][0];
-  }
-  return list;
-}
-
-/* Returns the list to whose entries the last word before `end` refers, for example bodies for body; NULL: none. */
-static const char *LineGetList(const char text[], const char *end)
-{
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
-    const size_t length = strlen(kinds[k][0]);
-    const char  *at     = end - length;
-
-    if (at >= text && !strncasecmp(at, kinds[k][0], length) && (at == text || at[-1] == ' ')) return kinds[k][1];
-  }
-  return NULL;
-}
-
 /*
    Finds the line of the file that a message is about. *line: 0 if it is not known, or if the value does not come from
    the file. The function looks for a named entry, such as body "slab"; if there is none, for the key with which the
@@ -75,7 +47,7 @@ static const char *LineGetList(const char text[], const char *end)
 static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t *line)
 {
   const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
-  const char *list = end && quote > message ? LineGetList(message, quote - 1) : NULL;
+  const char *list = end && quote > message ? SceneListOf(message, quote - 1) : NULL;
   char        key[SCENE_KEY_LENGTH], name[SCENE_KEY_LENGTH] = "", entry[2 * SCENE_KEY_LENGTH];
   PetscBool   set;
 

@@ -73,7 +73,7 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionBegin;
   if (!MaterialYields(material)) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
-    PetscCall(SceneKeysError(keys, "%s_yield = %g is not the first of yield_stresses, %g: leave it out", owner,
+    PetscCall(SceneKeysError(keys, "%s_yield is %g, but is not the first of yield_stresses, %g: omit it", owner,
       (double)h->yield, (double)h->stresses.value[0]));
   if (h->stresses.n) h->yield = h->stresses.value[0];
   PetscCall(SceneHasKey(keys, owner, "yield", &has));

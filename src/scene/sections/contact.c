@@ -52,7 +52,7 @@ static PetscErrorCode StickRead(SceneKeys keys, Scene scene, const char key[], c
   (void)scene;
   PetscCall(SceneParseAnswer(keys, key, text, &sticks));
   if (sticks && (pair->friction > 0.0 || pair->shear_limit < PETSC_INFINITY))
-    PetscCall(SceneKeysError(keys, "%s is true: a face that always sticks has neither friction nor shear_limit", key));
+    PetscCall(SceneKeysError(keys, "%s is true, so that the keys friction and shear_limit are not allowed", key));
   if (sticks) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -139,7 +139,7 @@ static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionBegin;
   if (pair->mortar || pair->nonmortar)
     PetscCall(SceneKeysErrorOf(keys, owner, pair->mortar ? "mortar" : "nonmortar",
-      "does not go with self, which names both sides: leave one of them out"));
+      "cannot be combined with self, which is both sides: omit one of the two"));
   PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
   if (any) {
     PetscCall(SceneParseAnswer(keys, "contact_auto_self", pair->self, &all));
@@ -250,7 +250,7 @@ PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, 
 
     PetscCheck(!within || !whole, comm, PETSC_ERR_USER_INPUT,
       "%s: contact pair \"%s\" with self: %s is the whole surface of the body, which includes the faces of contact "
-      "pair \"%s\": leave one of the pairs out",
+      "pair \"%s\": omit one of the pairs",
       file, pair->name, pair->self, other->name);
   }
   PetscFunctionReturn(0);

@@ -173,14 +173,16 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
       "to: [x, y, z]}",
       d->name));
   if (d->body < 0)
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" is at a point or along an edge of no body; the key body says of which", d->name));
+    PetscCall(
+      SceneKeysError(keys, "displacement \"%s\" is at a point or along an edge, but the key body is missing", d->name));
   else if (scene->bodies[d->body].material.type == MATERIAL_RIGID)
     PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole", d->name,
-      scene->bodies[d->body].name));
+      "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole: use the key body "
+      "alone",
+      d->name, scene->bodies[d->body].name));
   if (face)
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a place; give only one of the two", d->name));
+    PetscCall(
+      SceneKeysError(keys, "displacement \"%s\" has a face, and a point or an edge; give only one of them", d->name));
   d->at = point ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
   if (point) PetscCall(PetscArraycpy(d->to, d->from, 3));
   PetscCall(PetscFree(d->face));
@@ -198,8 +200,8 @@ static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
   PetscFunctionBegin;
   if (SceneTurnsFreely(d) && SceneRotates(d))
     PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" turns a rigid body about one axis and leaves it free about another; if one rotation is "
-      "free, the others must be 0",
+      "displacement \"%s\" prescribes one rotation of a rigid body while another one is free; if one rotation is free, "
+      "the others must be 0 or free",
       d->name));
   for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
   for (PetscInt i = 0; i < 3; ++i)
@@ -213,18 +215,14 @@ static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, Sc
 
   PetscFunctionBegin;
   d->moves = (PetscBool)(whole || turns);
-  if (turns && !center)
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation and no center that it is about", d->name));
-  if (center && !turns)
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center and no rotation about it", d->name));
+  if (turns && !center) PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation, but no center", d->name));
+  if (center && !turns) PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center, but no rotation", d->name));
   if (!whole && SceneTurnsFreely(d))
     PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" has a rotation that is free, which a rigid body can have, as {body: <body>, ...}, and a "
-      "face can not",
-      d->name));
+      "displacement \"%s\" has a free rotation, which only a rigid body can have, as {body: <body>, ...}", d->name));
   else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2]))
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" is a rigid motion: it prescribes all three components, none is free", d->name));
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation, so that no component of its value may be free",
+      d->name));
   if (whole) PetscCall(DisplacementRelease(keys, d));
   PetscFunctionReturn(0);
 }
@@ -246,8 +244,8 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
     PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
     if (body && face)
       PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a body; give only one of the two", d->name));
-    PetscCall(SceneSetWholeBody(keys, scene, owner, "of an elastic body faces, points and edges are displaced", d->body,
-      &d->face));
+    PetscCall(SceneSetWholeBody(keys, scene, owner,
+      "displacements of an elastic body are prescribed at a face, a point or an edge", d->body, &d->face));
   }
   PetscCall(DisplacementSetMotion(keys, center, d));
   PetscFunctionReturn(0);

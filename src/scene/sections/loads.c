@@ -36,7 +36,8 @@ PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneKeysGet(keys, (PetscBool)!body, &text, "%s_face", owner));
   if (body && text)
     PetscCall(SceneKeysError(keys, "force \"%s\" names a face and a body; give only one of the two", force->name));
-  PetscCall(SceneSetWholeBody(keys, scene, owner, "on an elastic body forces act on faces", force->body, &force->face));
+  PetscCall(SceneSetWholeBody(keys, scene, owner, "forces act on a face of an elastic body: use the key face",
+    force->body, &force->face));
   PetscFunctionReturn(0);
 }
 

@@ -14,13 +14,15 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   PetscFunctionBegin;
   (void)scene;
   if (material->material.type == MATERIAL_RIGID) {
-    PetscCall(SceneKeysError(keys, "%s_law is rigid, which needs no entry: a body has material: rigid", owner));
+    PetscCall(SceneKeysError(keys, "%s_law is rigid: write material: rigid in the body instead", owner));
     material->material.type = MATERIAL_LINEAR; /* avoids a second error about the constants of the material */
   }
   PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
   for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
     PetscCall(PetscStrcasecmp(material->name, MaterialTypes[t], &same));
-    if (same) PetscCall(SceneKeysError(keys, "the material name \"%s\" is taken by a law", material->name));
+    if (same)
+      PetscCall(
+        SceneKeysError(keys, "material \"%s\": this is the name of a law; choose another name", material->name));
   }
   PetscFunctionReturn(0);
 }

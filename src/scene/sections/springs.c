@@ -49,7 +49,7 @@ PetscErrorCode SceneFinishSpring(SceneKeys keys, Scene scene, const char owner[]
   (void)scene;
   if (spring->distance > 0 && !spring->to)
     PetscCall(SceneKeysError(keys,
-      "%s_distance is how far away the other face of springs may be, and these are to the ground; the key to names one",
+      "%s_distance is for springs between two faces, but these are to the ground: name the other face by the key to",
       owner));
   for (PetscInt d = 0; d < 3; ++d) {
     if (spring->value[d] < 0)

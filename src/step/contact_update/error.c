@@ -342,7 +342,7 @@ PetscErrorCode ContactUpdateNamePlace(Simulation sim, const ContactSolution *sol
   pair = &sim->scene->pairs[place.pair];
   PetscCall(ContactIsAtEdge(sim->contact, place.pair, place.node, &edge));
   PetscCall(PetscSNPrintf(sentence, length, "; contact pair \"%s\", %s vertex (%g, %g, %g) %s face %s: %s", pair->name,
-    slid ? "such as" : "most at", (double)place.x[0], (double)place.x[1], (double)place.x[2],
+    slid ? "for example" : "the most at", (double)place.x[0], (double)place.x[1], (double)place.x[2],
     edge ? "on the edge of" : "inside", pair->nonmortar,
     edge ? "round the edge, or use smaller load steps" : "use smaller load steps, or swap mortar and nonmortar"));
   PetscFunctionReturn(0);

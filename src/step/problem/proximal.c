@@ -322,7 +322,7 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecWAXPY(increment, -1.0, p->centre, u));
   PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
-  PetscCall(RigidMotionReport(p->sim, increment, "no solve brings it to rest", report));
+  PetscCall(RigidMotionReport(p->sim, increment, "it does not come to rest", report));
   PetscCall(VecDestroy(&increment));
   p->moves_on = PETSC_TRUE;
   PetscFunctionReturn(0);
