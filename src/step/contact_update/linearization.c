@@ -116,7 +116,8 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   PetscCall(AndersonAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
   if (damped && ProximalMayHoldWeak(p)) {
     PetscCall(VecDestroy(&next));
-    PetscCall(ReportReason(report, PETSC_FALSE, "bodies that weak springs hold do not come to rest in contact updates"));
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "bodies that weak springs hold do not come to rest in contact updates"));
     PetscFunctionReturn(0);
   }
   if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
