@@ -297,7 +297,7 @@ def actor_of(data, colour, width, table=None):
     return actor
 
 
-def faces_actor(args, part, table, layer):
+def faces_actor(args, part, table, layer=0):
     """Faces of a higher layer are drawn in front of those that they touch"""
     actor = actor_of(part, GREY, 0.5, table)
     actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(0, -100 * layer)
@@ -461,10 +461,11 @@ def scene_of(args, run):
     coloured, plain = (skin, None) if by_cell else parted(skin)
     if args.field.startswith("contact_status"):
         face_status(coloured)
-    parts = [(part, table) for part in by_body(coloured)] if args.contact_only else [(coloured, table), (plain, None)]
+    layers = args.contact_only and not by_cell
+    parts = [(part, table) for part in by_body(coloured)] if layers else [(coloured, table), (plain, None)]
     for layer, (part, colours) in enumerate(parts):
         if part and part.GetNumberOfCells():
-            bodies.AddActor(faces_actor(args, mirrored(args, part), colours, layer if args.contact_only else 0))
+            bodies.AddActor(faces_actor(args, mirrored(args, part), colours, layer if layers else 0))
     skin = mirrored(args, skin)
     for renderer in (bodies, page):
         renderer.SetBackground(1, 1, 1)
