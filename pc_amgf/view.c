@@ -8,12 +8,17 @@ static PetscErrorCode ViewLag(PC_AMGF *amgf, PetscViewer viewer)
   PetscFunctionBegin;
   if (every > 0)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  AMG rebuilt every %" PetscInt_FMT " changed operators; age: %" PetscInt_FMT "\n", every, age));
+      "  AMG rebuilt after %" PetscInt_FMT " changes of the operator; changes since the last rebuild: %" PetscInt_FMT
+      "\n",
+      every, age));
   else if (every == AMGF_LAG_NEVER)
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; age: %" PetscInt_FMT " changed operators\n", age));
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, "  AMG never rebuilt; changes of the operator so far: %" PetscInt_FMT "\n", age));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  AMG rebuilt automatically, ratio %g; age: %" PetscInt_FMT " changed operators\n", AMGF_LAG_RATIO, age));
+      "  AMG rebuilt when the cost has grown by a factor of %g; changes of the operator since the last rebuild: "
+      "%" PetscInt_FMT "\n",
+      AMGF_LAG_RATIO, age));
   PetscFunctionReturn(0);
 }
 

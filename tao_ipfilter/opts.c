@@ -92,9 +92,9 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsEnum("-tao_ipfilter_equality",
     "Equality constraints: in an augmented system factored by MUMPS, or condensed with proximal updates", TAOIPFILTER,
     IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));
-  PetscCall(
-    PetscOptionsInt("-tao_ipfilter_mu_reductions_first", "Largest number of reductions of mu at the first iteration",
-      TAOIPFILTER, opt->max_mu_first, &opt->max_mu_first, NULL));
+  PetscCall(PetscOptionsInt("-tao_ipfilter_mu_reductions_first",
+    "Largest number of reductions of the barrier parameter at the first iteration", TAOIPFILTER, opt->max_mu_first,
+    &opt->max_mu_first, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections per step", TAOIPFILTER,
     opt->max_soc, &opt->max_soc, NULL));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",

@@ -324,7 +324,7 @@ def not_run(records, reference):
             hours = {CYCLES[way]: estimate(problem, mesh, way, records, reference) for way in missing}
             said = ", ".join(f"{cycle} V-cycle " + (f"{time:.2g} h" if time else "not estimated") for cycle, time in hours.items())
             if missing:
-                yield f"- {TITLES[problem]}, mesh {mesh}, all load steps would take, in processor time: {said}."
+                yield f"- {TITLES[problem]}, mesh {mesh}: not all load steps were run; estimated processor time of all of them: {said}."
 
 
 def page(cases, records):

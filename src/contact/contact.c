@@ -215,7 +215,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
     degree, &degree, &set_degree));
   PetscCall(PetscOptionsReal("-contact_search_depth",
-    "Largest penetration at which facets face each other (0: from the thickness of the bodies)",
+    "Largest penetration that the contact search finds; 0: chosen from the thickness of the bodies",
     "ContactSetFromOptions", contact->depth, &contact->depth, NULL));
   PetscOptionsEnd();
   PetscCheck(degree >= 1 && degree <= CONTACT_RULE_DEGREE, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,

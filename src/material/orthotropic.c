@@ -144,7 +144,7 @@ static PetscErrorCode MaterialModuli_Orthotropic(const Material *material, Mater
 {
   PetscFunctionBegin;
   PetscCheck(OrthotropicModuli(material, moduli), PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
-    "No orthotropic material has these constants, or its two axes are parallel");
+    "The constants of an orthotropic material give some strain a negative energy, or its two axes are parallel");
   PetscFunctionReturn(0);
 }
 

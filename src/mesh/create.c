@@ -145,7 +145,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
     PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
-      "Body \"%s\" has tetrahedra, but local refinement needs hexahedra: refine uniformly, or in the mesh file",
+      "Body \"%s\" has tetrahedra, but local refinement needs hexahedra: use uniform refinement, or a finer mesh in "
+      "the file",
       bodies[b].name);
   }
   PetscCallMPI(MPI_Comm_size(comm, &size));

@@ -185,9 +185,9 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscFunctionBegin;
   PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
   PetscCall(PetscOptionsBool("-load_warm_start",
-    "Start a load step from the extrapolated displacements and the pressures of the last one", "SimulationStep",
+    "Start each load step from extrapolated displacements and the pressures of the previous step", "SimulationStep",
     sim->control->warm, &sim->control->warm, NULL));
-  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step is halved",
+  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step may be halved",
     "SimulationStep", sim->control->maxcuts, &sim->control->maxcuts, NULL, 0));
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
     sim->run->progress.every, &sim->run->progress.every, NULL));

@@ -316,19 +316,20 @@ static PetscErrorCode TestLimits(Tao tao)
   if (ip->rec->ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps are as small as rounding at KKT error %g, but the constraint violation %g (relative %g) exceeds catol "
+        "steps are as small as rounding errors at KKT error %g, but the constraint violation %g (relative %g) exceeds "
+        "catol "
         "%g or crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
     else if (IPAcceptable(ip))
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-        "acceptable: steps are as small as rounding at KKT error %g; the tolerance is %g", (double)error,
+        "acceptable: steps are as small as rounding errors at KKT error %g; the tolerance is %g", (double)error,
         (double)ip->tol));
     else if (Violated(ip))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps are as small as the rounding error of x, at constraint violation %g", (double)k->inf_pr));
+        "steps are as small as rounding errors at constraint violation %g", (double)k->inf_pr));
     else
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
-        "steps are as small as rounding at KKT error %g: multipliers may not exist", (double)error));
+        "steps are as small as rounding errors at KKT error %g: multipliers may not exist", (double)error));
   } else if (tao->niter - ip->rec->ndirections >= tao->max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
       tao->max_it, (double)error));

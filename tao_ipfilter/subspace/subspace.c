@@ -404,7 +404,8 @@ PetscErrorCode IPFilteredWiden(Tao tao, IPRecycle *recycle, PetscBool *possible)
   IPFiltered *f = IPFilteredOf(tao);
 
   PetscFunctionBegin;
-  PetscCall(PetscInfo(tao, "The reduced problem is not solved with few directions: it is extended to all unknowns\n"));
+  PetscCall(
+    PetscInfo(tao, "No solution with friction was found in the subspace: the subspace is extended to all unknowns\n"));
   recycle->whole = PETSC_TRUE;
   PetscCall(ISDestroy(&f->W));
   PetscCall(IPFilteredTakeAll(tao, &f->W));

@@ -17,9 +17,15 @@ from runner import AMGF_DIR
 
 HEADER = """# Stress report
 
-`make stress` writes this (tests/stress/run.py). Status: converged; failed, which stops with a reason; refused, before anything is solved.
-PCG: iterations a Newton system. Drift: of the energy, relative, against MUMPS on the whole matrix at an optimizer tolerance of 1e-10. True gap: the
-smallest of the deformed bodies, negative where they overlap because the scene linearizes the gap once a load step. The two blocks are on mesh 1."""
+`make stress` makes this page (`tests/stress/run.py`). The two blocks are on mesh 1.
+
+| column | meaning |
+| --- | --- |
+| status | converged; failed: the run stopped with a message; refused: the input was rejected before the run |
+| PCG mean, PCG max | iterations of PCG per Newton system |
+| true gap | smallest gap of the deformed bodies. It is negative where bodies overlap, because these scenes have one contact update per load step |
+| difference in energy | relative difference from a run with MUMPS on the whole matrix and a tolerance of 1e-10 |
+| verdict | whether the result is as it must be |"""
 
 
 def number(value, form):
@@ -86,7 +92,7 @@ class Report:
 
     def case(self, name, part, case):
         """Runs a case, or repeats its rows when it was done before."""
-        columns, entry = [*part.columns, "judgement", "said"], self.done.get(name)
+        columns, entry = [*part.columns, "verdict", "message"], self.done.get(name)
         if entry:
             for row in entry["rows"]:
                 self.row(case.title, columns, row["cells"], row["wrong"])
@@ -104,7 +110,7 @@ class Report:
         self.seconds += entry["seconds"]
 
     def end(self):
-        self.say(f"\n{self.rows} rows, {self.seconds / 60:.0f} minutes of CPU time; {len(self.bad)} not as they should be")
+        self.say(f"\n{self.rows} rows, {self.seconds / 60:.0f} minutes of processor time; {len(self.bad)} rows are not as they must be")
         for line in self.bad:
             self.say(f"- {line}")
         if self.stream:
@@ -148,10 +154,10 @@ def kill_cells(r):
 
 COUNTS = ["status", "Newton", "PCG mean", "PCG max"]
 PARTS = {
-    "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "drift"], sweep_cells),
+    "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "difference in energy"], sweep_cells),
     "barrier": Part(barrier.cases, ["case", "status", "Newton", "PCG of each Newton system", "bound", "D_max/D_min", "KKT error", "unscaled"], barrier_cells),
     "units": Part(units.cases, ["scene", "units", *COUNTS, "largest difference", "of"], unit_cells),
-    "steps": Part(steps.cases, ["scene", "load steps", "gap updates allowed", *COUNTS, "true gap", "displacement off by", "energy off by"], step_cells),
+    "steps": Part(steps.cases, ["scene", "load steps", "contact updates allowed", *COUNTS, "true gap", "difference in displacement", "difference in energy"], step_cells),
     "kill": Part(kill.cases, ["after", "ranks that go on", "times", "went on", "before a checkpoint", "had ended", "off by"], kill_cells),
     "together": Part(together.cases, ["effects", "known", "run", "refused"], lambda r: [r["name"], *r["counts"]]),
     "clip": Part(clip.cases, ["case", "checks", "time [s]"], clip_cells),

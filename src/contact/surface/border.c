@@ -38,7 +38,8 @@ static PetscErrorCode BorderFindEdge(DM dm, PetscInt v, PetscInt w, PetscInt *ed
   if (*edge < 0 || depth[0] || depth[1]) PetscFunctionReturn(0);
   PetscCall(DMPlexGetJoin(dm, 2, vertices, &n, &edges));
   PetscCheck(n == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
-    "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " edges", v, w, n);
+    "Vertices %" PetscInt_FMT " and %" PetscInt_FMT " of a facet have %" PetscInt_FMT " common edges instead of one", v,
+    w, n);
   *edge = edges[0];
   PetscCall(DMPlexRestoreJoin(dm, 2, vertices, &n, &edges));
   PetscFunctionReturn(0);

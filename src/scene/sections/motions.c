@@ -33,7 +33,7 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
 {
   PetscFunctionBegin;
   PetscCheck(a->moves && b->moves, comm, PETSC_ERR_USER_INPUT,
-    "%s: displacement \"%s\" is a rigid motion of %s, and \"%s\" displaces the same face", file,
+    "%s: displacement \"%s\" is a rigid motion of %s, but \"%s\" displaces the same face: remove one of them", file,
     a->moves ? a->name : b->name, a->face, a->moves ? b->name : a->name);
   for (PetscInt i = 0; i < 6; ++i)
     PetscCheck(a->released[i] == b->released[i], comm, PETSC_ERR_USER_INPUT,
