@@ -98,9 +98,18 @@ def page(runs, results):
     found = best(runs, results)
     shown = [run for run in runs if run.solver != "reference" and (run.problem, run.n) in found]
     lines = ["# Obstacle problems on a grid", "",
-             "`make stress STRESS=grid` makes this page: the problems of `tests/tao_ipfilter/ipfilter_grid.h` from u = 0, each solver with its default tolerances. `ipfilter` and `tron` have hypre as",
-             "preconditioner, `ipfilter, amgf` its own default; `ipfilter, rows` has the bounds as inequality rows, with two sides where there are two bounds. The error is that of the",
-             f"objective, relative to the lowest one found by any solver or by `ipfilter` with gatol 1e-13; more than {FAR:g} is marked (!). Time is that of the processors, in all ranks.", "",
+             "`make stress STRESS=grid` makes this page. The problems are those of",
+             "`tests/tao_ipfilter/ipfilter_grid.h`. All start from u = 0, and each solver has its default tolerances.",
+             "",
+             "| solver | settings |",
+             "| --- | --- |",
+             "| ipfilter, tron | hypre as preconditioner |",
+             "| ipfilter, amgf | its default preconditioner |",
+             "| ipfilter, rows | bounds given as inequality constraints, with two sides where there are two bounds |",
+             "",
+             "The error is that of the objective, relative to the lowest objective that any solver found, or",
+             f"`ipfilter` with gatol 1e-13. Errors above {FAR:g} are marked (!). The time is the sum over all ranks.",
+             "",
              "| problem | unknowns | ranks | solver | end | steps | Krylov iterations | error of the objective | processor time [s] |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     lines += [row(run, results[run.key()], found[run.problem, run.n]) for run in shown]

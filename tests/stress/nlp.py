@@ -186,14 +186,26 @@ def profile(problems, results, path):
     figure.savefig(path, dpi=80)
 
 
-HEADER = """# Nonlinear programs: TAOIPFILTER beside IPOPT and other solvers of TAO
+HEADER = """# Nonlinear programs: TAOIPFILTER compared with IPOPT and other solvers of TAO
 
-`make stress STRESS=nlp` writes this (tests/stress/nlp.py). Same formulas, derivatives and starts, default options; the time limit is %d s a problem.
-right: said to have converged (or to be acceptable), the objective within %g of an optimum or of a local minimum from the literature, relative, and
-constraints violated by less than %g, relative to the rows of the Jacobian; or said to be infeasible or unbounded where it is, or, at the optimum, that no multipliers exist. wrong: said to have converged, and
-it is not so, or said to be infeasible where it is unbounded. failed: the solver says that it has. Points: at which the objective or its gradient was asked for. Sums are
-over the problems that a solver has right. The second set was written when the solver had been developed with the first; before anything was changed for it,
-TAOIPFILTER had 57 of its 63 problems right and none wrong, IPOPT 55 and 5. The third set is younger; nothing was changed for it.
+`make stress STRESS=nlp` makes this page (tests/stress/nlp.py). All solvers get the same formulas,
+derivatives and starting points, and use their default options. The time limit is %d s per problem.
+
+| result | meaning |
+| --- | --- |
+| right | the solver reports convergence (or an acceptable point); the objective differs by less than %g, relative, from an optimum or a local minimum of the literature, and constraints are violated by less than %g, relative to the rows of the Jacobian. It is also right to report an infeasible or unbounded problem as such, and to report at the optimum that no multipliers exist |
+| wrong | the solver reports convergence at another point, or reports an unbounded problem as infeasible |
+| failed | the solver reports failure |
+| points | number of points at which the objective or its gradient was computed |
+
+Sums are over the problems that a solver has right. TAOIPFILTER was developed with the first set. The
+second set was written afterwards. The table has the results of the second set before anything was
+changed for it. The third set is newer, and nothing was changed for it.
+
+| second set at first, 63 problems | right | wrong |
+| --- | --- | --- |
+| TAOIPFILTER | 57 | 0 |
+| IPOPT | 55 | 5 |
 """
 
 

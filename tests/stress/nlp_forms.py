@@ -1,7 +1,4 @@
 """TAOIPFILTER and IPOPT on the nonlinear programs of nlp.py written in other forms: tests/stress/nlp_forms.md. `make stress STRESS=nlp` runs this after nlp.py.
-
-slacks: every inequality c >= 0 as c - s = 0, s >= 0. slacks from zero: the same, with s = 0 at the start. epigraph: the objective f as t, t - f >= 0, from t = f.
-epigraph from zero: from t = 0. twice: every row twice. far rows: two rows more that never act, of 1e8 and 1e10.
 """
 import math
 import os
@@ -71,9 +68,25 @@ def fits(p):
     return p is not None and len(p.start.split()) <= MOST_UNKNOWNS and len(rows(p.inequalities)) + len(rows(p.equalities)) <= MOST_ROWS
 
 
+HEADER = """# Nonlinear programs in other forms: TAOIPFILTER compared with IPOPT
+
+`make stress STRESS=nlp` makes this page (tests/stress/nlp_forms.py). The problems are those of
+[nlp.md](nlp.md), which also says which results are right.
+
+| form | how it is written |
+| --- | --- |
+| slacks | each inequality c >= 0 becomes c - s = 0, s >= 0 |
+| slacks from zero | the same, with s = 0 at the start |
+| epigraph | the objective f becomes t with the constraint t - f >= 0; t = f at the start |
+| epigraph from zero | the same, with t = 0 at the start |
+| twice | each constraint is given twice |
+| far rows | two constraints of magnitude 1e8 and 1e10, which are never active, are added |
+"""
+
+
 def main():
     args = parse()
-    lines = ["# Nonlinear programs in other forms: TAOIPFILTER beside IPOPT", "", " ".join(__doc__.split("\n", 2)[2].split()) + " Judged as in nlp.md.", ""]
+    lines = [HEADER]
     asked = [s for s in solvers(args.folder) if s.name in ("ipfilter", "IPOPT")]
     for form, rewrite in FORMS.items():
         problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS, *TEXTBOOK]) if fits(p)]

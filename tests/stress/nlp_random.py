@@ -138,11 +138,19 @@ def rows(problems, ours, theirs):
         yield [family.__name__, str(len(members)), *(str(sum(solved(p, results[p.name]) for p in members)) for results in (ours, theirs)), str(len(both)), *sums]
 
 
-HEADER = f"""# Nonlinear programs drawn at random: TAOIPFILTER beside IPOPT
+HEADER = f"""# Nonlinear programs drawn at random: TAOIPFILTER compared with IPOPT
 
-`make stress STRESS=nlp` writes this (tests/stress/nlp_random.py). Default options, %g s a problem. Solved: said to have converged, with constraints violated by less than
-{FAR_VIOLATION:g}; of the infeasible ones, said to be infeasible. Polynomials may be unbounded below: solved, too, where a solver says so at a point that meets the
-constraints and has an objective below minus {BOTTOMLESS:g}. Iterations and points: over the problems that both solve with the same objective.
+`make stress STRESS=nlp` makes this page (tests/stress/nlp_random.py). Both solvers use their default
+options. The time limit is %g s per problem.
+
+| family | a problem is solved if the solver reports |
+| --- | --- |
+| infeasible | that it is infeasible |
+| polynomials, which may be unbounded below | convergence as below, or an unbounded problem at a point that meets the constraints and has an objective below -{BOTTOMLESS:g} |
+| all others | convergence, and constraints are violated by less than {FAR_VIOLATION:g} |
+
+Iterations and points are sums over the problems that both solve with the same objective. A point is
+one at which the objective or its gradient was computed.
 
 | family | problems | ipfilter solves | IPOPT solves | both, alike | iterations | points | IPOPT's iterations | IPOPT's points |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
