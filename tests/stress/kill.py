@@ -90,4 +90,4 @@ def compare(args, event, ranks):
 def cases(args):
     for event in EVENTS:
         for ranks in TOLERANCE:
-            yield Case("Going on after an end that nobody asked for", f"{event}, {ranks} ranks", lambda event=event, ranks=ranks: compare(args, event, ranks))
+            yield Case("Restart after a run was killed", f"{event}, {ranks} ranks", lambda event=event, ranks=ranks: compare(args, event, ranks))

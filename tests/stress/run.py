@@ -52,7 +52,7 @@ def last_words(run):
     if run.converged:
         return ""
     said = run.said.splitlines()
-    return said[-1].replace("|", "/") if said else f"exit code {run.code}"
+    return said[-1].replace("|", "/").replace(AMGF_DIR + os.sep, "") if said else f"exit code {run.code}"
 
 
 class Report:

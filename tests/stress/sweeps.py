@@ -54,12 +54,12 @@ def meshes():
 
 
 def gaps():
-    # deeper than the block is thick on average contact does not look unless the pair's distance says more
+    # the search depth is the mean thickness of the block, unless the distance of the pair is larger
     for overlap in (1e-3, 0.125, 0.25, 0.5):
         pair = {"distance": 0.6} if overlap == 0.5 else {}
         yield Row("overlap at the start", f"{overlap:g}", scenes.two_block(lift=-overlap, push=0, steps=1, contact_updates=20, pair=pair), quick=overlap == 0.25,
                   checks=[("true penetration", penetration, 0, 1e-5), ("rows", rows_of, 25, 0)])
-    yield Row("overlap at the start", "0.5, deeper than contact looks", scenes.two_block(lift=-0.5, push=0, steps=1), quick=True, end="is refused")
+    yield Row("overlap at the start", "0.5, deeper than the search depth", scenes.two_block(lift=-0.5, push=0, steps=1), quick=True, end="is refused")
     for lift in (0, 1e-14, -1e-14, 1e-8):
         yield Row("gap at the start", f"{lift:g}", scenes.two_block(lift=lift), quick=lift == 1e-14)
     yield Row("gap at the start", "10, never closed", scenes.two_block(lift=10), checks=[("force", untouched, 0, 1e-7)], quick=True)
@@ -89,8 +89,8 @@ def friction():
     for mu in (1e-6, 1e-3, 0.3, 1, 10):
         law = [("friction over normal force", shear, mu, 2e-3)] if mu <= 0.3 else []
         yield Row("friction", f"coefficient {mu:g}, block moved by its top", scenes.rubbing({"friction": mu}, moves=path), checks=law, quick=mu in (1e-6, 10))
-    yield Row("friction", "pushed by 0.99 of what holds", scenes.rubbing({"friction": 0.3}, force=(0, 178.2)), checks=[("friction over normal force", shear, 0.297, 2e-2)], quick=True)
-    yield Row("friction", "pushed by 1.01 of what holds: slides away", scenes.rubbing({"friction": 0.3}, force=(0, 181.8)), end="says so", reference=False, quick=True)
+    yield Row("friction", "pushed with 0.99 of the force at which it slides", scenes.rubbing({"friction": 0.3}, force=(0, 178.2)), checks=[("friction over normal force", shear, 0.297, 2e-2)], quick=True)
+    yield Row("friction", "pushed with 1.01 of the force at which it slides", scenes.rubbing({"friction": 0.3}, force=(0, 181.8)), end="says so", reference=False, quick=True)
     yield Row("friction", "pulled off", scenes.rubbing({"friction": 0.3}, pressure=-300), end="says so", reference=False, quick=True)
     yield Row("friction", "turned back twice", scenes.rubbing({"friction": 0.3}, moves=[*path, (-0.02, 0, -0.002), (0.02, 0, -0.002)]), checks=[("friction over normal force", shear, 0.3, 2e-3)])
     yield Row("friction", "opens and closes again", scenes.rubbing({"friction": 0.3}, moves=[*path, (0.02, 0, 0.01), (0.04, 0, -0.002)]), quick=True)
@@ -117,7 +117,7 @@ def structures():
     yield Row("contact and gravity alone", "tower of three, neo-Hookean", neo_hookean(scenes.stack(three)), checks=[(*weight, scenes.stack_weight(three), 1e-6)])
     for past in (0.5, 0.9, 1.2):
         checks = [("force", untouched, 0, 1e-6)] if past > 1 else []
-        yield Row("sliding off an edge", f"{past:g} of the block past it", scenes.slide(past), checks=checks)
+        yield Row("sliding off an edge", f"{past:g} of the block beyond the edge", scenes.slide(past), checks=checks)
     for thickness in (0.1, 0.01, 0.001):
         yield Row("pairs on both sides of a plate", f"thickness {thickness:g}", scenes.plate(thickness), quick=thickness == 0.01)
 
@@ -175,7 +175,7 @@ def judge(row, run, reference):
     """What is wrong with a run, as sentences; none: it passes."""
     wrong = []
     if run.status not in ENDS[row.end]:
-        wrong.append(f"{run.status}, {row.end} is asked for")
+        wrong.append(f"{run.status}; required: {row.end}")
     if run.status in ("crashed", "refused", "failed", "time limit"):
         return wrong
     off = drift(run, reference)

@@ -272,9 +272,8 @@ static const SceneKey probe_rows[] = {
   NUMBER_OF("body", BODY, SceneProbe, body, "the first of them", "the body, if the point is on several"), {NULL}};
 
 static const SceneKey load_rows[] = {
-  SECTION("steps", "",
-    "number of load steps; the load factor grows linearly from 0 to 1. Default: the number of factors of the first "
-    "ramp that has some, else 1"),
+  SECTION("steps", "the number of factors of the first ramp with `factors`, or 1",
+    "number of load steps; the load factor grows linearly from 0 to 1"),
   SECTION("factors", "", "load factor at the end of each load step, instead of `steps`"),
   SECTION("expression", "",
     "load factor as an expression of the time `t` and of `s` = t / number of steps; requires `steps`"),
@@ -297,7 +296,7 @@ static const SceneKey dynamics_rows[] = {
     "are written at its multiples. Without `tolerance` all time steps have the length `time_step`"),
   NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
     "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
-    "high frequencies, as much as `spectral_radius` says"),
+    "high frequencies; `spectral_radius` sets how much"),
   REALS("spectral_radius", NULL, 1, SceneDynamics, spectral_radius, SHOWN, ANY, "", "0.8",
     "for `generalized_alpha`: fraction of the highest frequencies that remains after a time step, from 0 to 1; 1: "
     "nothing is dissipated"),
