@@ -271,9 +271,8 @@ static const SceneKey probe_rows[] = {
   INTS("points", NULL, 1, SceneProbe, n, SHOWN, "a point", "number of points of the line, both ends included"),
   NUMBER_OF("body", BODY, SceneProbe, body, "the first of them", "the body, if the point is on several"), {NULL}};
 
-static const SceneKey load_rows[] = {
-  SECTION("steps", "the number of factors of the first ramp with `factors`, or 1",
-    "number of load steps; the load factor grows linearly from 0 to 1"),
+static const SceneKey load_rows[] = {SECTION("steps", "the number of factors of the first ramp with `factors`, or 1",
+                                       "number of load steps; the load factor grows linearly from 0 to 1"),
   SECTION("factors", "", "load factor at the end of each load step, instead of `steps`"),
   SECTION("expression", "",
     "load factor as an expression of the time `t` and of `s` = t / number of steps; requires `steps`"),
