@@ -381,7 +381,10 @@ def page(cases, records):
 def wrapped(text):
     """Paragraphs of at most 100 columns; tables and commands as they are"""
     free = text.lstrip("\n")[:1] not in ("|", " ", "#", "!", "")
-    return "\n".join(textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False) for line in text.split("\n")) if free else text
+    if not free:
+        return text
+    lines = text.split("\n")
+    return "\n".join(line if line.startswith("|") else textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False) for line in lines)
 
 
 def default_runs(quick, meshes, only):

@@ -217,8 +217,7 @@ PetscErrorCode CheckpointGetPlastic(Scene scene, MPI_Comm comm, Elasticity elast
   PetscCall(PetscFree2(index.found, index.square));
   PetscCall(PetscFree(places));
   PetscCheck(!missing, comm, PETSC_ERR_FILE_UNEXPECTED,
-    "the run cannot continue from the checkpoint: it has no plastic strains of the bodies of %" PetscInt_FMT
-    " quadrature points",
+    "the run cannot continue from the checkpoint: it lacks the plastic strains of %" PetscInt_FMT " quadrature points",
     missing);
   PetscFunctionReturn(0);
 }

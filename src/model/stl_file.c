@@ -160,8 +160,9 @@ PetscErrorCode StlRead(const char file[], StlFacets *facets)
     PetscCall(StlReadBinary(file, (PetscInt)StlWhole(bytes + STL_HEADER - 4), bytes, facets));
   } else {
     PetscCheck(length >= 5 && !memchr(bytes, 0, length), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-      "%s has %zu bytes: it is neither an STL text, nor a binary STL file of as many facets as its header says", file,
-      length);
+      "%s has %zu bytes: it is neither an STL text, nor a binary STL file with the number of facets that its header "
+      "gives",
+      file, length);
     PetscCall(StlReadText(file, length, bytes, facets));
   }
   PetscCall(PetscFree(bytes));

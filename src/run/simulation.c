@@ -200,7 +200,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
     "SimulationStep", sim->control->tolerances.gap_unconverged, &sim->control->tolerances.gap_unconverged, NULL));
   PetscCall(PetscOptionsReal("-contact_penalty",
-    "Penalty method: stiffness of the contact relative to that of the bodies at a row (0: no penalty)",
+    "Penalty method: stiffness of a contact constraint relative to that of the bodies there; 0: no penalty",
     "SimulationStep", sim->control->penalty, &sim->control->penalty, NULL));
   PetscOptionsEnd();
   PetscCheck(sim->control->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->control->penalty), sim->comm,

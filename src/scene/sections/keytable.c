@@ -182,7 +182,7 @@ static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "r
   REALS("force", NULL, 1, SceneBolt, force, SHOWN, ANY, "F", "",
     "force in the section at load factor 1; positive: tension. Required without `shortening`"),
   REALS("shortening", NULL, 1, SceneBolt, shortening, SHOWN, ANY, "L", "",
-    "length by which the two sides of the section are pulled over one another at load factor 1, instead of `force`"),
+    "length by which the bolt is shortened at the section at load factor 1, instead of `force`"),
   INTS("lock", NULL, 1, SceneBolt, lock, OPTIONAL, "0: never",
     "load step after which the shortening is constant and the force is no longer prescribed"),
   NUMBER_OF("ramp", RAMP, SceneBolt, ramp, "`load`", "a ramp that force or shortening follows"), {NULL}};
