@@ -32,6 +32,17 @@ for refused in "--step 7" "--only base,lid" "--only 2" "--field heat" "--field s
   # shellcheck disable=SC2086
   draw boxes no.png $refused 2>&1 && echo "$refused: drawn"
 done
+# Two faces that touch are drawn one in front of the other, the finer one in front
+PYTHONPATH=$AMGF_DIR/share/plot "$PYTHON" -B -c 'import draw
+from vtkmodules.vtkCommonCore import reference
+(_, bodies), _ = draw.scene_of(draw.arguments("boxes no.png --field contact_pressure --contact-only".split()), draw.Files("boxes"))
+offsets, mappers = [], [actor.GetMapper() for actor in bodies.GetActors()]
+for mapper in (mapper for mapper in mappers if mapper.GetScalarVisibility()):
+    factor, units = reference(0.0), reference(0.0)
+    mapper.GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units)
+    offsets.append((mapper.GetInput().GetNumberOfCells(), float(units)))
+front = min(offsets, key=lambda face: face[1])
+print("faces in contact, one in front:", len(offsets) == 2 and len({units for _, units in offsets}) == 2 and front[0] == max(offsets)[0])'
 draw nothing no.png 2>&1 || ls no.png 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
 for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", "strain_energy_density", "equivalent_plastic_strain", "velocity"):
