@@ -218,7 +218,7 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
 
   PetscFunctionBegin;
   PetscCheck(b->n < b->max, PetscObjectComm((PetscObject)d), PETSC_ERR_PLIB,
-    "There is room for %" PetscInt_FMT " directions only", b->max);
+    "The subspace can hold %" PetscInt_FMT " directions, but more were added", b->max);
   *appended = PETSC_FALSE;
   PetscCall(PetscMalloc2(b->max, &s, b->max, &l));
   for (PetscInt k = 0; k < attempts && !*appended; k++) {
