@@ -162,7 +162,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     ++n;
     if (hexes->place[4 * c + 3] >= refinement->levels) continue;
     PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", and only hexahedra of order 1 are refined locally",
+      "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
       refinement->name, bodies[body[c]].name, bodies[body[c]].order);
     marked[c] = PETSC_TRUE;
     *more     = PETSC_TRUE;
