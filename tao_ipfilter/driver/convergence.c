@@ -148,21 +148,52 @@ PetscBool IPRefines(TAO_IPFILTER *ip)
   return (PetscBool)(ip->rec->nrefined++ < most);
 }
 
+/* Computes |x_i| of the largest unknown and its curvature |H_ii| */
+static PetscErrorCode LargestUnknown(Tao tao, PetscReal *size, PetscReal *curvature)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt      i, first, last;
+  Vec           v;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(VecCopy(tao->solution, v));
+  PetscCall(VecAbs(v));
+  PetscCall(VecMax(v, &i, size));
+  PetscCall(VecGetOwnershipRange(v, &first, &last));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  *curvature = 0.0;
+  if (i >= first && i < last) {
+    const PetscScalar *h;
+
+    PetscCall(VecGetArrayRead(ip->stiff->hdiag, &h));
+    *curvature = PetscAbsScalar(h[i - first]);
+    PetscCall(VecRestoreArrayRead(ip->stiff->hdiag, &h));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, curvature, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
 /*
    Finds whether the unknowns have grown far beyond their first size, and the Hessian of a nonconvex problem is still
-   shifted there: forces and curvatures that vanish at infinity look like those of a minimum
+   shifted there: forces and curvatures that vanish at infinity look like those of a minimum. If the largest unknown has
+   no curvature, a smaller growth is far, too.
 */
 static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal large = 100.0;
-  PetscReal       size, stiffness;
+  const PetscReal large = 100.0, beyond = 10.0, flat = 1e-8;
+  PetscReal       size, stiffness, curvature;
+  PetscBool       vanishes;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_INFINITY, &stiffness));
   *away = (PetscBool)(tao->niter && stiffness > 0.0 && ip->bar->curved && !ip->qn->B && ip->first->x > 0.0 &&
-                      size > large * ip->first->x && ip->shift->delta > 0.0);
+                      ip->shift->delta > 0.0);
+  if (!*away) PetscFunctionReturn(0);
+  PetscCall(LargestUnknown(tao, &size, &curvature));
+  vanishes = (PetscBool)(curvature > 0.0 && curvature <= flat * stiffness); /* it is 0 for linear unknowns */
+  *away    = (PetscBool)(size > (vanishes ? beyond : large) * ip->first->x);
   if (*away)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "no solution: the unknowns grow without limit, from %g to %g, where the objective is nearly flat",

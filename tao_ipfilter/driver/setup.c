@@ -8,6 +8,7 @@
 #include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
 static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
@@ -92,6 +93,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->stiff->reach));
   PetscCall(VecDestroy(&ip->stiff->equality_rows));
   PetscCall(VecDestroy(&ip->stiff->hdiag));
+  PetscCall(VecDestroy(&ip->search->slow));
   PetscCall(VecDestroy(&ip->lin->residual));
   PetscCall(VecDestroy(&ip->rows->inequality));
   PetscCall(VecDestroy(&ip->rows->equality));
@@ -152,6 +154,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ce));
   PetscCall(DuplicateAfresh(x, &ip->rx));
   PetscCall(DuplicateAfresh(x, &ip->stiff->hdiag));
+  PetscCall(DuplicateAfresh(x, &ip->search->slow));
   PetscCall(DuplicateAfresh(x, &ip->lin->residual));
   PetscCall(SetUpHessian(tao));
   PetscFunctionReturn(0);

@@ -135,7 +135,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   *ip->lin         = (IPLinear){.flexible = ip->lin->flexible, .residual = ip->lin->residual};
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
             .curved                    = (PetscBool)(ip->qn->B != NULL)};
-  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' ', .slow = ip->search->slow};
   *ip->watch       = (IPWatchdog){.left = 0};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};

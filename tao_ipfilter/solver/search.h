@@ -19,6 +19,8 @@ struct _n_IPSearch {
   PetscReal theta_rounding;     /* rounding error of theta */
   PetscReal alpha, alpha_dual;
   PetscReal before; /* norm of the search direction before the last one */
+  PetscBool slows;  /* whether the last step of a length above zero was one of linear convergence */
+  Vec       slow;   /* its direction then */
   PetscInt  ntrials;
   PetscBool blocked;              /* whether the last rejected trial point was rejected by the filter alone */
   PetscInt  ncut;                 /* number of consecutive steps that were shortened to a small fraction */

@@ -315,6 +315,30 @@ static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, P
 }
 
 /*
+   Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
+   curvature vanish at the same point.
+*/
+static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
+{
+  const PetscReal quadratic = 0.2;
+
+  return (
+    PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
+}
+
+/* Keeps the direction of the step if Newton's method converges only linearly. Steps of length zero change nothing. */
+static PetscErrorCode SearchKeepSlow(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!(ip->dir.norm > 0.0)) PetscFunctionReturn(0);
+  ip->search->slows = SearchIsLinear(ip);
+  if (ip->search->slows) PetscCall(VecCopy(ip->dir.x, ip->search->slow));
+  PetscFunctionReturn(0);
+}
+
+/*
    Shortens the step along the direction until the filter accepts the trial point. *ok: false if no step is acceptable.
 */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
@@ -348,6 +372,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     else if (finite && ip->search->ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
   if (*ok) PetscCall(SearchUnblock(ip));
+  if (*ok) PetscCall(SearchKeepSlow(tao));
   ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
   ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;
   PetscFunctionReturn(0);
@@ -446,49 +471,142 @@ PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
 }
 
 /*
-   Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
-   curvature vanish at the same point.
+   Computes the Lagrangian at the iterate `at` with the present multipliers, and adds its rounding error to *rounding.
+   trial: whether distances to bounds are those of the trial point
 */
-static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
+static PetscErrorCode SearchLagrangian(Tao tao, const IPIterate *at, PetscBool trial, PetscReal *lagrangian,
+  PetscReal *rounding)
 {
-  const PetscReal quadratic = 0.2;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     terms = PetscAbsReal(at->f), norms[2];
+  PetscScalar   product;
+  Vec           force;
 
-  return (
-    PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
+  PetscFunctionBegin;
+  *lagrangian = at->f;
+  if (ip->mi) {
+    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+    PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+    PetscCall(VecDot(force, at->c, &product));
+    PetscCall(VecNorm(force, NORM_2, &norms[0]));
+    PetscCall(VecNorm(at->c, NORM_2, &norms[1]));
+    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+    *lagrangian -= PetscRealPart(product);
+    terms += norms[0] * norms[1];
+  }
+  if (ip->me) {
+    PetscCall(VecDot(ip->at.y, at->ce, &product));
+    PetscCall(VecNorm(ip->at.y, NORM_2, &norms[0]));
+    PetscCall(VecNorm(at->ce, NORM_2, &norms[1]));
+    *lagrangian += PetscRealPart(product);
+    terms += norms[0] * norms[1];
+  }
+  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
+    const IPPair *p = &ip->pair[b];
+
+    if (!p->n) continue;
+    PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
+    PetscCall(VecPointwiseMult(force, p->z, p->w));
+    PetscCall(VecDot(force, trial ? p->trial : p->t, &product));
+    PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
+    *lagrangian -= PetscRealPart(product);
+    terms += PetscAbsScalar(product);
+  }
+  *rounding += 10.0 * PETSC_MACHINE_EPSILON * terms;
+  PetscFunctionReturn(0);
 }
 
 /*
-   Tries to leave a point at which Newton's method converges only linearly. Such a point may be an inflection point.
-   Longer and longer steps along the last direction are tested. If the barrier function falls along them, the solve
-   continues from there. *left: whether it does.
+   Finds a point of inflection of the Lagrangian along the last direction of linear convergence, where constraints curve
+   away: the barrier function does not show it. The Lagrangian must fall at longer and longer steps, up to a part of the
+   unknowns' size, and by much more than the residual explains, while the constraints remain satisfied. *left: whether
+   the solve continues from the longest step.
 */
-PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
+static PetscErrorCode SearchInflection(Tao tao, PetscBool *left)
 {
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair         *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
   const PetscReal part = 0.1, far = 10.0, clear = 1e3;
-  PetscReal       most = PETSC_MAX_REAL, size, last;
-  PetscBool       falls;
+  PetscReal       most, size, norm, here, there, last, rounding = 0.0;
+  PetscBool       falls = PETSC_TRUE;
+  PetscScalar     slope;
 
   PetscFunctionBegin;
-  *left = PETSC_FALSE;
-  if (!SearchIsLinear(ip) || !(ip->dir.norm > 0.0)) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ip->search->slow, ip->dir.x));
+  PetscCall(VecDot(ip->rx, ip->dir.x, &slope));
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
   PetscCall(SearchFollow(tao));
+  if (ip->mi) PetscCall(VecSet(slack->dt, 0.0));
+  if (ceiling->n) PetscCall(VecSet(ceiling->dt, 0.0));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  most = part * PetscMax(size, ip->first->x) / ip->dir.norm;
+  most = part * PetscMax(size, ip->first->x) / norm;
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
-  last  = ip->search->phi + ip->search->rounding;
-  falls = (PetscBool)(most >= 1.0);
+  PetscCall(SearchLagrangian(tao, &ip->at, PETSC_FALSE, &here, &rounding));
+  last = here;
   for (PetscReal alpha = PetscMin(2.0, most); falls && !*left; alpha = PetscMin(far * alpha, most)) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE;
 
     PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    falls = (PetscBool)(finite && phi <= last && theta <= IP_LEAVE_MET * ip->search->theta_ref);
-    last  = PetscMin(last, phi + ip->search->rounding);
-    *left = (PetscBool)(falls && phi < ip->search->phi - clear * ip->search->rounding);
-    if (*left) PetscCall(SearchStartAgain(tao, alpha));
-    else if (alpha >= most) falls = PETSC_FALSE;
+    if (finite) PetscCall(SearchRaiseSlacks(tao, &theta, &phi));
+    if (finite) PetscCall(SearchLagrangian(tao, &ip->trial, PETSC_TRUE, &there, &rounding));
+    falls = (PetscBool)(finite && there <= last + rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
+    last  = PetscMin(last, there);
+    if (falls && alpha >= most) {
+      falls = PETSC_FALSE;
+      *left = (PetscBool)(here - there > clear * PetscMax(rounding, alpha * PetscAbsScalar(slope)));
+      if (*left) PetscCall(SearchStartAgain(tao, alpha));
+    }
   }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tries to leave a point at which Newton's method converges only linearly, or with a shift that shortens its steps. Such
+   a point may be an inflection point. Longer and longer steps along the last direction are tested. If the barrier
+   function falls along them clearly, the solve continues from the longest one; with constraints from the first one, since
+   longer ones violate them. *left: whether it continues.
+*/
+static PetscErrorCode SearchBeyond(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 0.1, far = 10.0, clear = 1e3;
+  PetscReal       most = PETSC_MAX_REAL, size, theta = 0.0, phi = 0.0, lowest, longest = 0.0;
+  PetscBool       falls, finite;
+
+  PetscFunctionBegin;
+  *left = PETSC_FALSE;
+  if (!(ip->dir.norm > 0.0) || !(SearchIsLinear(ip) || ip->shift->delta > 0.0)) PetscFunctionReturn(0);
+  PetscCall(SearchFollow(tao));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  most = part * PetscMax(size, ip->first->x) / ip->dir.norm;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
+  lowest = ip->search->phi;
+  falls  = (PetscBool)(most >= 1.0);
+  for (PetscReal alpha = PetscMin(2.0, most); falls; alpha = PetscMin(far * alpha, most)) {
+    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    falls =
+      (PetscBool)(finite && phi <= lowest + ip->search->rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
+    if (falls) longest = alpha;
+    if (falls) lowest = PetscMin(lowest, phi);
+    *left = (PetscBool)(lowest < ip->search->phi - clear * ip->search->rounding);
+    if (alpha >= most || (*left && (ip->mi || ip->me))) falls = PETSC_FALSE;
+  }
+  if (!*left) PetscFunctionReturn(0);
+  PetscCall(SearchTrial(tao, longest, &theta, &phi, &finite));
+  PetscCall(SearchStartAgain(tao, longest));
+  PetscFunctionReturn(0);
+}
+
+/* Tries to leave a point of inflection of the barrier function or of the Lagrangian. *left: whether it succeeds */
+PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(SearchBeyond(tao, left));
+  if (!*left && (ip->mi || ip->me) && ip->search->slows) PetscCall(SearchInflection(tao, left));
   PetscFunctionReturn(0);
 }

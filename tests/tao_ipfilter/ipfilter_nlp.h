@@ -176,6 +176,7 @@ static const NLP problems[] = {
   /* a point of inflection that Newton's steps halve the way to; an objective below its epigraph, and a product with a
      slack, that start on their bounds */
   {"inflection", "x1^3+x2^2", "5-x1", "", "", "1 1", 0.0, NLP_UNBOUNDED, NULL},
+  {"inflection2", "x3", "5-x1; x3-(x1^3+x2^2)", "", "", "1 1 0", 0.0, NLP_UNBOUNDED, NULL},
   {"epigraph", "x3", "x3-(x1-x2)^4", "", "", "2 -1 81", 0.0, NLP_SOLVED, NULL},
   {"MPCC with a slack", "(x1-1)^2+(x2-1)^2", "", "-x1*x2-x3", "0: 0: 0:", "2 0.5 0", 1.0, NLP_REACHED, NULL},
   /* HS35 and HS71 with a variable fixed where the solution has it */
