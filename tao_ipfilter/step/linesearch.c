@@ -563,10 +563,10 @@ static PetscErrorCode SearchInflection(Tao tao, PetscBool *left)
 }
 
 /*
-   Tries to leave a point at which Newton's method converges only linearly, or with a shift that shortens its steps. Such
-   a point may be an inflection point. Longer and longer steps along the last direction are tested. If the barrier
-   function falls along them clearly, the solve continues from the longest one; with constraints from the first one, since
-   longer ones violate them. *left: whether it continues.
+   Tries to leave a point at which Newton's method converges only linearly, or with a shift that shortens its steps.
+   Such a point may be an inflection point. Longer and longer steps along the last direction are tested. If the barrier
+   function falls along them clearly, the solve continues from the longest one; with constraints from the first one,
+   since longer ones violate them. *left: whether it continues.
 */
 static PetscErrorCode SearchBeyond(Tao tao, PetscBool *left)
 {
