@@ -18,7 +18,7 @@ static void RigidPlacesUnwind(const PetscReal before[3], PetscReal rotation[3])
 
   for (PetscInt i = 0; i < 3; ++i) size += PetscSqr(rotation[i]);
   size = PetscSqrtReal(size);
-  if (size == 0.0) PetscFunctionReturnVoid();
+  if (size == 0.0) return;
   for (PetscInt i = 0; i < 3; ++i) axis[i] = rotation[i] / size;
   for (PetscInt i = 0; i < 3; ++i) along += axis[i] * before[i];
   size += turn * PetscFloorReal((along - size) / turn + 0.5);
