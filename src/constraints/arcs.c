@@ -9,6 +9,7 @@
    rotation vector, and e the deformation.
 */
 #include "constraintsimpl.h"
+#include <vector3.h>
 
 /* For smaller rotations the arc is replaced by the chord, which differs by 1e-6 of the length [rad]. */
 static const PetscReal least_angle = PETSC_PI / 180.0;
@@ -86,9 +87,8 @@ static PetscErrorCode ArcsFind(const Bodies *b, Vec u0, const BodyPose poses[], 
     BodyArc *arc = &arcs[body];
 
     PoseGetVector((const PetscReal(*)[3])poses[body].Q, arc->angle);
-    arc->turns =
-      (PetscBool)(PetscSqr(arc->angle[0]) + PetscSqr(arc->angle[1]) + PetscSqr(arc->angle[2]) > PetscSqr(least_angle));
-    *any = (PetscBool)(*any || arc->turns);
+    arc->turns = (PetscBool)(VectorNorm(arc->angle) > least_angle);
+    *any       = (PetscBool)(*any || arc->turns);
   }
   if (*any) PetscCall(ArcsFindCenters(b, u0, poses, arcs));
   PetscFunctionReturn(0);

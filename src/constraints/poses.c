@@ -4,24 +4,8 @@
    decomposition of the mean deformation gradient.
 */
 #include "constraintsimpl.h"
+#include <vector3.h>
 #include <string.h>
-
-/* Computes the inverse of a 3 x 3 matrix by cofactors, and returns the determinant */
-static PetscReal PoseInvert(const PetscReal a[3][3], PetscReal inverse[3][3])
-{
-  PetscReal det = 0.0;
-
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
-
-      inverse[j][i] = a[k][m] * a[l][n] - a[k][n] * a[l][m];
-    }
-  }
-  for (int i = 0; i < 3; ++i) det += a[0][i] * inverse[i][0];
-  for (int i = 0; i < 9; ++i) inverse[i / 3][i % 3] /= det;
-  return det;
-}
 
 /* Computes the rotation Q in the polar decomposition of F by Newton's method: Q = (Q + Q^-T) / 2 */
 static void PoseGetRotation(const PetscReal F[3][3], PetscReal Q[3][3])
@@ -32,7 +16,7 @@ static void PoseGetRotation(const PetscReal F[3][3], PetscReal Q[3][3])
   for (int i = 0; i < 9; ++i) Q[i / 3][i % 3] = F[i / 3][i % 3];
   for (int k = 0; k < most && change > PETSC_MACHINE_EPSILON; ++k) {
     change = 0.0;
-    (void)PoseInvert((const PetscReal(*)[3])Q, inverse);
+    (void)MatrixInvert(Q, inverse);
     for (int i = 0; i < 9; ++i) {
       const PetscReal next = 0.5 * (Q[i / 3][i % 3] + inverse[i % 3][i / 3]);
 
@@ -117,7 +101,7 @@ PetscErrorCode PosesFind(const Bodies *b, Vec u0, Vec u1, BodyPose poses[])
   for (PetscInt body = 0; body < b->scene->nbodies; ++body) {
     PetscReal inverse[3][3], F[3][3] = {{0.0}};
 
-    (void)PoseInvert((const PetscReal(*)[3])(sums[body] + 9), inverse);
+    (void)MatrixInvert((PetscReal(*)[3])(sums[body] + 9), inverse);
     for (int i = 0; i < 27; ++i) F[i / 9][i / 3 % 3] += sums[body][3 * (i / 9) + i % 3] * inverse[i % 3][i / 3 % 3];
     PoseGetRotation((const PetscReal(*)[3])F, poses[body].Q);
   }

@@ -106,39 +106,6 @@ static PetscErrorCode RigidFindCarrier(const Constraints *c, PetscInt rstart, co
   PetscFunctionReturn(0);
 }
 
-/* Inverts an n x n matrix by Gauss-Jordan elimination with row pivoting. Overwrites a. */
-static void RigidInvert(PetscInt n, PetscReal a[6][6], PetscReal inverse[6][6])
-{
-  for (PetscInt i = 0; i < 36; ++i) inverse[i / 6][i % 6] = i / 6 == i % 6 ? 1.0 : 0.0;
-  for (PetscInt k = 0; k < n; ++k) {
-    PetscInt  p = k;
-    PetscReal scale;
-
-    for (PetscInt i = k; i < n; ++i) p = PetscAbsReal(a[i][k]) > PetscAbsReal(a[p][k]) ? i : p;
-    for (PetscInt j = 0; j < n; ++j) {
-      const PetscReal swap[2] = {a[p][j], inverse[p][j]};
-
-      a[p][j]       = a[k][j];
-      inverse[p][j] = inverse[k][j];
-      a[k][j]       = swap[0];
-      inverse[k][j] = swap[1];
-    }
-    scale = 1.0 / a[k][k];
-    for (PetscInt j = 0; j < n; ++j) {
-      a[k][j] *= scale;
-      inverse[k][j] *= scale;
-    }
-    for (PetscInt i = 0; i < n; ++i) {
-      const PetscReal factor = a[i][k];
-
-      for (PetscInt j = 0; i != k && j < n; ++j) {
-        a[i][j] -= factor * a[k][j];
-        inverse[i][j] -= factor * inverse[k][j];
-      }
-    }
-  }
-}
-
 /* Sets the rows of R that belong to a body. Carrying rows stay unit rows. Marks the body's rows in `mine` and dependent
    rows in `follows`. */
 static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, PetscInt rstart, const PetscScalar x[],
@@ -227,7 +194,7 @@ static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool pr
   const PetscInt    *nodes;
   const PetscScalar *x;
   PetscInt           n, rstart;
-  PetscReal          unit[6][6], carriers[6][6];
+  PetscReal          unit[6][6];
 
   PetscFunctionBegin;
   PetscCall(RigidGetNodes(c, body, &is));
@@ -238,10 +205,10 @@ static PetscErrorCode RigidMakeBodyRows(const Constraints *c, const PetscBool pr
   for (PetscInt k = 0; k < body->n; ++k) {
     const PetscInt before = body->row[k];
 
-    PetscCall(RigidFindCarrier(c, rstart, x, n, nodes, k, unit, carriers, body));
+    PetscCall(RigidFindCarrier(c, rstart, x, n, nodes, k, unit, body->inverse, body));
     *anew = (PetscBool)(*anew || body->row[k] != before);
   }
-  RigidInvert(body->n, carriers, body->inverse);
+  (void)MatrixInvertInPlace(body->n, 6, &body->inverse[0][0]);
   PetscCall(RigidSetRows(c, body, rstart, x, n, nodes, prescribed, mine, follows));
   PetscCall(VecRestoreArrayRead(c->rigid->x, &x));
   PetscCall(ISRestoreIndices(is, &nodes));
@@ -311,7 +278,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
    component of the rotation vector r */
 static void RigidGetAxes(const PetscReal r[3], PetscReal axis[3][3])
 {
-  const PetscReal square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], angle = PetscSqrtReal(square), small = 1e-3;
+  const PetscReal square = VectorDot(r, r), angle = PetscSqrtReal(square), small = 1e-3;
   const PetscReal first = angle > small ? (1.0 - PetscCosReal(angle)) / square : 0.5 - square / 24.0;
   const PetscReal second =
     angle > small ? (angle - PetscSinReal(angle)) / (square * angle) : 1.0 / 6.0 - square / 120.0;
@@ -596,7 +563,7 @@ PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepRepo
     for (PetscInt k = 0; k < body->n; ++k) {
       if (body->motion[k] >= 3) angle[body->motion[k] - 3] += motion[k] / body->size;
     }
-    degrees = PetscSqrtReal(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]) * 180.0 / PETSC_PI;
+    degrees = VectorNorm(angle) * 180.0 / PETSC_PI;
     if (degrees <= most) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason), "displacement \"%s\": the rigid body turns by %.3g degrees%s",
       c->bodies.scene->displacements[body->leader].name, (double)degrees,

@@ -5,12 +5,7 @@
    purpose the nodal forces f(m0) are replaced by forces that rotate with the body, Q f(Q^T m).
 */
 #include "constraintsimpl.h"
-
-/* Computes sum = a + b x c */
-static void RigidLoadAddCross(const PetscReal a[3], const PetscReal b[3], const PetscReal c[3], PetscReal sum[3])
-{
-  for (int i = 0; i < 3; ++i) sum[i] = a[i] + b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3];
-}
+#include <vector3.h>
 
 /* Collective. Computes the vector from the centroid of the undeformed body's surface to the point at which a force acts
    [length]; zero if the scene gives no point */
@@ -53,8 +48,10 @@ static PetscErrorCode RigidLoadTurn(const Constraints *c, const SceneTraction *l
   PetscFunctionBegin;
   PetscCall(RigidLoadGetArm(c, load, arm));
   for (int i = 0; i < 9; ++i) turned[i / 3] += Q[i / 3][i % 3] * arm[i % 3];
-  RigidLoadAddCross(load->moment, arm, load->value, undeformed);
-  RigidLoadAddCross(load->moment, turned, load->value, now);
+  PetscCall(PetscArraycpy(undeformed, load->moment, 3));
+  PetscCall(PetscArraycpy(now, load->moment, 3));
+  VectorAddCross(arm, load->value, undeformed);
+  VectorAddCross(turned, load->value, now);
   for (int i = 0; i < 9; ++i) back[i % 3] += Q[i / 3][i % 3] * now[i / 3];
   PetscCall(VecDuplicate(total, &old));
   PetscCall(VecDuplicate(total, &new));

@@ -8,6 +8,7 @@
    restricted to its covered part.
 */
 #include "contactimpl.h"
+#include <vector3.h>
 
 /* largest fraction of the nonmortar face that may remain uncovered, in total and around one vertex. Such gaps arise
    from rounding, or from facets that cut the corners of curved faces. */
@@ -36,39 +37,16 @@ static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, P
   PetscFunctionReturn(0);
 }
 
-/* Computes a = diag(w) mass^-1 for n vertices, where w are the row sums of mass, by Gauss-Jordan elimination with
-   pivoting. Returns false if mass is singular, which means that almost nothing is covered. */
+/* Computes a = diag(w) mass^-1 for n vertices, where w are the row sums of mass. Returns false if mass is singular, which means that almost nothing is covered. */
 static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
-  PetscReal m[4][8];
-
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt j = 0; j < n; ++j) {
-      m[i][j]     = mass[i][j];
-      m[i][n + j] = i == j ? 1.0 : 0.0;
-    }
-  }
-  for (PetscInt k = 0; k < n; ++k) {
-    PetscInt pivot = k;
-
-    for (PetscInt i = k + 1; i < n; ++i) pivot = PetscAbsReal(m[i][k]) > PetscAbsReal(m[pivot][k]) ? i : pivot;
-    if (!(PetscAbsReal(m[pivot][k]) > 0.0)) return PETSC_FALSE;
-    for (PetscInt j = 0; j < 2 * n; ++j) {
-      const PetscReal swap = m[k][j];
-
-      m[k][j]     = m[pivot][j];
-      m[pivot][j] = swap;
-    }
-    for (PetscInt j = 2 * n - 1; j >= k; --j) m[k][j] /= m[k][k];
-    for (PetscInt i = 0; i < n; ++i) {
-      for (PetscInt j = 2 * n - 1; i != k && j >= k; --j) m[i][j] -= m[i][k] * m[k][j];
-    }
-  }
+  for (PetscInt i = 0; i < 16; ++i) a[i / 4][i % 4] = mass[i / 4][i % 4];
+  if (!MatrixInvertInPlace(n, 4, &a[0][0])) return PETSC_FALSE;
   for (PetscInt i = 0; i < n; ++i) {
     PetscReal w = 0.0;
 
     for (PetscInt j = 0; j < n; ++j) w += mass[i][j];
-    for (PetscInt j = 0; j < n; ++j) a[i][j] = w * m[i][n + j];
+    for (PetscInt j = 0; j < n; ++j) a[i][j] *= w;
   }
   return PETSC_TRUE;
 }

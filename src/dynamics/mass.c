@@ -1,5 +1,6 @@
 /* The mass matrix, nodes without mass, momentum and kinetic energy */
 #include "dynamicsimpl.h"
+#include <vector3.h>
 #include <mesh.h>
 
 /* Sets `light` to 1 at the nodes of elastic bodies on the faces of contact pairs without friction, and to 0
@@ -132,12 +133,14 @@ PetscErrorCode MassMeasure(const Constraints *c, const Dynamics *d, Vec u, Petsc
   PetscCall(VecGetArrayRead(u, &a));
   PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
   for (PetscInt i = 0; i < n; i += 3) {
-    for (PetscInt k = 0; k < 3; ++k) {
-      const PetscInt next = i + (k + 1) % 3, last = i + (k + 2) % 3;
+    PetscReal y[3], q[3];
 
-      sums[k] += PetscRealPart(p[i + k]);
-      sums[3 + k] += PetscRealPart((x[next] + a[next]) * p[last] - (x[last] + a[last]) * p[next]);
+    for (PetscInt k = 0; k < 3; ++k) {
+      y[k] = PetscRealPart(x[i + k] + a[i + k]);
+      q[k] = PetscRealPart(p[i + k]);
+      sums[k] += q[k];
     }
+    VectorAddCross(y, q, sums + 3);
   }
   PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
   PetscCall(VecRestoreArrayRead(u, &a));

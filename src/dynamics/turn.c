@@ -6,6 +6,7 @@
    moments, and whose resultant is zero. They are computed at the last iterate.
 */
 #include "dynamicsimpl.h"
+#include <vector3.h>
 
 /*
    A rotating body: its centre of rotation before and after the time step [length]; the moment that is missing; the sum
@@ -16,11 +17,6 @@ typedef struct {
   PetscBool turns;
   PetscReal before[3], after[3], moment[3], arms[6], w[3];
 } TurnBody;
-
-static void TurnCross(const PetscReal a[3], const PetscReal b[3], PetscReal product[3])
-{
-  for (int k = 0; k < 3; ++k) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
 
 /* Finds the bodies that rotate, and their centres of rotation before and after the step */
 static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodies[])
@@ -72,7 +68,7 @@ static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force
     if (!body->turns) continue;
     TurnGetNode(arrays, i, x, y, f);
     for (int k = 0; k < 3; ++k) x[k] = (y[k] - body->after[k]) - (x[k] - body->before[k]);
-    TurnCross(x, f, moment);
+    VectorCross(x, f, moment);
     for (int k = 0; k < 3; ++k) body->moment[k] -= 0.5 * moment[k];
     for (int k = 0; k < 6; ++k)
       body->arms[k] +=
@@ -81,21 +77,6 @@ static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force
   PetscCall(VecRestoreArrayRead(c->bodies.mass, &m));
   for (int k = 0; k < 4; ++k) PetscCall(VecRestoreArrayRead(vectors[k], &arrays[k]));
   PetscFunctionReturn(0);
-}
-
-/* Solves (tr(S) I - S) w = moment, with S = sum of m r r^T, by Cramer's rule */
-static void TurnSolve(TurnBody *body)
-{
-  const PetscReal *s       = body->arms;
-  const PetscReal  J[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[0] + s[2], -s[4]}, {-s[5], -s[4], s[0] + s[1]}};
-  PetscReal        cofactor[3][3], det = 0.0;
-
-  for (int k = 0; k < 3; ++k) TurnCross(J[(k + 1) % 3], J[(k + 2) % 3], cofactor[k]);
-  for (int k = 0; k < 3; ++k) det += J[0][k] * cofactor[0][k];
-  for (int i = 0; i < 3; ++i) {
-    body->w[i] = 0.0;
-    for (int k = 0; k < 3; ++k) body->w[i] += cofactor[k][i] * body->moment[k] / det;
-  }
 }
 
 /* Computes the additional nodal forces m w x r */
@@ -116,7 +97,7 @@ static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose pos
     PetscReal      arm[3], force[3];
 
     for (int k = 0; k < 3; ++k) arm[k] = PetscRealPart(x[i + k] + a[i + k]) - poses[b].to[k];
-    TurnCross(bodies[b].w, arm, force);
+    VectorCross(bodies[b].w, arm, force);
     for (int k = 0; k < 3; ++k) f[i + k] = PetscRealPart(m[i]) * force[k];
   }
   PetscCall(VecRestoreArray(turn, &f));
@@ -131,7 +112,7 @@ static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose pos
 PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Dynamics *d)
 {
   const PetscInt nbodies = c->bodies.scene->nbodies;
-  PetscReal      energy  = 0.0, *sums;
+  PetscReal      energy  = 0.0, *sums, inertia[3][3];
   BodyPose      *poses;
   TurnBody      *bodies;
   Vec            force;
@@ -154,7 +135,9 @@ PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, D
   for (PetscInt b = 0; b < nbodies; ++b) {
     for (int k = 0; k < 3; ++k) bodies[b].moment[k] = sums[9 * b + k];
     for (int k = 0; k < 6; ++k) bodies[b].arms[k] = sums[9 * b + 3 + k];
-    if (bodies[b].turns) TurnSolve(&bodies[b]);
+    if (!bodies[b].turns) continue;
+    MatrixSetInertia(bodies[b].arms, inertia);
+    (void)MatrixSolve(inertia, bodies[b].moment, bodies[b].w);
   }
   PetscCall(TurnSpread(c, u, poses, bodies, force));
   d->turn = force;

@@ -4,6 +4,7 @@
    largest for which the rest of the energy is not negative: kappa = 1/(1:S:1) with S = C^(-1), Reuss's bulk modulus.
 */
 #include "materialimpl.h"
+#include <vector3.h>
 
 static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
 
@@ -62,17 +63,14 @@ PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
 
     given[k] = a[0] != 0 || a[1] != 0 || a[2] != 0 ? a : space[k];
   }
-  for (int i = 0; i < 3; ++i) {
-    R[0][i] = given[0][i];
-    R[2][i] = given[0][(i + 1) % 3] * given[1][(i + 2) % 3] - given[0][(i + 2) % 3] * given[1][(i + 1) % 3];
-  }
+  for (int i = 0; i < 3; ++i) R[0][i] = given[0][i];
+  VectorCross(given[0], given[1], R[2]);
   for (int k = 0; k < 3; k += 2) {
-    const PetscReal length = PetscSqrtReal(PetscSqr(R[k][0]) + PetscSqr(R[k][1]) + PetscSqr(R[k][2]));
+    const PetscReal length = VectorScaleToUnit(R[k]);
 
     if (!(length > 0) || PetscIsInfOrNanReal(length)) return PETSC_FALSE;
-    for (int i = 0; i < 3; ++i) R[k][i] /= length;
   }
-  for (int i = 0; i < 3; ++i) R[1][i] = R[2][(i + 1) % 3] * R[0][(i + 2) % 3] - R[2][(i + 2) % 3] * R[0][(i + 1) % 3];
+  VectorCross(R[2], R[0], R[1]);
   return PETSC_TRUE;
 }
 
@@ -83,21 +81,13 @@ PetscBool OrthotropicAxes(const Material *material, PetscReal R[3][3])
 static PetscBool OrthotropicInvert(const Material *material, PetscReal C[3][3], PetscReal *sum)
 {
   const PetscReal *E = material->youngs, *nu = material->poissons;
-  const PetscReal  S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]},
-     {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
+  PetscReal        S[3][3] = {{1 / E[0], -nu[0] / E[0], -nu[2] / E[0]}, {-nu[0] / E[0], 1 / E[1], -nu[1] / E[1]},
+           {-nu[2] / E[0], -nu[1] / E[1], 1 / E[2]}};
   PetscReal        det;
 
   *sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-
-      C[i][j] = S[i1][j1] * S[i2][j2] - S[i1][j2] * S[i2][j1];
-      *sum += S[i][j];
-    }
-  }
-  det = S[0][0] * C[0][0] + S[0][1] * C[0][1] + S[0][2] * C[0][2];
-  for (int i = 0; i < 9; ++i) C[i / 3][i % 3] /= det;
+  for (int i = 0; i < 9; ++i) *sum += S[i / 3][i % 3];
+  det = MatrixInvert(S, C);
   return (PetscBool)(E[0] > 0 && E[1] > 0 && E[2] > 0 && S[0][0] * S[1][1] > S[0][1] * S[0][1] && det > 0);
 }
 

@@ -79,11 +79,11 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
 
 /*
    Fits the motion by least squares: t is the mean displacement, and w follows from the inertia and the moment about the
-   center, by Cramer's rule
+   center
 */
 static void RigidFitFit(RigidFitSums *sums, RigidFit *fit)
 {
-  PetscReal moment[3], cross[3][3], turned, *inertia = &sums->inertia[0][0];
+  PetscReal moment[3], turned, *inertia = &sums->inertia[0][0];
 
   for (PetscInt i = 0; i < 3; ++i) {
     fit->center[i] = sums->place[i] / sums->n;
@@ -93,8 +93,7 @@ static void RigidFitFit(RigidFitSums *sums, RigidFit *fit)
   for (PetscInt i = 0; i < 3; ++i) moment[i] = sums->moment[i] - moment[i];
   for (PetscInt k = 0; k < 9; ++k)
     inertia[k] -= (k % 4 == 0) * VectorDot(sums->place, fit->center) - sums->place[k / 3] * fit->center[k % 3];
-  for (PetscInt i = 0; i < 3; ++i) VectorCross(sums->inertia[(i + 1) % 3], sums->inertia[(i + 2) % 3], cross[i]);
-  for (PetscInt i = 0; i < 3; ++i) fit->w[i] = VectorDot(cross[i], moment) / VectorDot(sums->inertia[0], cross[0]);
+  (void)MatrixSolve(sums->inertia, moment, fit->w);
   turned        = VectorDot(fit->w, moment) / sums->n; /* equals w . inertia w */
   fit->turned   = PetscSqrtReal(PetscMax(turned, 0.0));
   fit->residual = PetscSqrtReal(PetscMax(1.0 - (turned + VectorDot(fit->t, fit->t)) * sums->n / sums->square, 0.0));

@@ -64,14 +64,13 @@ static PetscErrorCode SupportMeasureBodies(Support *support)
 static void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign)
 {
-  PetscReal arm[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
+  PetscReal arm[3], moment[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
 
   for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
+  VectorCross(arm, direction, moment);
   for (PetscInt d = 0; d < 3; ++d) {
-    const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
-
     row[d] += sign * direction[d];
-    row[3 + d] += sign * (arm[s] * direction[t] - arm[t] * direction[s]);
+    row[3 + d] += sign * moment[d];
   }
 }
 

@@ -6,6 +6,7 @@
    last vertex is stored twice, they are 3 phi_1 - phi_2 - phi_3.
 */
 #include "gapsimpl.h"
+#include <vector3.h>
 
 /* Computes mass[a][b] = int phi_a phi_b with 3 x 3 Gauss points [length^2] */
 static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
@@ -26,24 +27,6 @@ static void DualMass(const PetscReal x[12], PetscReal mass[4][4])
   }
 }
 
-/* Inverts the matrix a in place. It is symmetric positive definite, so that no pivoting is needed. */
-static void DualInvert(PetscReal a[4][4])
-{
-  for (PetscInt k = 0; k < 4; ++k) {
-    const PetscReal scale = 1.0 / a[k][k];
-
-    a[k][k] = 1.0;
-    for (PetscInt j = 0; j < 4; ++j) a[k][j] *= scale;
-    for (PetscInt i = 0; i < 4; ++i) {
-      const PetscReal factor = a[i][k];
-
-      if (i == k) continue;
-      a[i][k] = 0.0;
-      for (PetscInt j = 0; j < 4; ++j) a[i][j] -= factor * a[k][j];
-    }
-  }
-}
-
 /* Computes dual = diag(lumped mass) mass^-1. The matrix of a triangle does not depend on its shape. */
 void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
 {
@@ -56,7 +39,7 @@ void ContactDualFunctions(const PetscReal x[12], PetscReal dual[4][4])
   }
   DualMass(x, dual);
   for (PetscInt a = 0; a < 16; ++a) lumped[a / 4] += dual[a / 4][a % 4];
-  DualInvert(dual);
+  (void)MatrixInvertInPlace(4, 4, &dual[0][0]);
   for (PetscInt a = 0; a < 16; ++a) dual[a / 4][a % 4] *= lumped[a / 4];
 }
 

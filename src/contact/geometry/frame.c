@@ -4,20 +4,15 @@
 /* Computes the mean outward unit normal n of a facet. Returns false if the facet has no area. */
 PetscBool ContactFacetNormal(const PetscReal x[12], PetscReal n[3])
 {
-  PetscReal area;
-
   ContactFacetAreaVector(x, n);
-  area = VectorNorm(n);
-  if (!(area > 0.0)) return PETSC_FALSE;
-  for (PetscInt c = 0; c < 3; ++c) n[c] /= area;
-  return PETSC_TRUE;
+  return (PetscBool)(VectorScaleToUnit(n) > 0.0);
 }
 
 /* Creates the plane through the centre of the facet x, perpendicular to its mean normal. Returns false if the facet has
    no area. */
 PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
 {
-  PetscReal *t = f->axis[0], *s = f->axis[1], *n = f->axis[2], length;
+  PetscReal *t = f->axis[0], *s = f->axis[1], *n = f->axis[2];
 
   if (!ContactFacetNormal(x, n)) return PETSC_FALSE;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -25,11 +20,8 @@ PetscBool ContactFrameCreate(const PetscReal x[12], ContactFrame *f)
     t[c]         = x[6 + c] - x[c]; /* Axis 0 is parallel to a diagonal. The diagonal lies in the plane, because the
                                        normal is the cross product of the diagonals. */
   }
-  length = VectorNorm(t);
-  for (PetscInt c = 0; c < 3; ++c) t[c] /= length;
-  s[0] = n[1] * t[2] - n[2] * t[1];
-  s[1] = n[2] * t[0] - n[0] * t[2];
-  s[2] = n[0] * t[1] - n[1] * t[0];
+  (void)VectorScaleToUnit(t);
+  VectorCross(n, t, s);
   return PETSC_TRUE;
 }
 

@@ -18,7 +18,7 @@ static void NearestTryFacet(const ContactCandidates *facets, PetscInt f, PetscRe
   PetscReal n[3], xi[2], y[3], d;
 
   if (!ContactFacetNormal(&facets->x[12 * f], n)) return;
-  if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] > cosine) return;
+  if (VectorDot(n, normal) > cosine) return;
   d = ContactClosestPoint(&facets->x[12 * f], x, xi, y);
   if (d > *distance || (d == *distance && nearest->facet >= 0)) return;
   if (test && !test(context, facets, f, xi)) return;

@@ -121,7 +121,7 @@ static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
     PetscBool      smooth = (PetscBool)(twin >= 0 && FindTwin(ring, first, corner, twin) == i);
 
     smooth        = (PetscBool)(smooth && FacetNormal(ring, i / 4, n) && FacetNormal(ring, twin / 4, m));
-    ring->twin[i] = smooth && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] >= cosine ? twin : -1;
+    ring->twin[i] = smooth && VectorDot(n, m) >= cosine ? twin : -1;
   }
   PetscCall(PetscFree(first));
   PetscCall(PetscFree(corner));

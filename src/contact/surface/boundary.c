@@ -129,22 +129,12 @@ PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
    triangle (Van Oosterom and Strackee 1983) */
 static PetscReal BoundaryTriangleAngle(const PetscReal p[3], const PetscReal q[3], const PetscReal r[3])
 {
-  const PetscReal triple =
-    p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-  PetscReal pp = 0.0, qq = 0.0, rr = 0.0, pq = 0.0, qr = 0.0, rp = 0.0;
+  const PetscReal pp = VectorNorm(p), qq = VectorNorm(q), rr = VectorNorm(r);
+  PetscReal       across[3];
 
-  for (PetscInt c = 0; c < 3; ++c) {
-    pp += p[c] * p[c];
-    qq += q[c] * q[c];
-    rr += r[c] * r[c];
-    pq += p[c] * q[c];
-    qr += q[c] * r[c];
-    rp += r[c] * p[c];
-  }
-  pp = PetscSqrtReal(pp);
-  qq = PetscSqrtReal(qq);
-  rr = PetscSqrtReal(rr);
-  return 2.0 * PetscAtan2Real(triple, pp * qq * rr + pq * rr + qr * pp + rp * qq);
+  VectorCross(q, r, across);
+  return 2.0 * PetscAtan2Real(VectorDot(p, across),
+                 pp * qq * rr + VectorDot(p, q) * rr + VectorDot(q, r) * pp + VectorDot(r, p) * qq);
 }
 
 /* Returns this rank's part of the solid angle of a body's boundary as seen from the point `from`. The sum over all

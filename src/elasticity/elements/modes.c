@@ -14,26 +14,21 @@
    versions of assumed enhanced strain tri-linear elements for 3D finite deformation problems, 1993.
 */
 #include "elementsimpl.h"
+#include <vector3.h>
 
 #define MODES INCOMPATIBLE_MODES
 
 /* Computes cofactor = det J0 J0^(-1), with which the modes are scaled by det J0 */
 void IncompatibleCentre(PetscReal X[3][CELL_MAX_NODES], PetscReal cofactor[3][3])
 {
-  PetscReal J[3][3];
+  PetscReal transposed[3][3] = {{0}};
 
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
-      J[i][k] = 0;
-      for (int a = 0; a < 8; ++a) J[i][k] += 0.125 * (a >> k & 1 ? X[i][a] : -X[i][a]);
+      for (int a = 0; a < 8; ++a) transposed[k][i] += 0.125 * (a >> k & 1 ? X[i][a] : -X[i][a]);
     }
   }
-  for (int k = 0; k < 3; ++k) {
-    const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-
-    for (int j = 0; j < 3; ++j)
-      cofactor[k][j] = J[(j + 1) % 3][k1] * J[(j + 2) % 3][k2] - J[(j + 1) % 3][k2] * J[(j + 2) % 3][k1];
-  }
+  (void)MatrixCofactors(transposed, cofactor);
 }
 
 /* Computes the modes as displacement gradients at point q, whose volume is w */

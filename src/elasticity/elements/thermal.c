@@ -8,16 +8,8 @@
    tangent is not affected.
 */
 #include "elementsimpl.h"
+#include <vector3.h>
 #include <mesh.h>
-
-/* Solves M x = b for a symmetric positive definite 3 x 3 matrix by Cramer's rule */
-static void ThermalSolve(PetscReal M[3][3], const PetscReal b[3], PetscReal x[3])
-{
-  PetscReal       C[3][3];
-  const PetscReal det = MatrixCofactors(M, C);
-
-  for (int j = 0; j < 3; ++j) x[j] = (C[0][j] * b[0] + C[1][j] * b[1] + C[2][j] * b[2]) / det;
-}
 
 static void ThermalCentre(PetscInt n, PetscReal X[3][CELL_MAX_NODES], PetscReal centre[3])
 {
@@ -43,7 +35,7 @@ static void ThermalFit(PetscInt n, PetscReal X[3][CELL_MAX_NODES], const PetscRe
       for (int j = 0; j < 3; ++j) M[i][j] += y[i] * y[j];
     }
   }
-  ThermalSolve(M, b, fit + 1);
+  (void)MatrixSolve(M, b, fit + 1);
 }
 
 /* Subtracts the free thermal displacement from a cell's displacement. fit: T_c and g of the cell. */

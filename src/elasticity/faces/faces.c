@@ -46,7 +46,7 @@ static PetscErrorCode FaceDestroy(Face *face)
 static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
 {
   for (int q = 0; q < FACE_POINTS; ++q) {
-    PetscReal       Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, square = 0, s, t;
+    PetscReal       Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, n[3], s, t;
     const PetscReal weight = FacetQuadrature(facet->n, 3, q, &s, &t);
 
     FacetShape(facet->n, s, t, points[q].N, Ns, Nt);
@@ -58,9 +58,8 @@ static void FaceGetPoints(const Facet *facet, FacePoint points[FACE_POINTS])
         xt[d] += Nt[a] * facet->X[a][d];
       }
     }
-    for (int d = 0; d < 3; ++d)
-      square += PetscSqr(xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
-    points[q].area = weight * PetscSqrtReal(square);
+    VectorCross(xs, xt, n);
+    points[q].area = weight * VectorNorm(n);
   }
 }
 
@@ -135,13 +134,11 @@ typedef struct {
 
 static void FaceTwisted(const PetscReal x[3], const void *ctx, PetscReal value[3])
 {
-  const FaceTraction *t = (const FaceTraction *)ctx;
+  const FaceTraction *t    = (const FaceTraction *)ctx;
+  const PetscReal     r[3] = {x[0] - t->center[0], x[1] - t->center[1], x[2] - t->center[2]};
 
-  for (int d = 0; d < 3; ++d) {
-    const int m = (d + 1) % 3, n = (d + 2) % 3;
-
-    value[d] = t->a[d] + t->b[m] * (x[n] - t->center[n]) - t->b[n] * (x[m] - t->center[m]);
-  }
+  for (int d = 0; d < 3; ++d) value[d] = t->a[d];
+  VectorAddCross(t->b, r, value);
 }
 
 /*
@@ -175,29 +172,15 @@ static PetscErrorCode FaceMeasure(Elasticity e, const char name[], const PetscRe
 }
 
 /*
-   Solves int r x (b x r) dA = moment for b by Cramer's rule. s: second moments of the face. Returns false if the
-   moments are singular.
+   Solves int r x (b x r) dA = moment for b. s: second moments of the face. Returns false if the moments are singular.
 */
 static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3], PetscReal b[3])
 {
-  const PetscReal inertia[3][3] = {{s[1] + s[2], -s[3], -s[5]}, {-s[3], s[2] + s[0], -s[4]},
-    {-s[5], -s[4], s[0] + s[1]}};
-  const PetscReal size          = inertia[0][0] + inertia[1][1] + inertia[2][2];
-  PetscReal       det           = 0;
+  PetscReal inertia[3][3], size;
 
-  for (int k = 0; k < 3; ++k)
-    det += inertia[0][k] *
-           (inertia[1][(k + 1) % 3] * inertia[2][(k + 2) % 3] - inertia[1][(k + 2) % 3] * inertia[2][(k + 1) % 3]);
-  if (!(det > 1e-12 * size * size * size)) return PETSC_FALSE;
-  for (int k = 0; k < 3; ++k) {
-    const int l = (k + 1) % 3, m = (k + 2) % 3;
-
-    b[k] = 0;
-    for (int d = 0; d < 3; ++d)
-      b[k] += (inertia[(d + 1) % 3][l] * inertia[(d + 2) % 3][m] - inertia[(d + 1) % 3][m] * inertia[(d + 2) % 3][l]) *
-              moment[d] / det;
-  }
-  return PETSC_TRUE;
+  MatrixSetInertia(s, inertia);
+  size = inertia[0][0] + inertia[1][1] + inertia[2][2];
+  return (PetscBool)(MatrixSolve(inertia, moment, b) > 1e-12 * size * size * size);
 }
 
 /*@
@@ -235,8 +218,8 @@ PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscRe
   PetscCall(FaceMeasure(e, face, t.center, sums));
   for (int d = 0; d < 3; ++d) t.a[d] = resultant[d] / sums[0];
   for (int d = 0; point && d < 3; ++d) arm[d] = point[d] - t.center[d];
-  for (int d = 0; d < 3; ++d)
-    about[d] = moment[d] + arm[(d + 1) % 3] * resultant[(d + 2) % 3] - arm[(d + 2) % 3] * resultant[(d + 1) % 3];
+  PetscCall(PetscArraycpy(about, moment, 3));
+  VectorAddCross(arm, resultant, about);
   solved = FaceSolveMoment(sums + 4, about, t.b);
   PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG,
     "The face \"%s\" is too slender to carry a moment", face);

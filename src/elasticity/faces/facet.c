@@ -79,7 +79,8 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
 
   for (PetscInt a = 0; a < n; ++a) F[a][0] = F[a][1] = F[a][2] = 0;
   for (PetscInt q = 0; q < npoints * npoints; ++q) {
-    PetscReal N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0}, s, t;
+    PetscReal N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0},
+                                                                            normal[3], s, t;
     const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
 
     FacetShape(n, s, t, N, Ns, Nt);
@@ -89,9 +90,9 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
         xt[d] += Nt[a] * X[a][d];
       }
     }
+    VectorCross(xs, xt, normal);
     for (PetscInt a = 0; a < n; ++a) {
-      for (int d = 0; d < 3; ++d)
-        F[a][d] += weight * N[a] * (xs[(d + 1) % 3] * xt[(d + 2) % 3] - xs[(d + 2) % 3] * xt[(d + 1) % 3]);
+      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * normal[d];
     }
   }
 }

@@ -182,10 +182,7 @@ static void QuadraticPatchFit(QuadraticPatch *patch)
 
 static PetscBool QuadraticPatchIsInside(const QuadraticPatch *patch)
 {
-  const PetscReal open =
-    PetscSqrtReal(PetscSqr(patch->normal[0]) + PetscSqr(patch->normal[1]) + PetscSqr(patch->normal[2]));
-
-  return (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
+  return (PetscBool)(VectorNorm(patch->normal) <= PETSC_SQRT_MACHINE_EPSILON * patch->area);
 }
 
 /*

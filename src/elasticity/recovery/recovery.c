@@ -80,34 +80,24 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, c
 */
 static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
 {
-  const PetscReal xx = sums->dd[0] - sums->n * mean[0] * mean[0], yy = sums->dd[1] - sums->n * mean[1] * mean[1],
-                  zz = sums->dd[2] - sums->n * mean[2] * mean[2];
-  const PetscReal xy = sums->dd[3] - sums->n * mean[0] * mean[1], yz = sums->dd[4] - sums->n * mean[1] * mean[2],
-                  zx      = sums->dd[5] - sums->n * mean[2] * mean[0];
-  const PetscReal C[3][3] = {
-    {yy * zz - yz * yz, yz * zx - xy * zz, xy * yz - yy * zx},
-    {yz * zx - xy * zz, xx * zz - zx * zx, xy * zx - xx * yz},
-    {xy * yz - yy * zx, xy * zx - xx * yz, xx * yy - xy * xy},
-  };
-  const PetscReal det = xx * C[0][0] + xy * C[0][1] + zx * C[0][2];
+  static const int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  PetscReal        scatter[3][3], det;
 
-  if (!(det > PETSC_SQRT_MACHINE_EPSILON * xx * yy * zz)) return PETSC_FALSE;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) inverse[i][j] = C[i][j] / det;
+    for (int j = 0; j < 3; ++j) scatter[i][j] = sums->dd[component[i][j]] - sums->n * mean[i] * mean[j];
   }
-  return PETSC_TRUE;
+  det = MatrixInvert(scatter, inverse);
+  return (PetscBool)(det > PETSC_SQRT_MACHINE_EPSILON * scatter[0][0] * scatter[1][1] * scatter[2][2]);
 }
 
 /* Fits a linear polynomial of least squares around a node inside a body. Other nodes get the mean of their cells. */
 static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
 {
   const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
-  const PetscReal open =
-    PetscSqrtReal(PetscSqr(sums->normal[0]) + PetscSqr(sums->normal[1]) + PetscSqr(sums->normal[2]));
-  PetscReal inverse[3][3];
+  PetscReal       inverse[3][3];
 
-  p->inside =
-    (PetscBool)(open <= PETSC_SQRT_MACHINE_EPSILON * sums->area && NodeSumsInvertScatter(sums, mean, inverse));
+  p->inside = (PetscBool)(VectorNorm(sums->normal) <= PETSC_SQRT_MACHINE_EPSILON * sums->area &&
+                          NodeSumsInvertScatter(sums, mean, inverse));
   for (int k = 0; k < ELEMENT_STRAINS; ++k) p->value[k] = sums->s[k] / sums->n;
   if (!p->inside) return;
   for (int k = 0; k < ELEMENT_STRAINS; ++k) {

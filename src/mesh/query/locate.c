@@ -143,22 +143,6 @@ static void LocateDifference(PetscInt n, PetscReal X[][3], const PetscReal point
   }
 }
 
-/* Solves J step = r by Cramer's rule */
-static void LocateSolve(PetscReal J[3][3], const PetscReal r[3], PetscReal step[3])
-{
-  PetscReal det = 0;
-
-  for (PetscInt k = 0; k < 3; ++k)
-    det += J[0][k] * (J[1][(k + 1) % 3] * J[2][(k + 2) % 3] - J[1][(k + 2) % 3] * J[2][(k + 1) % 3]);
-  for (PetscInt k = 0; k < 3; ++k) {
-    const PetscInt l = (k + 1) % 3, m = (k + 2) % 3;
-
-    step[k] = 0;
-    for (PetscInt d = 0; d < 3; ++d)
-      step[k] += (J[(d + 1) % 3][l] * J[(d + 2) % 3][m] - J[(d + 1) % 3][m] * J[(d + 2) % 3][l]) * r[d] / det;
-  }
-}
-
 /* Limits the parameters to the reference tetrahedron: none is negative, and their sum is at most 1 */
 static void LocateClampTetrahedron(PetscReal xi[3])
 {
@@ -183,7 +167,7 @@ static PetscReal LocateInCell(PetscInt n, PetscReal X[][3], const PetscReal poin
     PetscReal change = 0;
 
     LocateDifference(n, X, point, xi, N, r, J);
-    LocateSolve(J, r, step);
+    (void)MatrixSolve(J, r, step);
     for (PetscInt k = 0; k < 3; ++k) {
       const PetscReal next = PetscMax(-2.0, PetscMin(2.0, xi[k] + step[k]));
 

@@ -5,6 +5,7 @@
    `displacements`.
 */
 #include "sectionsimpl.h"
+#include <vector3.h>
 #include <string.h>
 
 static const char *const axes[] = {"x", "y", "z", "Axis", "", NULL};
@@ -60,7 +61,7 @@ static void SymmetryNormalOfTubeArc(Scene scene, const char face[], PetscReal no
 */
 static void SymmetrySetNormal(const PetscReal normal[3], SceneDisplacement *displacement)
 {
-  const PetscReal length = PetscSqrtReal(PetscSqr(normal[0]) + PetscSqr(normal[1]) + PetscSqr(normal[2]));
+  const PetscReal length = VectorNorm(normal);
   PetscInt        axis   = -1;
 
   if (!(length > 0)) return;
