@@ -163,6 +163,28 @@ static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 }
 
 /*
+   Measures the contact pairs. *weighted: forces of the rows; *contact: forces on the bodies; *late: see
+   FrictionMeasure()
+*/
+static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
+  StepReport *report, Vec *weighted, Vec *contact, PetscReal *late)
+{
+  const ContactLinearization lin = sim->solved->linearization;
+
+  PetscFunctionBegin;
+  PetscCall(MeasureGap(sol, report));
+  PetscCall(VecDuplicate(sol->pressure, weighted));
+  PetscCall(VecDuplicate(u, contact));
+  PetscCall(VecPointwiseMult(*weighted, sol->pressure, lin->mass));
+  PetscCall(MatMultTranspose(lin->J, *weighted, *contact));
+  PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
+  PetscCall(ForcesMeasurePairs(sim, u, *weighted, sol->shear, report));
+  PetscCall(FrictionMeasure(sim, time, u, sol, report, late));
+  PetscCall(MeasureActionReaction(sim, *contact, report));
+  PetscFunctionReturn(0);
+}
+
+/*
    Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
    residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
    error. inertia: forces of mass and damping on the bodies; NULL in a static analysis.
@@ -189,16 +211,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   if (inertia) dead = inertia; /* the loads together with the forces of inertia */
   if (dead) PetscCall(VecAXPY(force, -1.0, dead));
   if (sol->pressure) {
-    PetscCall(MeasureGap(sol, report));
-    PetscCall(VecDuplicate(sol->pressure, &weighted));
-    PetscCall(VecDuplicate(u, &contact));
-    PetscCall(VecPointwiseMult(weighted, sol->pressure, sim->solved->linearization->mass));
-    PetscCall(MatMultTranspose(sim->solved->linearization->J, weighted, contact));
-    PetscCall(FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, sol->shear, PETSC_DECIDE,
-      contact));
-    PetscCall(ForcesMeasurePairs(sim, u, weighted, sol->shear, report));
-    PetscCall(FrictionMeasure(sim, time, u, sol, report, &late));
-    PetscCall(MeasureActionReaction(sim, contact, report));
+    PetscCall(MeasureContact(sim, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
     if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));

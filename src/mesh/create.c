@@ -119,6 +119,25 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates labels, layout and nodes of the distributed and refined mesh, and moves the nodes to the surfaces
+   of curved bodies. refine: number of refinements since the mesh had the cells of `curves` */
+static PetscErrorCode MeshFinish(PetscInt nbodies, const SceneBody bodies[], const PetscInt orders[], PetscInt refine,
+  MeshCurves *curves, MeshHanging *hanging, DM dm)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshLabelRigid(dm, nbodies, bodies));
+  PetscCall(MeshSetSection(dm, orders));
+  PetscCall(MeshCreateNodes(dm, nbodies, orders));
+  PetscCall(MeshMapNodes(dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(MeshCurvesApply(curves, refine, dm, PETSC_TRUE));
+  PetscCall(MeshCurvesDestroy(curves));
+  PetscCall(MeshHangingFinish(dm, hanging));
+  PetscCall(MeshHangingPlace(dm));
+  PetscCall(MeshUpdateVertices(dm));
+  PetscCall(MeshCheckCells(dm, nbodies, bodies, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Creates the mesh and refines it uniformly. Local refinement follows, if there is any, before the mesh is
    distributed. */
 static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine,
@@ -165,17 +184,8 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   if (locally) PetscCall(MeshRefineLocally(local, bodies, dm, &curves, &hanging));
   if (size > 1 && !distributed) PetscCall(MeshDistribute(dm, &curves, &hanging));
   PetscCall(MeshRefine(dm, refine - before));
-  PetscCall(MeshLabelRigid(*dm, nbodies, bodies));
-  PetscCall(MeshSetSection(*dm, orders));
-  PetscCall(MeshCreateNodes(*dm, nbodies, orders));
+  PetscCall(MeshFinish(nbodies, bodies, orders, refine - before, &curves, &hanging, *dm));
   PetscCall(PetscFree(orders));
-  PetscCall(MeshMapNodes(*dm, nbodies, bodies, PETSC_TRUE));
-  PetscCall(MeshCurvesApply(&curves, refine - before, *dm, PETSC_TRUE));
-  PetscCall(MeshCurvesDestroy(&curves));
-  PetscCall(MeshHangingFinish(*dm, &hanging));
-  PetscCall(MeshHangingPlace(*dm));
-  PetscCall(MeshUpdateVertices(*dm));
-  PetscCall(MeshCheckCells(*dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(PetscObjectSetName((PetscObject)*dm, "mesh"));
   PetscCall(DMViewFromOptions(*dm, NULL, "-dm_view"));
   PetscCall(PetscLogEventEnd(MESH_Create, 0, 0, 0, 0));

@@ -35,57 +35,81 @@ static PetscErrorCode EffectSet(RunReport *report, const char name[], PetscBool 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
+/* How many bodies, contact pairs and symmetry planes use an effect */
+typedef struct {
+  PetscInt finite, plastic, rigid, mean, modes, second; /* bodies */
+  PetscInt friction;                                    /* contact pairs */
+  PetscInt planes;                                      /* symmetry planes */
+} EffectCounts;
+
+static PetscErrorCode EffectsCount(Simulation sim, EffectCounts *n)
 {
-  Scene        scene  = sim->scene;
-  PetscInt     finite = 0, planes = 0, rubbing = 0, plastic = 0, rigid = 0, mean = 0, modes = 0, second = 0, *nnodes;
+  Scene        scene = sim->scene;
+  PetscInt    *nnodes;
   ElementType *elements;
 
   PetscFunctionBegin;
+  *n = (EffectCounts){.finite = 0};
   PetscCall(PetscMalloc2(scene->nbodies, &nnodes, scene->nbodies, &elements));
   PetscCall(MeshGetBodyNodes(sim->dm, scene->nbodies, nnodes));
   PetscCall(SceneChooseElements(scene, sim->dm, elements, NULL));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    if (MaterialIsFinite(&scene->bodies[b].material)) ++finite;
-    if (MaterialYields(&scene->bodies[b].material)) ++plastic;
-    if (scene->bodies[b].material.type == MATERIAL_RIGID) ++rigid;
-    if (elements[b] == ELEMENT_BBAR) ++mean;
-    if (elements[b] == ELEMENT_INCOMPATIBLE) ++modes;
-    if (MeshOrder(nnodes[b]) > 1) ++second;
+    n->finite += MaterialIsFinite(&scene->bodies[b].material);
+    n->plastic += MaterialYields(&scene->bodies[b].material);
+    n->rigid += scene->bodies[b].material.type == MATERIAL_RIGID;
+    n->mean += elements[b] == ELEMENT_BBAR;
+    n->modes += elements[b] == ELEMENT_INCOMPATIBLE;
+    n->second += MeshOrder(nnodes[b]) > 1;
   }
   PetscCall(PetscFree2(nnodes, elements));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) planes += scene->displacements[d].inclined;
-  PetscCall(PetscCalloc1(EFFECTS_MAX, &report->effects));
-  for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
-  PetscCall(
-    EffectSet(report, "contact", (PetscBool)(scene->npairs > 0), "%" PetscInt_FMT " contact pairs", scene->npairs));
-  PetscCall(EffectSet(report, "contact updates", (PetscBool)(scene->npairs && scene->contact_updates > 1),
-    "contact_updates is %" PetscInt_FMT, scene->contact_updates));
-  PetscCall(EffectSet(report, "friction", (PetscBool)(rubbing > 0),
-    "%" PetscInt_FMT " contact pairs with friction, shear_limit or stick", rubbing));
-  PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
-    scene->npairs ? "contact constraints are stiff" : "no contact, nothing to filter"));
-  PetscCall(EffectSet(report, "finite strain", (PetscBool)(finite > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with a law of finite strain%s", finite, scene->nbodies,
-    !finite          ? ""
-    : sim->quadratic ? ", one tangent per load step"
-                     : ", true energy"));
-  PetscCall(EffectSet(report, "plasticity", (PetscBool)(plastic > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with a law of plasticity", plastic, scene->nbodies));
-  PetscCall(EffectSet(report, "rigid bodies", (PetscBool)(rigid > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of material rigid", rigid, scene->nbodies));
-  PetscCall(EffectSet(report, "mean dilatation", (PetscBool)(mean > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element bbar", mean, scene->nbodies));
-  PetscCall(EffectSet(report, "incompatible modes", (PetscBool)(modes > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies with element incompatible", modes, scene->nbodies));
-  PetscCall(EffectSet(report, "order 2", (PetscBool)(second > 0),
-    "%" PetscInt_FMT " of %" PetscInt_FMT " bodies of order 2", second, scene->nbodies));
-  PetscCall(EffectSet(report, "pressure", (PetscBool)(scene->npressures > 0), "%" PetscInt_FMT " pressures",
-    scene->npressures));
-  PetscCall(EffectSet(report, "traction", (PetscBool)(scene->ntractions > 0),
-    "%" PetscInt_FMT " tractions and forces on faces", scene->ntractions));
-  PetscCall(
-    EffectSet(report, "body force", (PetscBool)(scene->nforces > 0), "%" PetscInt_FMT " body forces", scene->nforces));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) n->planes += scene->displacements[d].inclined;
+  for (PetscInt p = 0; p < scene->npairs; ++p) n->friction += SceneContactPairHasFriction(&scene->pairs[p]);
+  PetscFunctionReturn(0);
+}
+
+/* Sets an effect that is on if there are n > 0 of the things that `what` names */
+static PetscErrorCode EffectSetCount(RunReport *report, const char name[], PetscInt n, const char what[])
+{
+  PetscFunctionBegin;
+  PetscCall(EffectSet(report, name, (PetscBool)(n > 0), "%" PetscInt_FMT " %s", n, what));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the effects of single bodies */
+static PetscErrorCode EffectsSetBodies(Simulation sim, const EffectCounts *n, RunReport *report)
+{
+  const struct {
+    const char *name;
+    PetscInt    n;
+    const char *what, *more;
+  } effects[] = {
+    {"finite strain", n->finite, "with a law of finite strain",
+      !n->finite       ? ""
+      : sim->quadratic ? ", one tangent per load step"
+                       : ", true energy"},
+    {"plasticity", n->plastic, "with a law of plasticity", ""},
+    {"rigid bodies", n->rigid, "of material rigid", ""},
+    {"mean dilatation", n->mean, "with element bbar", ""},
+    {"incompatible modes", n->modes, "with element incompatible", ""},
+    {"order 2", n->second, "of order 2", ""},
+  };
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(effects); ++k)
+    PetscCall(EffectSet(report, effects[k].name, (PetscBool)(effects[k].n > 0),
+      "%" PetscInt_FMT " of %" PetscInt_FMT " bodies %s%s", effects[k].n, sim->scene->nbodies, effects[k].what,
+      effects[k].more));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode EffectsSetLoads(Simulation sim, const EffectCounts *n, RunReport *report)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  PetscCall(EffectSetCount(report, "pressure", scene->npressures, "pressures"));
+  PetscCall(EffectSetCount(report, "traction", scene->ntractions, "tractions and forces on faces"));
+  PetscCall(EffectSetCount(report, "body force", scene->nforces, "body forces"));
   if (SceneIsDynamic(scene))
     PetscCall(
       EffectSet(report, "inertia", PETSC_TRUE, "%" PetscInt_FMT " time steps of %g, scheme %s, mass %s", scene->nsteps,
@@ -93,20 +117,38 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   else PetscCall(EffectSet(report, "inertia", PETSC_FALSE, "no dynamics: a static analysis"));
   PetscCall(EffectSet(report, "springs", (PetscBool)(scene->nsprings + scene->nconnectors > 0),
     "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
-  PetscCall(EffectSet(report, "pretension", (PetscBool)(scene->nbolts > 0), "%" PetscInt_FMT " bolts", scene->nbolts));
+  PetscCall(EffectSetCount(report, "pretension", scene->nbolts, "bolts"));
   PetscCall(EffectSet(report, "weak springs", (PetscBool)(scene->weak_springs > 0.0),
     scene->weak_springs ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
     sim->springs.nweak));
-  PetscCall(EffectSet(report, "thermal strain", (PetscBool)(scene->ntemperatures > 0), "%" PetscInt_FMT " temperatures",
-    scene->ntemperatures));
+  PetscCall(EffectSetCount(report, "thermal strain", scene->ntemperatures, "temperatures"));
   PetscCall(EffectSet(report, "ties", (PetscBool)(scene->nties + scene->ncyclic > 0),
     "%" PetscInt_FMT " ties, %" PetscInt_FMT " cyclic symmetries", scene->nties, scene->ncyclic));
-  PetscCall(EffectSet(report, "inclined symmetry", (PetscBool)(planes > 0),
-    "%" PetscInt_FMT " symmetry planes that are not normal to an axis", planes));
+  PetscCall(EffectSetCount(report, "inclined symmetry", n->planes, "symmetry planes that are not normal to an axis"));
   if (scene->displacement_bounds)
     PetscCall(EffectSet(report, "displacement bounds", PETSC_TRUE, "from load step %" PetscInt_FMT,
       scene->displacement_bounds));
   else PetscCall(EffectSet(report, "displacement bounds", PETSC_FALSE, "displacement_bounds is not set"));
+  PetscFunctionReturn(0);
+}
+
+/* Lists the effects of a scene. Their times are set at the end of the run. */
+PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
+{
+  Scene        scene = sim->scene;
+  EffectCounts n;
+
+  PetscFunctionBegin;
+  PetscCall(EffectsCount(sim, &n));
+  PetscCall(PetscCalloc1(EFFECTS_MAX, &report->effects));
+  PetscCall(EffectSetCount(report, "contact", scene->npairs, "contact pairs"));
+  PetscCall(EffectSet(report, "contact updates", (PetscBool)(scene->npairs && scene->contact_updates > 1),
+    "contact_updates is %" PetscInt_FMT, scene->contact_updates));
+  PetscCall(EffectSetCount(report, "friction", n.friction, "contact pairs with friction, shear_limit or stick"));
+  PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
+    scene->npairs ? "contact constraints are stiff" : "no contact, nothing to filter"));
+  PetscCall(EffectsSetBodies(sim, &n, report));
+  PetscCall(EffectsSetLoads(sim, &n, report));
   PetscCall(EffectSet(report, "error estimate", sim->results->estimate,
     sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
   PetscCall(EffectSet(report, "probes and fields",

@@ -264,6 +264,32 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SimulationFreeReport(RunReport *report)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < report->nsteps; ++i) {
+    StepReport *step = &report->steps[i];
+
+    PetscCall(PetscFree(step->ksp_iterations));
+    PetscCall(PetscFree(step->body_errors));
+    PetscCall(PetscFree(step->ramps));
+    PetscCall(PetscFree(step->motions));
+    PetscCall(PetscFree(step->probes));
+    PetscCall(PetscFree(step->lines));
+    PetscCall(ForcesFree(step));
+    PetscCall(PetscFree(step->rigid_bodies));
+    PetscCall(PetscFree(step->bolts));
+    PetscCall(PetscFree(step->connectors));
+    PetscCall(PetscFree(*(char **)&step->reason));
+  }
+  PetscCall(PetscFree(report->steps));
+  PetscCall(PetscFree2(report->bodies, report->assemblies));
+  PetscCall(PetscFree(report->effects));
+  for (PetscInt i = 0; i < report->nwarnings; ++i) PetscCall(PetscFree(*(char **)&report->warnings[i]));
+  PetscCall(PetscFree(report->warnings));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationDestroy - Frees a simulation and its report
 
@@ -282,24 +308,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
 
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(0);
-  for (PetscInt i = 0; i < s->report.nsteps; ++i) {
-    PetscCall(PetscFree(s->report.steps[i].ksp_iterations));
-    PetscCall(PetscFree(s->report.steps[i].body_errors));
-    PetscCall(PetscFree(s->report.steps[i].ramps));
-    PetscCall(PetscFree(s->report.steps[i].motions));
-    PetscCall(PetscFree(s->report.steps[i].probes));
-    PetscCall(PetscFree(s->report.steps[i].lines));
-    PetscCall(ForcesFree(&s->report.steps[i]));
-    PetscCall(PetscFree(s->report.steps[i].rigid_bodies));
-    PetscCall(PetscFree(s->report.steps[i].bolts));
-    PetscCall(PetscFree(s->report.steps[i].connectors));
-    PetscCall(PetscFree(*(char **)&s->report.steps[i].reason));
-  }
-  PetscCall(PetscFree(s->report.steps));
-  PetscCall(PetscFree2(s->report.bodies, s->report.assemblies));
-  PetscCall(PetscFree(s->report.effects));
-  for (PetscInt i = 0; i < s->report.nwarnings; ++i) PetscCall(PetscFree(*(char **)&s->report.warnings[i]));
-  PetscCall(PetscFree(s->report.warnings));
+  PetscCall(SimulationFreeReport(&s->report));
   PetscCall(PetscFree2(s->solved->pressure, s->solved->gap));
   PetscCall(PetscFree2(s->solved->shear, s->solved->slip));
   PetscCall(PetscFree(s->control->cause));

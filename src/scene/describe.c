@@ -150,27 +150,19 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
   PetscFunctionReturn(0);
 }
 
+/* Collective. Gets the number of a face's facets, and their area, on all ranks */
 static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nfacets, PetscReal *area)
 {
-  MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
-  IS              facets;
-  const PetscInt *f;
+  PetscReal sums[4];
+  IS        facets;
 
   PetscFunctionBegin;
-  *area = 0;
   PetscCall(MeshGetFacets(dm, face, &facets));
   PetscCall(ISGetLocalSize(facets, nfacets));
-  PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < *nfacets; ++i) {
-    PetscReal facet;
-
-    PetscCall(DMPlexComputeCellGeometryFVM(dm, f[i], &facet, NULL, NULL));
-    *area += facet;
-  }
-  PetscCall(ISRestoreIndices(facets, &f));
+  PetscCall(MeshSumFacetAreas(dm, facets, sums));
   PetscCall(ISDestroy(&facets));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nfacets, 1, MPIU_INT, MPI_SUM, comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nfacets, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+  *area = 0.5 * sums[3];
   PetscFunctionReturn(0);
 }
 
@@ -198,96 +190,6 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
         (double)area));
   }
   PetscCall(PetscFree2(faces, order));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode DescribeLoads(Scene scene, PetscViewer viewer)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Loads, at factor 1\n"));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    const SceneDisplacement *here = &scene->displacements[d];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  displacement %s: %s", here->name, here->face));
-    for (PetscInt i = 0; i < 3; ++i) {
-      if (here->fixed[i] || (SceneIsWholeBody(here->face) && !here->released[i]))
-        PetscCall(PetscViewerASCIIPrintf(viewer, ", u%c = %.6g", "xyz"[i], (double)here -> value[i]));
-    }
-    for (PetscInt i = 0; i < 6; ++i) {
-      if (here->released[i])
-        PetscCall(PetscViewerASCIIPrintf(viewer, ", free %s %c", i < 3 ? "along" : "about", "xyz"[i % 3]));
-    }
-    if (here->inclined)
-      PetscCall(PetscViewerASCIIPrintf(viewer, ", no displacement along (%.6g, %.6g, %.6g)", (double)here->normal[0],
-        (double)here->normal[1], (double)here->normal[2]));
-    if (SceneRotates(here))
-      PetscCall(PetscViewerASCIIPrintf(viewer, ", rotated by (%.6g, %.6g, %.6g) degrees about (%.6g, %.6g, %.6g)",
-        (double)here->rotation[0], (double)here->rotation[1], (double)here->rotation[2], (double)here->center[0],
-        (double)here->center[1], (double)here->center[2]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
-  }
-  for (PetscInt p = 0; p < scene->npressures; ++p) {
-    const ScenePressure *here = &scene->pressures[p];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g%s, follows %s\n", here->name, here->face,
-      (double)here->value, here->follows ? " on the deformed face" : "", scene->ramps[here->ramp].name));
-  }
-  for (PetscInt t = 0; t < scene->ntractions; ++t) {
-    const SceneTraction *here = &scene->tractions[t];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s %s: %s, (%.6g, %.6g, %.6g)", here->resultant ? "force" : "traction",
-      here->name, here->face, (double)here->value[0], (double)here->value[1], (double)here->value[2]));
-    if (here->placed)
-      PetscCall(PetscViewerASCIIPrintf(viewer, ", at (%.6g, %.6g, %.6g)", (double)here->point[0],
-        (double)here->point[1], (double)here->point[2]));
-    if (here->resultant)
-      PetscCall(PetscViewerASCIIPrintf(viewer, ", moment (%.6g, %.6g, %.6g)", (double)here->moment[0],
-        (double)here->moment[1], (double)here->moment[2]));
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s\n", scene->ramps[here->ramp].name));
-  }
-  for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    const SceneSpring *here = &scene->springs[s];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  springs %s: %s%s%s, stiffness (%.6g, %.6g, %.6g) per area\n",
-      here->name, here->face, here->to ? " to " : "", here->to ? here->to : "", (double)here->value[0],
-      (double)here->value[1], (double)here->value[2]));
-  }
-  for (PetscInt c = 0; c < scene->nconnectors; ++c) {
-    const SceneConnector *here = &scene->connectors[c];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  connector %s: %s to %s, ", here->name, scene->bodies[here->body].name,
-      here->to < 0 ? "the ground" : scene->bodies[here->to].name));
-    if (here->axial)
-      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness %.6g along the line", (double)here->stiffness));
-    else
-      PetscCall(PetscViewerASCIIPrintf(viewer, "stiffness (%.6g, %.6g, %.6g)", (double)here->value[0],
-        (double)here->value[1], (double)here->value[2]));
-    if (here->damping > 0.0) PetscCall(PetscViewerASCIIPrintf(viewer, ", damping %.6g", (double)here->damping));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  }
-  for (PetscInt b = 0; b < scene->nbolts; ++b) {
-    const SceneBolt *here = &scene->bolts[b];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  bolt %s: %s, %s %.6g, follows %s", here->name,
-      scene->bodies[here->body].name, here->shortens ? "shortened by" : "tension",
-      (double)(here->shortens ? here->shortening : here->force), scene->ramps[here->ramp].name));
-    if (here->lock) PetscCall(PetscViewerASCIIPrintf(viewer, ", locked after load step %" PetscInt_FMT, here->lock));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  }
-  for (PetscInt f = 0; f < scene->nforces; ++f) {
-    const SceneBodyForce *here = &scene->forces[f];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  body force %s: %s, (%.6g, %.6g, %.6g), follows %s\n", here->name,
-      here->body < 0 ? "every body" : scene->bodies[here->body].name, (double)here->value[0], (double)here->value[1],
-      (double)here->value[2], scene->ramps[here->ramp].name));
-  }
-  for (PetscInt t = 0; t < scene->ntemperatures; ++t) {
-    const SceneTemperature *here = &scene->temperatures[t];
-
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  temperature %s: %s, %s, follows %s\n", here->name,
-      here->body < 0 ? "every body that expands" : scene->bodies[here->body].name, here->value,
-      scene->ramps[here->ramp].name));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -521,7 +423,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeFindChoices(scene, dm, choices));
   PetscCall(DescribeBodies(scene, dm, choices, viewer));
   PetscCall(DescribeFaces(dm, viewer));
-  PetscCall(DescribeLoads(scene, viewer));
+  PetscCall(SceneDescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
   PetscCall(DescribeTies(scene, viewer));
   PetscCall(DescribeRefinements(scene, dm, viewer));

@@ -14,6 +14,9 @@ PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
 /* key_meanings.c: prints the keys of shapes and the constants of materials as Markdown tables */
 PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKeys(PetscViewer);
 
+/* describe_loads.c: prints the loads of a scene */
+PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
+
 /* view.c, describe.c, scene.c: their functions are declared in the public header */
 
 #endif

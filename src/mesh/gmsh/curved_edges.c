@@ -14,26 +14,12 @@
 /* The boundary facets of a grid, with vertices counterclockwise seen from outside. Corner 4 f + a is vertex a of facet
    f. It also represents the edge from that vertex to the next. */
 typedef struct {
-  PetscInt         ncorners, *vertex;
+  PetscInt         ncorners;
+  const PetscInt  *vertex;
   PetscInt        *twin; /* for each corner, the corner that represents the same edge in the neighbouring facet; -1
                             if the edge is sharp or does not have exactly one neighbour */
   const PetscReal *x;    /* 3 coordinates per vertex [length] */
 } ArcSurface;
-
-/* An item, with the number `at`, that is identified by up to four vertices in ascending order */
-typedef struct {
-  PetscInt key[4], at;
-} ArcKey;
-
-static int ArcCompareKeys(const void *a, const void *b)
-{
-  const PetscInt *x = ((const ArcKey *)a)->key, *y = ((const ArcKey *)b)->key;
-
-  for (int i = 0; i < 4; ++i) {
-    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
-  }
-  return 0;
-}
 
 static PetscInt ArcAfter(PetscInt corner)
 {
@@ -51,49 +37,14 @@ static void ArcEdge(const ArcSurface *s, PetscInt from, PetscInt to, PetscReal e
   for (PetscInt d = 0; d < 3; ++d) e[d] = s->x[3 * s->vertex[to] + d] - s->x[3 * s->vertex[from] + d];
 }
 
-/* Finds the sides of cells that belong to only one cell */
-static PetscErrorCode ArcFindSurface(const ShapeGrid *grid, ArcSurface *s)
-{
-  static const PetscInt side[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1},
-    {4, 5, 7, 6}};
-  const PetscInt        n          = 6 * grid->ncells;
-  ArcKey               *keys;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &keys));
-  for (PetscInt i = 0; i < n; ++i) {
-    for (PetscInt a = 0; a < 4; ++a) keys[i].key[a] = grid->cells[8 * (i / 6) + side[i % 6][a]];
-    PetscCall(PetscSortInt(4, keys[i].key));
-    keys[i].at = i;
-  }
-  if (n) qsort(keys, (size_t)n, sizeof(*keys), ArcCompareKeys);
-  PetscCall(PetscMalloc2(4 * n, &s->vertex, 4 * n, &s->twin));
-  s->ncorners = 0;
-  s->x        = grid->coordinates;
-  for (PetscInt i = 0; i < n; ++i) {
-    if ((i && !ArcCompareKeys(&keys[i], &keys[i - 1])) || (i + 1 < n && !ArcCompareKeys(&keys[i], &keys[i + 1])))
-      continue;
-    for (PetscInt a = 0; a < 4; ++a)
-      s->vertex[s->ncorners++] = grid->cells[8 * (keys[i].at / 6) + side[keys[i].at % 6][a]];
-  }
-  PetscCall(PetscFree(keys));
-  PetscFunctionReturn(0);
-}
-
-/* Computes the unit normal of a corner's facet from its diagonals, because a facet need not be plane */
+/* Computes the unit normal of a corner's facet */
 static void ArcFacetNormal(const ArcSurface *s, PetscInt corner, PetscReal n[3])
 {
-  const PetscInt first = corner - corner % 4;
-  PetscReal      d1[3], d2[3];
-
-  ArcEdge(s, first, first + 2, d1);
-  ArcEdge(s, first + 1, first + 3, d2);
-  VectorCross(d1, d2, n);
-  (void)VectorScaleToUnit(n);
+  ShapeFacetNormal(s->x, &s->vertex[corner - corner % 4], n);
 }
 
 /* Finds the neighbour of each edge. edges: all corners, sorted by the ends of their edges */
-static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
+static void ArcFindTwins(const ShapeItem edges[], ArcSurface *s)
 {
   const PetscReal cosine = PetscCosReal(ARC_FEATURE * PETSC_PI / 180);
 
@@ -101,7 +52,7 @@ static void ArcFindTwins(const ArcKey edges[], ArcSurface *s)
   for (PetscInt i = 0, end; i < s->ncorners; i = end) {
     PetscReal n[3], m[3];
 
-    for (end = i + 1; end < s->ncorners && !ArcCompareKeys(&edges[i], &edges[end]);) ++end;
+    for (end = i + 1; end < s->ncorners && !ShapeCompareItems(&edges[i], &edges[end]);) ++end;
     if (end - i != 2) continue;
     ArcFacetNormal(s, edges[i].at, n);
     ArcFacetNormal(s, edges[i + 1].at, m);
@@ -243,14 +194,14 @@ static void ArcMeet(PetscReal h1, const PetscReal n1[3], PetscReal h2, const Pet
 
 /* Computes for each edge of the surface, in the order of `edges`, the vector `off` by which its middle is moved
    [length]. Equal edges store it at the first of them. Returns whether any edge is curved. */
-static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscReal off[])
+static PetscBool ArcBendEdges(const ArcSurface *s, const ShapeItem edges[], PetscReal off[])
 {
   PetscBool bent = PETSC_FALSE;
 
   for (PetscInt i = 0, end; i < s->ncorners; i = end) {
     PetscReal h[2], n[2][3];
 
-    for (end = i + 1; end < s->ncorners && !ArcCompareKeys(&edges[i], &edges[end]);) ++end;
+    for (end = i + 1; end < s->ncorners && !ShapeCompareItems(&edges[i], &edges[end]);) ++end;
     off[3 * i] = off[3 * i + 1] = off[3 * i + 2] = 0;
     if (end - i != 2) continue;
     for (PetscInt k = 0; k < 2; ++k) h[k] = ArcHeight(s, edges[i + k].at, n[k]);
@@ -260,15 +211,15 @@ static PetscBool ArcBendEdges(const ArcSurface *s, const ArcKey edges[], PetscRe
   return bent;
 }
 
-static ArcKey ArcEdgeKey(PetscInt a, PetscInt b, PetscInt at)
+static ShapeItem ArcEdgeItem(PetscInt a, PetscInt b, PetscInt at)
 {
-  const ArcKey key = {{PetscMin(a, b), PetscMax(a, b), 0, 0}, at};
+  const ShapeItem item = {{PetscMin(a, b), PetscMax(a, b), 0, 0}, at};
 
-  return key;
+  return item;
 }
 
 /* Computes the quadratic cells: middles of edges on the surface are moved by `off` */
-static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey edges[], const PetscReal off[],
+static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ShapeItem edges[], const PetscReal off[],
   PetscReal curve[])
 {
   for (PetscInt c = 0; c < grid->ncells; ++c) {
@@ -276,11 +227,11 @@ static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey ed
 
     for (PetscInt a = 0; a < 20; ++a) {
       const PetscInt *ends = GmshHexahedronEnds[a], from = grid->cells[8 * c + ends[0]],
-                     to  = grid->cells[8 * c + ends[1]];
-      const ArcKey  key  = ArcEdgeKey(from, to, 0);
-      const ArcKey *edge = (const ArcKey *)bsearch(&key, edges, (size_t)nedges, sizeof(key), ArcCompareKeys);
+                     to     = grid->cells[8 * c + ends[1]];
+      const ShapeItem  key  = ArcEdgeItem(from, to, 0);
+      const ShapeItem *edge = (const ShapeItem *)bsearch(&key, edges, (size_t)nedges, sizeof(key), ShapeCompareItems);
 
-      while (edge && edge > edges && !ArcCompareKeys(edge - 1, edge)) --edge;
+      while (edge && edge > edges && !ShapeCompareItems(edge - 1, edge)) --edge;
       for (PetscInt d = 0; d < 3; ++d)
         x[a][d] = (grid->coordinates[3 * from + d] + grid->coordinates[3 * to + d]) / 2 +
                   (edge ? off[3 * (edge - edges) + d] : 0);
@@ -292,21 +243,26 @@ static void ArcFillCurve(const ShapeGrid *grid, PetscInt nedges, const ArcKey ed
 /* Sets the grid's curve, unless all its edges are straight */
 PetscErrorCode ShapeGridProject(ShapeGrid *grid)
 {
-  ArcSurface s;
-  ArcKey    *edges;
-  PetscReal *off;
+  ShapeBoundary boundary;
+  ArcSurface    s = {.x = grid->coordinates};
+  ShapeItem    *edges;
+  PetscReal    *off;
 
   PetscFunctionBegin;
-  PetscCall(ArcFindSurface(grid, &s));
+  PetscCall(ShapeBoundaryCreate(grid, s.x, &boundary));
+  s.ncorners = 4 * boundary.n;
+  s.vertex   = boundary.vertex;
+  PetscCall(PetscMalloc1(s.ncorners, &s.twin));
   PetscCall(PetscMalloc2(s.ncorners, &edges, 3 * s.ncorners, &off));
-  for (PetscInt i = 0; i < s.ncorners; ++i) edges[i] = ArcEdgeKey(s.vertex[i], s.vertex[ArcAfter(i)], i);
-  if (s.ncorners) qsort(edges, (size_t)s.ncorners, sizeof(*edges), ArcCompareKeys);
+  for (PetscInt i = 0; i < s.ncorners; ++i) edges[i] = ArcEdgeItem(s.vertex[i], s.vertex[ArcAfter(i)], i);
+  if (s.ncorners) qsort(edges, (size_t)s.ncorners, sizeof(*edges), ShapeCompareItems);
   ArcFindTwins(edges, &s);
   if (ArcBendEdges(&s, edges, off)) {
     PetscCall(PetscMalloc1(81 * grid->ncells, &grid->curve));
     ArcFillCurve(grid, s.ncorners, edges, off, grid->curve);
   }
   PetscCall(PetscFree2(edges, off));
-  PetscCall(PetscFree2(s.vertex, s.twin));
+  PetscCall(PetscFree(s.twin));
+  PetscCall(ShapeBoundaryDestroy(&boundary));
   PetscFunctionReturn(0);
 }

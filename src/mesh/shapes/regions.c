@@ -4,14 +4,9 @@
 #include <stdlib.h>
 #include <vector3.h>
 
-/* An item, with the number `at`, that is identified by up to four vertices in ascending order */
-typedef struct {
-  PetscInt key[4], at;
-} RegionKey;
-
-static int RegionCompareKeys(const void *a, const void *b)
+int ShapeCompareItems(const void *a, const void *b)
 {
-  const RegionKey *x = (const RegionKey *)a, *y = (const RegionKey *)b;
+  const ShapeItem *x = (const ShapeItem *)a, *y = (const ShapeItem *)b;
 
   for (int i = 0; i < 4; ++i) {
     if (x->key[i] != y->key[i]) return x->key[i] < y->key[i] ? -1 : 1;
@@ -21,14 +16,14 @@ static int RegionCompareKeys(const void *a, const void *b)
 
 static int RegionCompareSides(const void *a, const void *b)
 {
-  const int order = RegionCompareKeys(a, b);
+  const int order = ShapeCompareItems(a, b);
 
-  return order ? order : (((const RegionKey *)a)->at < ((const RegionKey *)b)->at ? -1 : 1);
+  return order ? order : (((const ShapeItem *)a)->at < ((const ShapeItem *)b)->at ? -1 : 1);
 }
 
 /* Sets the key of a facet with 4 vertices. A triangle repeats its last vertex; its key contains -1 in place of the
    repetition. */
-static PetscErrorCode RegionFacetKey(const PetscInt vertex[4], PetscInt at, RegionKey *key)
+static PetscErrorCode RegionFacetKey(const PetscInt vertex[4], PetscInt at, ShapeItem *key)
 {
   PetscFunctionBegin;
   for (PetscInt a = 0; a < 4; ++a) key->key[a] = a == 3 && vertex[3] == vertex[2] ? -1 : vertex[a];
@@ -77,7 +72,7 @@ static void RegionTurnOutside(const ShapeGrid *grid, const PetscReal x[], PetscI
 PetscErrorCode ShapeBoundaryCreate(const ShapeGrid *grid, const PetscReal x[], ShapeBoundary *b)
 {
   const PetscInt nsides = grid->ncorners == 4 ? 4 : 6, n = nsides * grid->ncells;
-  RegionKey     *keys;
+  ShapeItem     *keys;
   PetscInt      *sides;
 
   PetscFunctionBegin;
@@ -92,8 +87,8 @@ PetscErrorCode ShapeBoundaryCreate(const ShapeGrid *grid, const PetscReal x[], S
   if (n) qsort(keys, (size_t)n, sizeof(*keys), RegionCompareSides);
   b->n = 0;
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscBool before = (PetscBool)(i && !RegionCompareKeys(&keys[i], &keys[i - 1]));
-    const PetscBool after  = (PetscBool)(i + 1 < n && !RegionCompareKeys(&keys[i], &keys[i + 1]));
+    const PetscBool before = (PetscBool)(i && !ShapeCompareItems(&keys[i], &keys[i - 1]));
+    const PetscBool after  = (PetscBool)(i + 1 < n && !ShapeCompareItems(&keys[i], &keys[i + 1]));
 
     if (!before && !after) sides[b->n++] = keys[i].at;
   }
@@ -119,15 +114,13 @@ PetscErrorCode ShapeBoundaryDestroy(ShapeBoundary *b)
   PetscFunctionReturn(0);
 }
 
-/* Computes the unit normal of facet f */
-static void RegionNormal(const ShapeBoundary *b, const PetscReal x[], PetscInt f, PetscReal n[3])
+void ShapeFacetNormal(const PetscReal x[], const PetscInt vertex[4], PetscReal n[3])
 {
-  const PetscInt *v = &b->vertex[4 * f];
-  PetscReal       d[2][3];
+  PetscReal d[2][3];
 
   for (PetscInt c = 0; c < 3; ++c) {
-    d[0][c] = x[3 * v[2] + c] - x[3 * v[0] + c];
-    d[1][c] = x[3 * v[3] + c] - x[3 * v[1] + c];
+    d[0][c] = x[3 * vertex[2] + c] - x[3 * vertex[0] + c];
+    d[1][c] = x[3 * vertex[3] + c] - x[3 * vertex[1] + c];
   }
   VectorCross(d[0], d[1], n);
   (void)VectorScaleToUnit(n);
@@ -153,7 +146,7 @@ static void RegionNumber(ShapeBoundary *b)
 PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeBoundary *b)
 {
   const PetscReal cosine = PetscCosReal(degrees * PETSC_PI / 180);
-  RegionKey      *edges;
+  ShapeItem      *edges;
   PetscInt        n = 0;
 
   PetscFunctionBegin;
@@ -166,14 +159,14 @@ PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeB
     edges[n].key[1] = PetscMax(from, to);
     edges[n++].at   = i / 4;
   }
-  if (n) qsort(edges, (size_t)n, sizeof(*edges), RegionCompareKeys);
+  if (n) qsort(edges, (size_t)n, sizeof(*edges), ShapeCompareItems);
   for (PetscInt i = 0, end; i < n; i = end) {
     PetscReal n1[3], n2[3];
 
-    for (end = i + 1; end < n && !RegionCompareKeys(&edges[i], &edges[end]);) ++end;
+    for (end = i + 1; end < n && !ShapeCompareItems(&edges[i], &edges[end]);) ++end;
     if (end - i != 2) continue;
-    RegionNormal(b, x, edges[i].at, n1);
-    RegionNormal(b, x, edges[i + 1].at, n2);
+    ShapeFacetNormal(x, &b->vertex[4 * edges[i].at], n1);
+    ShapeFacetNormal(x, &b->vertex[4 * edges[i + 1].at], n2);
     if (VectorDot(n1, n2) >= cosine) {
       const PetscInt one = RegionFind(b->region, edges[i].at), two = RegionFind(b->region, edges[i + 1].at);
 
@@ -187,7 +180,7 @@ PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeB
 
 PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *b, const ShapeGrid *grid, PetscInt nfaces, PetscInt name[])
 {
-  RegionKey *keys;
+  ShapeItem *keys;
   PetscInt  *count, *facets;
 
   PetscFunctionBegin;
@@ -197,16 +190,16 @@ PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *b, const ShapeGrid *
     PetscCall(RegionFacetKey(&b->vertex[4 * f], b->region[f], &keys[f]));
     ++count[b->region[f]];
   }
-  if (b->n) qsort(keys, (size_t)b->n, sizeof(*keys), RegionCompareKeys);
+  if (b->n) qsort(keys, (size_t)b->n, sizeof(*keys), ShapeCompareItems);
   for (PetscInt f = 0; f < nfaces; ++f) name[f] = PETSC_DECIDE;
   for (PetscInt q = 0; q < grid->nfacets; ++q) {
     const PetscInt   f = grid->facetface[q];
-    RegionKey        key;
-    const RegionKey *found;
+    ShapeItem        key;
+    const ShapeItem *found;
 
     if (f >= nfaces) continue;
     PetscCall(RegionFacetKey(&grid->facets[4 * q], 0, &key));
-    found = (const RegionKey *)bsearch(&key, keys, (size_t)b->n, sizeof(key), RegionCompareKeys);
+    found = (const ShapeItem *)bsearch(&key, keys, (size_t)b->n, sizeof(key), ShapeCompareItems);
     if (!found || (name[f] >= 0 && name[f] != found->at)) name[f] = -2; /* The face has facets on several regions. */
     else if (name[f] == PETSC_DECIDE) name[f] = found->at;
     ++facets[f];
@@ -221,20 +214,20 @@ PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *b, const ShapeGrid *
 
 PetscErrorCode ShapeBoundaryUseFaces(const ShapeGrid *grid, PetscInt nfaces, ShapeBoundary *b)
 {
-  RegionKey *keys;
+  ShapeItem *keys;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(grid->nfacets, &keys));
   for (PetscInt q = 0; q < grid->nfacets; ++q)
     PetscCall(RegionFacetKey(&grid->facets[4 * q], grid->facetface[q], &keys[q]));
-  if (grid->nfacets) qsort(keys, (size_t)grid->nfacets, sizeof(*keys), RegionCompareKeys);
+  if (grid->nfacets) qsort(keys, (size_t)grid->nfacets, sizeof(*keys), ShapeCompareItems);
   b->nregions = nfaces;
   for (PetscInt f = 0; f < b->n; ++f) {
-    RegionKey        key;
-    const RegionKey *found;
+    ShapeItem        key;
+    const ShapeItem *found;
 
     PetscCall(RegionFacetKey(&b->vertex[4 * f], 0, &key));
-    found = (const RegionKey *)bsearch(&key, keys, (size_t)grid->nfacets, sizeof(key), RegionCompareKeys);
+    found = (const ShapeItem *)bsearch(&key, keys, (size_t)grid->nfacets, sizeof(key), ShapeCompareItems);
     PetscCheck(found, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A boundary facet of a shape is on none of its faces");
     b->region[f] = found->at;
   }

@@ -65,6 +65,8 @@ PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, Petsc
    - ShapeBoundaryUseFaces() makes the faces of a shape the regions.
    - ShapeBoundaryMatchFaces() computes, for each of the first nfaces faces, the number of the region that consists of
      the same facets; it is negative if there is none.
+   - ShapeFacetNormal() computes the unit normal of a facet from its diagonals, because a facet need not be plane.
+   - ShapeCompareItems() orders items by their vertices, for qsort() and bsearch().
 */
 #define SHAPE_SHARP 35.0 /* angle between normals above which an edge separates two surfaces of a body [degrees] */
 typedef struct {
@@ -78,6 +80,13 @@ PETSC_INTERN PetscErrorCode ShapeBoundaryUseFaces(const ShapeGrid *, PetscInt nf
 PETSC_INTERN PetscErrorCode ShapeBoundaryMatchFaces(const ShapeBoundary *, const ShapeGrid *, PetscInt nfaces,
   PetscInt region[]);
 PETSC_INTERN PetscErrorCode ShapeBoundaryDestroy(ShapeBoundary *);
+PETSC_INTERN void           ShapeFacetNormal(const PetscReal x[], const PetscInt vertex[4], PetscReal n[3]);
+
+/* An item, with the number `at`, that is identified by up to four vertices in ascending order */
+typedef struct {
+  PetscInt key[4], at;
+} ShapeItem;
+PETSC_INTERN int ShapeCompareItems(const void *, const void *);
 
 /* Keys of shapes in scenes. They set fields of a SceneBody. A key with an underscore may be written nested, as in
    outer: {radius: 1}. */
