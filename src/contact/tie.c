@@ -16,28 +16,12 @@ static const PetscReal tie_uncovered = 2e-2, tie_uncovered_vertex = 0.3;
 
 /* Sums over all facets: entries of the matrix of weights, and the covered and the whole area of each node [length^2] */
 typedef struct {
-  PetscInt     n, size, *row, *column; /* number of entries, space for entries, and their rows and columns */
-  PetscScalar *value;
-  Vec          covered, whole;
+  ContactEntries entries; /* of the matrix [length^2] */
+  Vec            covered, whole;
 } TieSums;
 
-/* Appends an entry [length^2] of the matrix */
-static PetscErrorCode TieSumsAdd(TieSums *sums, PetscInt row, PetscInt column, PetscReal value)
-{
-  PetscFunctionBegin;
-  if (sums->n == sums->size) {
-    sums->size = 2 * sums->size + 1024;
-    PetscCall(PetscRealloc(sums->size * sizeof(PetscInt), &sums->row));
-    PetscCall(PetscRealloc(sums->size * sizeof(PetscInt), &sums->column));
-    PetscCall(PetscRealloc(sums->size * sizeof(PetscScalar), &sums->value));
-  }
-  sums->row[sums->n]     = row;
-  sums->column[sums->n]  = column;
-  sums->value[sums->n++] = value;
-  PetscFunctionReturn(0);
-}
-
-/* Computes a = diag(w) mass^-1 for n vertices, where w are the row sums of mass. Returns false if mass is singular, which means that almost nothing is covered. */
+/* Computes a = diag(w) mass^-1 for n vertices, where w are the row sums of mass. Returns false if mass is singular,
+   which means that almost nothing is covered. */
 static PetscBool TieDual(PetscInt n, PetscReal mass[4][4], PetscReal a[4][4])
 {
   for (PetscInt i = 0; i < 16; ++i) a[i / 4][i % 4] = mass[i / 4][i % 4];
@@ -105,7 +89,8 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
         PetscReal value = 0.0;
 
         for (PetscInt b = 0; b < n; ++b) value += dual[a][b] * m.M[b][c];
-        if (value != 0.0) PetscCall(TieSumsAdd(sums, node[a], mortar->node[4 * near[k] + c], value));
+        if (value != 0.0)
+          PetscCall(ContactEntriesAdd(&sums->entries, node[a], 1, &mortar->node[4 * near[k] + c], &value));
       }
     }
   }
@@ -161,11 +146,7 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscCall(VecAssemblyBegin(sums->whole));
   PetscCall(VecAssemblyEnd(sums->whole));
   PetscCall(VecGetLocalSize(sums->covered, &n));
-  PetscCall(MatCreate(comm, rows));
-  PetscCall(MatSetSizes(*rows, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(*rows, MATAIJ));
-  PetscCall(MatSetPreallocationCOO(*rows, sums->n, sums->row, sums->column));
-  PetscCall(MatSetValuesCOO(*rows, sums->value, INSERT_VALUES));
+  PetscCall(ContactEntriesCreateMatrix(comm, n, n, &sums->entries, rows));
   PetscCall(VecGetArray(sums->covered, &covered));
   PetscCall(VecGetArrayRead(sums->whole, &whole));
   for (PetscInt i = 0; i < n; ++i) {
@@ -235,7 +216,7 @@ PetscErrorCode ContactTieCreate(DM dm, const char what[], const SceneTie *tie, M
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
   ContactBoundary boundary;
   ContactSurface  mortar = {0}, nonmortar = {0};
-  TieSums         sums = {0};
+  TieSums         sums = {.entries = {.width = 1}};
   PetscReal      *thickness, distance;
   PetscInt        n, total;
   Vec             u;
@@ -262,9 +243,7 @@ PetscErrorCode ContactTieCreate(DM dm, const char what[], const SceneTie *tie, M
   PetscCall(TieSetTrace(dm, &mortar, &nonmortar, *rows));
   PetscCall(VecDestroy(&sums.covered));
   PetscCall(VecDestroy(&sums.whole));
-  PetscCall(PetscFree(sums.row));
-  PetscCall(PetscFree(sums.column));
-  PetscCall(PetscFree(sums.value));
+  PetscCall(ContactEntriesDestroy(&sums.entries));
   PetscCall(ContactSurfaceDestroy(&mortar));
   PetscCall(ContactSurfaceDestroy(&nonmortar));
   PetscFunctionReturn(0);

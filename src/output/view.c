@@ -10,6 +10,18 @@ static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, Pets
   PetscFunctionReturn(0);
 }
 
+/* Prints an empty line and a table with n rows; nothing if there are no rows */
+static PetscErrorCode ViewList(const RunReport *report, ReportTable table, const ReportRecord *type, PetscInt n,
+  const void *rows, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscCall(TableViewHead(report, table, type, 0, viewer));
+  PetscCall(TableViewRows(report, table, type, n, rows, viewer));
+  PetscFunctionReturn(0);
+}
+
 /*
    Prints the forces of each load step, and tables of the forces at the end of the last load step: on each contact pair,
    face with prescribed displacements, connector and bolt.
@@ -22,31 +34,12 @@ static PetscErrorCode ViewForces(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewSteps(report, TABLE_FORCES, 1, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "balance: resultant of all forces on a body, divided by the sum of their "
                                            "magnitudes; largest value of all bodies\n"));
-  if (last && last->npairs) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(TableViewHead(report, TABLE_PAIRS, &SchemaPairs, 0, viewer));
-    PetscCall(TableViewRows(report, TABLE_PAIRS, &SchemaPairs, last->npairs, last->pairs, viewer));
-  }
-  if (last && last->nfaces) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(TableViewHead(report, TABLE_FACES, &SchemaFaces, 0, viewer));
-    PetscCall(TableViewRows(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
-  }
-  if (last && last->nconnectors) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(TableViewHead(report, TABLE_CONNECTORS, &SchemaConnectors, 0, viewer));
-    PetscCall(TableViewRows(report, TABLE_CONNECTORS, &SchemaConnectors, last->nconnectors, last->connectors, viewer));
-  }
-  if (last && last->nbolts) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(TableViewHead(report, TABLE_BOLTS, &SchemaBolts, 0, viewer));
-    PetscCall(TableViewRows(report, TABLE_BOLTS, &SchemaBolts, last->nbolts, last->bolts, viewer));
-  }
-  if (last && last->nrigid_bodies) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-    PetscCall(TableViewHead(report, TABLE_RIGID, &SchemaRigid, 0, viewer));
-    PetscCall(TableViewRows(report, TABLE_RIGID, &SchemaRigid, last->nrigid_bodies, last->rigid_bodies, viewer));
-  }
+  if (!last) PetscFunctionReturn(0);
+  PetscCall(ViewList(report, TABLE_PAIRS, &SchemaPairs, last->npairs, last->pairs, viewer));
+  PetscCall(ViewList(report, TABLE_FACES, &SchemaFaces, last->nfaces, last->faces, viewer));
+  PetscCall(ViewList(report, TABLE_CONNECTORS, &SchemaConnectors, last->nconnectors, last->connectors, viewer));
+  PetscCall(ViewList(report, TABLE_BOLTS, &SchemaBolts, last->nbolts, last->bolts, viewer));
+  PetscCall(ViewList(report, TABLE_RIGID, &SchemaRigid, last->nrigid_bodies, last->rigid_bodies, viewer));
   PetscFunctionReturn(0);
 }
 

@@ -103,39 +103,37 @@ PetscErrorCode IPPairCenter(IPPair *p, PetscReal mu)
   PetscFunctionReturn(0);
 }
 
-/* Computes sigma = w z / t; 0 where the pair is absent */
-PetscErrorCode IPPairGetSigma(const IPPair *p, Vec sigma)
+/* Computes out = w v / t; 0 where the pair is absent */
+static PetscErrorCode PairWeighedByDistance(const IPPair *p, Vec v, Vec out)
 {
-  const Vec          v[3] = {p->w, p->z, p->t};
+  const Vec          vectors[3] = {p->w, v, p->t};
   const PetscScalar *a[3];
-  PetscScalar       *out;
+  PetscScalar       *x;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sigma, &n));
-  PetscCall(PairRead(3, v, a));
-  PetscCall(VecGetArrayWrite(sigma, &out));
-  for (PetscInt i = 0; i < n; i++) out[i] = Present(a[2][i]) ? a[0][i] * a[1][i] / a[2][i] : 0.0;
-  PetscCall(VecRestoreArrayWrite(sigma, &out));
-  PetscCall(PairRestore(3, v, a));
+  PetscCall(VecGetLocalSize(out, &n));
+  PetscCall(PairRead(3, vectors, a));
+  PetscCall(VecGetArrayWrite(out, &x));
+  for (PetscInt i = 0; i < n; i++) x[i] = Present(a[2][i]) ? a[0][i] * a[1][i] / a[2][i] : 0.0;
+  PetscCall(VecRestoreArrayWrite(out, &x));
+  PetscCall(PairRestore(3, vectors, a));
+  PetscFunctionReturn(0);
+}
+
+/* Computes sigma = w z / t; 0 where the pair is absent */
+PetscErrorCode IPPairGetSigma(const IPPair *p, Vec sigma)
+{
+  PetscFunctionBegin;
+  PetscCall(PairWeighedByDistance(p, p->z, sigma));
   PetscFunctionReturn(0);
 }
 
 /* Computes force = w target / t; 0 where the pair is absent */
 PetscErrorCode IPPairGetForce(const IPPair *p, Vec force)
 {
-  const Vec          v[3] = {p->w, p->target, p->t};
-  const PetscScalar *a[3];
-  PetscScalar       *out;
-  PetscInt           n;
-
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(force, &n));
-  PetscCall(PairRead(3, v, a));
-  PetscCall(VecGetArrayWrite(force, &out));
-  for (PetscInt i = 0; i < n; i++) out[i] = Present(a[2][i]) ? a[0][i] * a[1][i] / a[2][i] : 0.0;
-  PetscCall(VecRestoreArrayWrite(force, &out));
-  PetscCall(PairRestore(3, v, a));
+  PetscCall(PairWeighedByDistance(p, p->target, force));
   PetscFunctionReturn(0);
 }
 

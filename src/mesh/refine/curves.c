@@ -169,11 +169,32 @@ static void CurveCut(PetscInt ncorners, const PetscScalar places[], const PetscR
   }
 }
 
+/* Creates curves for the n cells of a refined mesh, without their values. Cell c is a part of cell root[c], or, if root
+   is NULL, of cell c / nchildren. */
+static PetscErrorCode CurvesCreateParts(const MeshCurves *curves, DM fine, PetscInt n, PetscInt nchildren,
+  const PetscInt root[], MeshCurves *parts)
+{
+  PetscInt end, size;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetChart(fine, NULL, &end));
+  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)fine), &parts->section));
+  PetscCall(PetscSectionSetChart(parts->section, 0, end));
+  for (PetscInt c = 0; c < n; ++c) {
+    PetscCall(PetscSectionGetDof(curves->section, root ? root[c] : c / nchildren, &size));
+    PetscCall(PetscSectionSetDof(parts->section, c, size));
+  }
+  PetscCall(PetscSectionSetUp(parts->section));
+  PetscCall(PetscSectionGetStorageSize(parts->section, &size));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, size, &parts->places));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
 {
   MeshCurves         there = {NULL, NULL};
   CurveChildren      children[2];
-  PetscInt           nchildren, cend, pend, n;
+  PetscInt           nchildren, cend, n;
   const PetscScalar *from;
   PetscScalar       *to;
 
@@ -182,16 +203,7 @@ PetscErrorCode MeshCurvesRefine(PetscInt levels, DM fine, MeshCurves *curves)
   PetscCall(CurveGetAllChildren(levels, children));
   nchildren = children[0].n;
   PetscCall(DMPlexGetHeightStratum(fine, 0, NULL, &cend));
-  PetscCall(DMPlexGetChart(fine, NULL, &pend));
-  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)fine), &there.section));
-  PetscCall(PetscSectionSetChart(there.section, 0, pend));
-  for (PetscInt c = 0; c < cend; ++c) {
-    PetscCall(PetscSectionGetDof(curves->section, c / nchildren, &n));
-    PetscCall(PetscSectionSetDof(there.section, c, n));
-  }
-  PetscCall(PetscSectionSetUp(there.section));
-  PetscCall(PetscSectionGetStorageSize(there.section, &n));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &there.places));
+  PetscCall(CurvesCreateParts(curves, fine, cend, nchildren, NULL, &there));
   PetscCall(VecGetArrayRead(curves->places, &from));
   PetscCall(VecGetArrayWrite(there.places, &to));
   for (PetscInt c = 0; c < cend; ++c) {
@@ -245,22 +257,13 @@ PetscErrorCode MeshCurvesPlacePart(const MeshCurves *curves, const MeshHexes *he
 PetscErrorCode MeshCurvesCutOut(const MeshHexes *hexes, DM fine, MeshCurves *curves)
 {
   MeshCurves         there = {NULL, NULL};
-  PetscInt           pend, n;
+  PetscInt           n;
   const PetscScalar *from;
   PetscScalar       *to;
 
   PetscFunctionBegin;
   if (!curves->section) PetscFunctionReturn(0);
-  PetscCall(DMPlexGetChart(fine, NULL, &pend));
-  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)fine), &there.section));
-  PetscCall(PetscSectionSetChart(there.section, 0, pend));
-  for (PetscInt c = 0; c < hexes->ncells; ++c) {
-    PetscCall(PetscSectionGetDof(curves->section, hexes->root[c], &n));
-    PetscCall(PetscSectionSetDof(there.section, c, n));
-  }
-  PetscCall(PetscSectionSetUp(there.section));
-  PetscCall(PetscSectionGetStorageSize(there.section, &n));
-  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &there.places));
+  PetscCall(CurvesCreateParts(curves, fine, hexes->ncells, 1, hexes->root, &there));
   PetscCall(VecGetArrayRead(curves->places, &from));
   PetscCall(VecGetArrayWrite(there.places, &to));
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
