@@ -233,7 +233,9 @@ PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBoo
   PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
   *solved = PETSC_FALSE;
   if (set->convex) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
+  set->system.quick = set->convex_next;
   if (!*solved) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  set->system.quick = PETSC_FALSE;
   if (!*solved && simply && set->system.m <= few)
     PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   set->met = *solved;

@@ -76,7 +76,7 @@ static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const P
    Computes the residual set->F[row] of a row that can carry a force, and its derivatives: by_v by the two motions of
    its term, by_f by the two forces. A constraint uses the first entry only. The slip law is written as |b| tau = bound
    b, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image
-   restoration, 1999); Newton's method then converges from distant starts.
+   restoration, 1999), and its derivative is made symmetric; Newton's method then converges from distant starts.
 */
 static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscInt row,
   PetscReal by_v[2], PetscReal by_f[2])
@@ -100,7 +100,9 @@ static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const Term
   for (PetscInt c = 0; c < 2; c++) {
     const PetscReal alive = (a == c ? 1.0 : 0.0) - set->dead[2 * i + a] * set->dead[2 * i + c];
 
-    by_v[c] = size > convex->bound[i] ? (convex->bound[i] * alive - inside * tau[a] * b[c] / size) / size : alive;
+    by_v[c] = size > convex->bound[i]
+                ? (convex->bound[i] * alive - 0.5 * inside * (tau[a] * b[c] + tau[c] * b[a]) / size) / size
+                : alive;
   }
 }
 
@@ -328,9 +330,9 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
   for (PetscInt r = 0; r < s->m; r++) convex.largest = PetscMax(convex.largest, set->system.compliance[r]);
   for (PetscInt i = 0; i < set->m; i++) s->lambda[i] = PetscMax(s->lambda[i], 0.0);
   PetscCall(IPTermLawsMove(set, s));
-  *solved           = PETSC_TRUE;
-  set->system.dense = (PetscBool)(set->system.dense || set->convex_next);
-  set->system.hold  = hold;
+  *solved               = PETSC_TRUE;
+  set->system.symmetric = set->convex_next;
+  set->system.hold      = hold;
   for (PetscInt k = 0; k < rounds && *solved && !end; k++) {
     if (k) ConvexForces(set, &convex, s->gap, convex.p);
     PetscCall(PetscArraycpy(convex.multiplier, k ? convex.p : s->lambda, s->m));
@@ -344,9 +346,10 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
     late  = (PetscBool)(late || (k > 1 && off > fair * least));
     least = PetscMin(least, off);
   }
-  set->met         = (PetscBool)(off <= wanted);
-  set->slides      = (PetscBool)(!set->met && ConvexDot(s->k, set->Fy, set->Fy) > most * off);
-  set->system.hold = 0.0;
+  set->met              = (PetscBool)(off <= wanted);
+  set->slides           = (PetscBool)(!set->met && ConvexDot(s->k, set->Fy, set->Fy) > most * off);
+  set->system.hold      = 0.0;
+  set->system.symmetric = PETSC_FALSE;
   PetscCall(PetscFree3(convex.multiplier, convex.bound, convex.p));
   PetscCall(PetscFree4(convex.f, convex.v, convex.y, convex.centre));
   PetscFunctionReturn(0);

@@ -7,17 +7,30 @@
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
+/* The preconditioner of cholesky.c. A block is a constraint and its term. */
+typedef struct {
+  Mat           A, F;        /* K_WW with the softened laws; its Cholesky factors */
+  PetscReal    *inverse, *D; /* M^-1 and D of each block: 3 rows of 3 entries */
+  PetscBool    *coupled;     /* blocks that A has entries for */
+  PetscReal     follow;      /* 1 / (1 + hold) */
+  PetscReal    *force;       /* forces for unit coordinates y_d, in columns of length m */
+  PetscReal    *companion;   /* the companions' coordinates for unit coordinates y_d */
+  PetscReal    *H;           /* factors of the Schur complement of y_d */
+  PetscBLASInt *pivots;
+} IPTermCholesky;
+
 /*
    The linear system of a Newton step for constraints and norm terms, see system.c. Its rows are those of R: the
    constraints, followed by two rows per term.
 */
 typedef struct {
-  PetscInt         m, k;        /* number of rows; number of directions in V */
-  Mat              K, FK;       /* K_WW; its factors */
-  Mat              R, RD, G;    /* R; R D and R D R^T with D = diag(K_WW)^-1 */
-  Mat              Bv, Bf;      /* coefficients of the motions v and of the forces f in the rows' equations */
-  Mat              A, F;        /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
-  Mat              Pv, Pf;      /* values of B_v and B_f for which A was factored */
+  PetscInt         m, k;                 /* number of rows; number of directions in V */
+  PetscInt         nconstraints, nterms; /* numbers of constraints and terms */
+  Mat              K, FK;                /* K_WW; its factors */
+  Mat              R, RD, G;             /* R; R D and R D R^T with D = diag(K_WW)^-1 */
+  Mat              Bv, Bf;               /* coefficients of the motions v and of the forces f in the rows' equations */
+  Mat              A, F;                 /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
+  Mat              Pv, Pf;               /* values of B_v and B_f for which A was factored */
   const PetscReal *spring;      /* per row: stiffness of the spring that K_WW contains for it; NULL: no springs */
   PetscReal       *compliance;  /* estimated compliance of each row, diag(R D R^T) [length/force] */
   PetscReal       *scale;       /* scale of each row: force divided by square root of energy */
@@ -30,9 +43,12 @@ typedef struct {
   PetscInt         fresh;       /* number of GMRES iterations when the factors were new */
   PetscBool        stale;       /* the factors must be computed again */
   PetscBool        dense;       /* GMRES has failed, so that factors solve systems of all sizes */
+  PetscBool        quick;       /* if GMRES fails, another method follows instead of sparse factors */
+  PetscBool        symmetric;   /* B_v and B_f are those of the convex problem, whose systems are almost symmetric */
   PetscReal        hold;        /* stiffness added to the diagonal of T, relative to G; see convex.c */
   PetscReal       *C;           /* columns of C, of length m; NULL: none is computed */
   PetscBool       *computed;    /* which columns of C are computed */
+  IPTermCholesky   cholesky;
 } IPTermSystem;
 
 /* State of constraints and norm terms, see laws.c: constraints are open or closed, terms stick or slip */
@@ -110,6 +126,11 @@ PETSC_INTERN PetscErrorCode IPTermSystemSubtract(IPTermSystem *, const IPReduced
 /* factor.c */
 PETSC_INTERN PetscErrorCode IPTermFactorPrepare(IPTermSystem *, const IPReducedSystem *, PetscBool *ready);
 PETSC_INTERN PetscErrorCode IPTermFactorApply(IPTermSystem *, const PetscReal r[], PetscReal z[]);
+
+/* cholesky.c */
+PETSC_INTERN PetscErrorCode IPTermCholeskyDestroy(IPTermCholesky *);
+PETSC_INTERN PetscErrorCode IPTermCholeskyPrepare(IPTermSystem *, const IPReducedSystem *, PetscBool *ready);
+PETSC_INTERN PetscErrorCode IPTermCholeskyApply(IPTermSystem *, const IPReducedSystem *, PetscReal f[], PetscReal y[]);
 
 /* dense.c */
 PETSC_INTERN PetscBool      IPTermDenseFits(const IPTermSystem *);

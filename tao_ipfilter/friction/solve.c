@@ -1,4 +1,7 @@
-/* Solves the systems of system.c by GMRES without forming C, or by dense factors if GMRES fails */
+/*
+   Solves the systems of system.c by GMRES without forming C, or by factors if GMRES fails. For the convex problem the
+   preconditioner is that of cholesky.c, otherwise that of factor.c.
+*/
 #include "frictionimpl.h"
 #include "pc_amgf/mumps.h"
 #include <petscblaslapack.h>
@@ -7,6 +10,7 @@
 typedef struct {
   IPTermSystem          *system;
   const IPReducedSystem *s;
+  PetscBool              strong; /* the preconditioner is that of cholesky.c */
 } TermSolveShell;
 
 /* Adds factor RZ y to a and factor RZ^T f to b; either is skipped if a or b is NULL */
@@ -92,6 +96,28 @@ static PetscErrorCode TermSolvePrecondition(PC pc, Vec in, Vec out)
   PetscFunctionReturn(0);
 }
 
+/* Applies the preconditioner of cholesky.c in scaled rows and columns */
+static PetscErrorCode TermSolvePreconditionStrongly(PC pc, Vec in, Vec out)
+{
+  const PetscScalar *r;
+  PetscScalar       *x;
+  TermSolveShell    *solve;
+  IPTermSystem      *t;
+
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &solve));
+  t = solve->system;
+  PetscCall(VecGetArrayRead(in, &r));
+  PetscCall(VecGetArrayWrite(out, &x));
+  for (PetscInt i = 0; i < t->m; i++) x[i] = r[i] / t->scale[i];
+  PetscCall(PetscArraycpy(x + t->m, r + t->m, solve->s->k));
+  PetscCall(IPTermCholeskyApply(t, solve->s, x, x + t->m));
+  for (PetscInt i = 0; i < t->m; i++) x[i] /= t->scale[i];
+  PetscCall(VecRestoreArrayWrite(out, &x));
+  PetscCall(VecRestoreArrayRead(in, &r));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, PetscInt limit, KSP *ksp)
 {
   const PetscInt n = solve->system->m + solve->s->k, restart = 60;
@@ -112,7 +138,7 @@ static PetscErrorCode TermSolveCreateKSP(TermSolveShell *solve, PetscReal rtol, 
   PetscCall(KSPGetPC(*ksp, &pc));
   PetscCall(PCSetType(pc, PCSHELL));
   PetscCall(PCShellSetContext(pc, solve));
-  PetscCall(PCShellSetApply(pc, TermSolvePrecondition));
+  PetscCall(PCShellSetApply(pc, solve->strong ? TermSolvePreconditionStrongly : TermSolvePrecondition));
   PetscFunctionReturn(0);
 }
 
@@ -161,8 +187,9 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   PetscBool keep, PetscBool *converged)
 {
   IPTermSystem  *t   = solve->system;
-  const PetscInt old = PetscMax(20, 2 * t->fresh), slow = PetscMax(12, t->fresh + t->fresh / 2), limit = 120;
-  PetscInt       its = 0;
+  const PetscInt old = PetscMax(20, 2 * t->fresh), slow = PetscMax(12, t->fresh + t->fresh / 2);
+  const PetscInt limit = t->quick ? 60 : 120;
+  PetscInt       its   = 0;
   PetscBool      fresh, ready;
   Vec            b, x;
 
@@ -183,6 +210,41 @@ static PetscErrorCode TermSolveGMRES(TermSolveShell *solve, PetscReal rtol, Pets
   if (*converged) PetscCall(TermSolveCopy(t, solve->s->k, x, rf, ry, PETSC_TRUE));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&b));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Overwrites r_f and r_y with the solution by GMRES with the preconditioner of cholesky.c. Forces of rows that are open
+   are eliminated first, so that they become exactly zero.
+*/
+static PetscErrorCode TermSolveStrongly(TermSolveShell *solve, PetscReal rtol, PetscReal rf[], PetscReal ry[],
+  PetscBool *solved)
+{
+  IPTermSystem  *t     = solve->system;
+  const PetscInt limit = 60;
+  PetscInt       n, its, *rows;
+  PetscReal     *known;
+  Vec            b, x;
+
+  PetscFunctionBegin;
+  PetscCall(IPTermCholeskyPrepare(t, solve->s, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  solve->strong = PETSC_TRUE;
+  PetscCall(PetscMalloc2(t->m, &rows, t->m, &known));
+  PetscCall(IPTermSystemFindCoupled(t, rf, &n, rows, known));
+  PetscCall(IPTermSystemSubtract(t, solve->s, known, rf, ry));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, t->m + solve->s->k, &b));
+  PetscCall(VecDuplicate(b, &x));
+  PetscCall(VecZeroEntries(x));
+  PetscCall(TermSolveCopy(t, solve->s->k, b, rf, ry, PETSC_FALSE));
+  PetscCall(TermSolveIterate(solve, rtol, limit, b, x, &its, solved));
+  if (*solved) {
+    PetscCall(TermSolveCopy(t, solve->s->k, x, rf, ry, PETSC_TRUE));
+    for (PetscInt i = 0; i < t->m; i++) rf[i] += known[i];
+  }
+  PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&b));
+  PetscCall(PetscFree2(rows, known));
   PetscFunctionReturn(0);
 }
 
@@ -221,8 +283,9 @@ PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal 
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_LU, &fits));
   fits = (PetscBool)(fits || IPTermDenseFits(t));
   PetscCall(IPTermDenseSolve(t, s, small, rf, ry, solved));
-  if (!*solved && !t->dense) PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!fits, solved));
-  if (*solved || !fits) PetscFunctionReturn(0);
+  if (!*solved && !t->dense && !t->symmetric) PetscCall(TermSolveGMRES(&solve, rtol, rf, ry, (PetscBool)!fits, solved));
+  if (!*solved && t->symmetric) PetscCall(TermSolveStrongly(&solve, rtol, rf, ry, solved));
+  if (*solved || !fits || t->quick) PetscFunctionReturn(0);
   PetscCall(TermSolveByFactors(t, s, rf, ry, solved));
   t->dense = *solved;
   PetscFunctionReturn(0);

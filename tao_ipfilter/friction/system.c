@@ -30,6 +30,7 @@ PetscErrorCode IPTermSystemDestroy(IPTermSystem *t)
   PetscCall(PetscFree4(t->V, t->ZV, t->H, t->pivots));
   PetscCall(PetscFree(t->C));
   PetscCall(PetscFree(t->computed));
+  PetscCall(IPTermCholeskyDestroy(&t->cholesky));
   PetscCall(PetscMemzero(t, sizeof(*t)));
   PetscFunctionReturn(0);
 }
@@ -129,9 +130,11 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
   PetscCall(IPTermSystemDestroy(t));
   PetscCall(PetscObjectReference((PetscObject)K));
   PetscCall(PetscObjectReference((PetscObject)R));
-  t->K = K;
-  t->R = R;
-  t->m = m + 2 * n;
+  t->K            = K;
+  t->R            = R;
+  t->m            = m + 2 * n;
+  t->nconstraints = m;
+  t->nterms       = n;
   PetscCall(MatCreateVecs(R, &t->w, &t->r));
   PetscCall(VecDuplicate(t->w, &t->Kw));
   PetscCall(VecDuplicate(t->r, &t->z));
