@@ -158,6 +158,19 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
 }
 
 /*
+   Returns the work of the mean of the forces at the two states along the shift of a vertex that has stuck at another
+   place. It is no work of friction, since the force had vanished before the vertex moved.
+*/
+static PetscReal FrictionShiftWork(const PetscReal shift[3], const PetscReal old[3], const PetscReal tangent[6],
+  const PetscScalar f[2])
+{
+  PetscReal work = 0.5 * VectorDot(shift, old);
+
+  for (int a = 0; a < 2; ++a) work += 0.5 * VectorDot(&tangent[3 * a], shift) * PetscRealPart(f[a]);
+  return work;
+}
+
+/*
    Computes the parts of FrictionLateWork() that count, and the bounds of the friction forces. late, bound: [npairs x
    nowned] by vertex. Time integration has its own balance of energy: there `late` is zero.
 */
@@ -181,6 +194,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 
     late[k] = FrictionLateShare(bound[k], PetscRealPart(g[r]), &s[2 * r], share[lin->pair[r]]) *
               FrictionLateWork(m->bound[k], bound[k], &m->settled[3 * k], &lin->tangent[6 * r], &f[2 * r], &s[2 * r]);
+    late[k] += FrictionShiftWork(&m->shift[3 * k], &m->settled[3 * k], &lin->tangent[6 * r], &f[2 * r]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));

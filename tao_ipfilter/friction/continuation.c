@@ -1,9 +1,9 @@
 /*
-   Solves the laws of laws.c by Newton's method (set.c), or by exchanges (stick.c, pivot.c) and Newton's method. If that
-   fails, the coefficients of friction are first limited
-   to a small value, for which the path of smoothed laws (path.c) is reliable. The limit is then raised in steps that
-   Newton's method can follow, up to the given values. If that fails as well, the convex problem with fixed bounds is
-   solved (convex.c).
+   Solves the laws of laws.c by Newton's method (set.c), or by exchanges (pivot.c) and Newton's method. Contacts that
+   stick are solved by stick.c unless Newton's method keeps all of them closed. If that fails, the coefficients of
+   friction are first limited to a small value, for which the path of smoothed laws (path.c) is reliable. The limit is
+   then raised in steps that Newton's method can follow, up to the given values. If that fails as well, the convex
+   problem with fixed bounds is solved (convex.c).
 */
 #include "frictionimpl.h"
 
@@ -137,35 +137,17 @@ static PetscErrorCode ContinuationMeasured(IPTermSet *set, const IPReducedSystem
   PetscFunctionReturn(0);
 }
 
-/* Goes back to the begin, with the constraints closed that carry a force, touch or are penetrated there */
-static PetscErrorCode ContinuationTouch(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[])
-{
-  const PetscReal tiny = 1e-9;
-
-  PetscFunctionBegin;
-  PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
-  for (PetscInt i = 0; i < set->m; i++)
-    set->closed[i] = (PetscBool)(s->lambda[i] > 0.0 || s->gap[i] <= tiny * set->length);
-  PetscFunctionReturn(0);
-}
-
 /*
    Solves by pivoting, and by Newton's method from its end. The frames of terms that slip are those of the last end, so
-   that the laws of their components approach the law of the term. Contacts that stick start from the begin, so that the
-   order of the rows has no influence.
+   that the laws of their components approach the law of the term.
 */
-static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s, PetscReal begin[], PetscReal first,
-  PetscInt *steps, PetscBool *solved)
+static PetscErrorCode ContinuationPivot(IPTermSet *set, const IPReducedSystem *s, PetscReal first, PetscInt *steps,
+  PetscBool *solved)
 {
   const PetscInt limit = 30, tries = 4;
   PetscBool      found = PETSC_FALSE, open = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (IPTermStickApplies(set, s)) {
-    PetscCall(ContinuationTouch(set, s, begin));
-    PetscCall(IPTermStickSolve(set, s, steps, &found));
-  }
-  if (found) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
   for (PetscInt k = 0; k < tries && !*solved; k++) {
     PetscCall(IPTermPivotFollow(set, s, open, steps, &found));
     if (!found && open) break;
@@ -198,13 +180,55 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
   if (set->convex_next) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
   if (*solved || (set->convex_next && set->slides)) PetscFunctionReturn(0);
   PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
-  if (!*solved) PetscCall(ContinuationPivot(set, s, begin, first, steps, solved));
+  if (!*solved) PetscCall(ContinuationPivot(set, s, first, steps, solved));
   if (!*solved) PetscCall(ContinuationMeasured(set, s, PETSC_FALSE, begin, &first, steps, solved));
   if (!*solved) PetscCall(ContinuationSolve(set, s, first, steps, solved));
   set->met = *solved;
   if (*solved) PetscFunctionReturn(0);
   PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
   PetscCall(IPTermConvexSolve(set, s, first, steps, solved));
+  PetscFunctionReturn(0);
+}
+
+/* Returns whether all contacts that were closed are closed, and all closed contacts stick */
+static PetscBool ContinuationKept(const IPTermSet *set, const PetscBool before[])
+{
+  for (PetscInt i = 0; i < set->m; i++) {
+    if (before[i] && !set->closed[i]) return PETSC_FALSE;
+    if (i < set->n && set->active[IPTermLawsRow(set, i)] && set->slips[i]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/*
+   Solves if contacts stick: by Newton's method if no contact opens or slides, and by the path of stick_path.c if one
+   does. force, motion: forces and motions of the rows at the begin of the path; begin: forces, motions and y with which
+   Newton's method starts
+*/
+static PetscErrorCode ContinuationStick(IPTermSet *set, const IPReducedSystem *s, PetscBool simply,
+  const PetscReal force[], const PetscReal motion[], PetscReal begin[], PetscReal *first, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscInt  limit = 12;
+  const PetscReal touch = 1e-9;
+  PetscBool      *closed, measured, found = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(set->m, &closed));
+  for (PetscInt i = 0; i < set->m; i++)
+    closed[i] = set->closed[i] = (PetscBool)(set->closed[i] || motion[i] <= touch * set->length);
+  PetscCall(IPTermSetIterate(set, s, limit, *first, steps, solved));
+  *solved = (PetscBool)(*solved && ContinuationKept(set, closed));
+  if (!*solved && !simply) PetscCall(IPTermDenseMeasure(&set->system, PETSC_TRUE, &measured));
+  if (!*solved && !simply) {
+    IPTermLawsResist(set);
+    PetscCall(ContinuationCopy(set, s, begin, PETSC_TRUE));
+    PetscCall(IPTermSetOff(set, s, first));
+    PetscCall(PetscArraycpy(set->closed, closed, set->m));
+    PetscCall(IPTermStickSolve(set, s, force, motion, steps, &found));
+    if (found) PetscCall(IPTermSetIterate(set, s, limit, *first, steps, solved));
+  }
+  PetscCall(PetscFree(closed));
   PetscFunctionReturn(0);
 }
 
@@ -217,30 +241,35 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
 PetscErrorCode IPTermSetSolve(IPTermSet *set, const IPReducedSystem *s, PetscBool simply, PetscInt *steps,
   PetscBool *solved)
 {
-  const PetscInt limit = 60, few = 400; /* largest number of rows for which compliances are computed before W is
+  const PetscInt  limit = 60, few = 400; /* largest number of rows for which compliances are computed before W is
                                            extended */
-  const PetscInt many = 400; /* number of rows above which dense matrices of all rows cost more than sparse systems of
+  const PetscInt  many = 400; /* number of rows above which dense matrices of all rows cost more than sparse systems of
                                 the convex problem */
-  PetscReal      first, *begin;
+  const PetscBool sticks = IPTermStickApplies(set, s);
+  PetscReal       first, *begin, *before;
 
   PetscFunctionBegin;
   *steps             = 0;
   set->system.spring = s->spring;
   set->convex_next   = (PetscBool)(set->system.m > many);
+  PetscCall(PetscMalloc2(2 * s->m + s->k, &begin, 2 * s->m, &before));
+  PetscCall(PetscArraycpy(before, s->lambda, s->m));
+  if (s->guessed) PetscCall(PetscArrayzero(before, set->m));
+  PetscCall(PetscArraycpy(before + s->m, s->gap, s->m));
   PetscCall(ContinuationStart(set, s));
   PetscCall(IPTermSetOff(set, s, &first));
-  PetscCall(PetscMalloc1(2 * s->m + s->k, &begin));
   PetscCall(ContinuationCopy(set, s, begin, PETSC_FALSE));
   *solved = PETSC_FALSE;
-  if (set->convex) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
+  if (sticks) PetscCall(ContinuationStick(set, s, simply, before, before + s->m, begin, &first, steps, solved));
+  if (!sticks && set->convex) PetscCall(ContinuationConvex(set, s, begin, first, steps, solved));
   set->system.quick = set->convex_next;
-  if (!*solved) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
+  if (!sticks && !*solved) PetscCall(IPTermSetIterate(set, s, limit, first, steps, solved));
   set->system.quick = PETSC_FALSE;
-  if (!*solved && simply && set->system.m <= few)
+  if (!sticks && !*solved && simply && set->system.m <= few)
     PetscCall(ContinuationMeasured(set, s, PETSC_TRUE, begin, &first, steps, solved));
   set->met = *solved;
   if (!*solved && !simply) PetscCall(ContinuationFallBack(set, s, begin, first, steps, solved));
-  PetscCall(PetscFree(begin));
+  PetscCall(PetscFree2(begin, before));
   for (PetscInt r = 0; r < s->m && s->spring; r++) s->lambda[r] = set->active[r] ? s->lambda[r] : 0.0;
   PetscFunctionReturn(0);
 }

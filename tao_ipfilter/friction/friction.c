@@ -29,6 +29,7 @@ static PetscErrorCode LawsGetData(IPLaws laws, IPLawsData *data)
   data->coefficient = laws->set.coefficient;
   data->dead        = laws->set.dead;
   data->closed      = laws->set.closed;
+  data->shift       = laws->set.shift;
   data->nreleased   = laws->set.nreleased;
   PetscFunctionReturn(0);
 }

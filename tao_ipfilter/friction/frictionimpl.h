@@ -65,7 +65,8 @@ typedef struct {
   PetscBool   *closed, *slips;
   PetscBool   *active, listed; /* active: rows that may carry a force; listed: whether `active` is up to date */
   PetscInt     na;             /* number of active rows */
-  PetscInt     nreleased;      /* number of terms released so far, see stick.c */
+  PetscReal   *shift;          /* two entries per term: shift of its reference, see stick.c [length] */
+  PetscInt     nreleased;      /* number of terms released or shifted so far, see stick.c */
   PetscBool    convex_next;    /* Newton's method ends if the residual becomes large; the convex problem follows */
   PetscBool    convex;         /* the convex problem was solved after Newton's method had failed */
   PetscBool    slides;         /* only the springs of the convex problem hold a body */
@@ -96,6 +97,25 @@ typedef struct {
   PetscInt64             seed;            /* of the numbers that separate rows */
   const IPReducedSystem *s;               /* the reduced problem */
 } IPTableau;
+
+/* The state of a contact on the path of stick_path.c */
+typedef enum {
+  IP_STICK_OPEN,
+  IP_STICK_HELD,    /* sticks */
+  IP_STICK_SLIDES,  /* its force along the face vanishes */
+  IP_STICK_RETURNS, /* it has closed, and its motion along the face vanishes */
+  IP_STICK_FREE     /* never sticks */
+} IPStickState;
+
+/* The path of stick_path.c */
+typedef struct {
+  IPTableau    *p;
+  PetscReal    *x, *rate; /* per variable: its value, and its rate */
+  IPStickState *contact;  /* state of each contact */
+  PetscInt     *slides;   /* number of times that each contact has slid or opened */
+  PetscBool    *moved;    /* whether a contact has slid or opened, so that it sticks where it is when it closes */
+  PetscReal     size[2];  /* size of forces and of motions, for tolerances [square root of energy] */
+} IPStickPath;
 
 static inline PetscReal *IPTableauColumn(const IPTableau *p, PetscInt column)
 {
@@ -185,12 +205,19 @@ PETSC_INTERN PetscErrorCode IPTableauSubtract(IPTableau *, const PetscReal c[], 
 PETSC_INTERN PetscErrorCode IPTableauExchange(IPTableau *, PetscInt row, PetscInt column);
 PETSC_INTERN void           IPTableauChoose(const IPTermSet *, const IPReducedSystem *, IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauSetUp(const IPTermSet *, const IPReducedSystem *, IPTableau *, PetscBool *made);
+PETSC_INTERN void           IPTableauRotate(const IPTableau *, PetscReal f[], size_t stride, PetscBool back);
 PETSC_INTERN PetscErrorCode IPTableauEnter(IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauTake(IPTermSet *, const IPReducedSystem *, const IPTableau *);
 
+/* stick_path.c */
+PETSC_INTERN PetscErrorCode IPStickPathCreate(IPTableau *, IPStickPath *);
+PETSC_INTERN PetscErrorCode IPStickPathDestroy(IPStickPath *);
+PETSC_INTERN PetscErrorCode IPStickPathFollow(IPStickPath *, PetscInt *events, PetscBool *reached);
+
 /* stick.c */
 PETSC_INTERN PetscBool      IPTermStickApplies(const IPTermSet *, const IPReducedSystem *);
-PETSC_INTERN PetscErrorCode IPTermStickSolve(IPTermSet *, const IPReducedSystem *, PetscInt *steps, PetscBool *found);
+PETSC_INTERN PetscErrorCode IPTermStickSolve(IPTermSet *, const IPReducedSystem *, const PetscReal force[],
+  const PetscReal motion[], PetscInt *steps, PetscBool *found);
 
 /* pivot.c */
 PETSC_INTERN PetscErrorCode IPTermPivotFollow(IPTermSet *, const IPReducedSystem *, PetscBool open, PetscInt *steps,

@@ -12,7 +12,7 @@
 PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree4(set->limit, set->coefficient, set->rho, set->slope));
+  PetscCall(PetscFree5(set->limit, set->coefficient, set->rho, set->slope, set->shift));
   PetscCall(PetscFree3(set->closed, set->slips, set->active));
   PetscCall(PetscFree5(set->theta, set->direction, set->dead, set->F, set->Fy));
   PetscCall(IPTermSystemDestroy(&set->system));
@@ -33,7 +33,7 @@ PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Ma
   PetscCall(IPTermLawsDestroy(set));
   set->m = m;
   set->n = n;
-  PetscCall(PetscCalloc4(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope));
+  PetscCall(PetscCalloc5(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope, 2 * n, &set->shift));
   PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->active));
   PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->direction, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
   PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, factors, R, definite));

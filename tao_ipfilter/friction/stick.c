@@ -1,140 +1,16 @@
 /*
-   Solves problems whose closed contacts stick (coefficients above IP_TERM_STICKS), if Newton's method fails. Some
-   contacts can neither stick nor be open: they are under tension if they stick, and penetrated if they are open. On the
-   way to this load they have opened, and closed again at another place. Their terms are therefore released, which means
-   that they slide without friction.
+   Solves problems whose closed contacts stick (coefficients above IP_TERM_STICKS), by the path of stick_path.c. Such
+   problems may have several solutions. Newton's method finds one of them, which depends on rounding errors. Its
+   solution is therefore used only if no contact has opened.
 */
 #include "frictionimpl.h"
 
-/* Makes the force of a row basic, or its motion. All terms must stick or be free: the pivots are then positive. */
-static PetscErrorCode StickMove(IPTableau *p, PetscInt row, PetscBool held)
-{
-  PetscFunctionBegin;
-  if (p->dropped[row] || (p->place[row] >= 0) == held) PetscFunctionReturn(0);
-  if (held) PetscCall(IPTableauExchange(p, p->place[row + p->rows], -1 - p->place[row]));
-  else PetscCall(IPTableauExchange(p, p->place[row], -1 - p->place[row + p->rows]));
-  PetscFunctionReturn(0);
-}
-
-/* Lets the term of a constraint stick or be free */
-static PetscErrorCode StickHold(IPTableau *p, PetscInt i, PetscBool sticks)
-{
-  PetscFunctionBegin;
-  for (PetscInt a = 0; a < 2 && i < p->n; a++) {
-    p->sticks[2 * i + a] = (PetscBool)(sticks && !p->dropped[p->m + 2 * i + a]);
-    PetscCall(StickMove(p, p->m + 2 * i + a, p->sticks[2 * i + a]));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Returns the energy that a basic variable's present value stores: of tension, of penetration, or of shear */
-static PetscReal StickEnergy(const IPTableau *p, PetscInt variable)
-{
-  const PetscInt  row = p->place[variable], partner = variable < p->rows ? variable + p->rows : variable - p->rows;
-  const PetscReal pivot = IPTableauColumn(p, -1 - p->place[partner])[row];
-
-  return pivot > 0.0 ? PetscSqr(p->q[row]) / pivot : 0.0;
-}
-
-/* Returns the energy that the tension of a closed constraint or the penetration of an open one stores, or 0 */
-static PetscReal StickWrong(const IPTableau *p, PetscInt i, PetscReal largest)
-{
-  const PetscReal rounding = 1e-12, size = p->closed[i] ? largest : p->length * p->scale[i];
-  const PetscInt  variable = p->closed[i] ? i : i + p->rows;
-
-  if (p->dropped[i] || p->q[p->place[variable]] > -rounding * size) return 0.0;
-  return StickEnergy(p, variable);
-}
-
-/* Returns the energy of a term's force if that is more than IP_TERM_STICKS times the force of its constraint, or 0 */
-static PetscReal StickExcess(const IPTableau *p, PetscInt i)
-{
-  PetscReal force = 0.0, energy = 0.0;
-
-  for (PetscInt a = 0; a < 2; a++) {
-    if (!p->sticks[2 * i + a]) continue;
-    force += PetscSqr(p->q[p->place[p->m + 2 * i + a]]);
-    energy += StickEnergy(p, p->m + 2 * i + a);
-  }
-  return p->closed[i] && PetscSqrtReal(force) <= IP_TERM_STICKS * p->q[p->place[i]] ? 0.0 : energy;
-}
-
-/*
-   Opens constraints under tension and closes penetrated ones, until there are none. Each time those with the largest
-   energy change. All with the same energy change together, so that symmetric bodies remain symmetric. After some
-   changes only one constraint changes at a time, because changes of several may return to an earlier state.
-   follow: whether the term of a constraint sticks when it closes, and is free when it opens
-   ever:   which constraints were closed at any time
-   work:   work space, an entry per constraint
-   *ended: false if the changes do not end
-*/
-static PetscErrorCode StickClose(IPTableau *p, PetscBool follow, PetscBool ever[], PetscReal work[], PetscBool *ended)
-{
-  const PetscInt  most  = 2 * p->m + 20;
-  const PetscReal same  = 1.0 - 1e-6;
-  PetscReal       worst = 1.0;
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < most && worst > 0.0; k++) {
-    PetscReal largest = 0.0;
-    PetscBool stop;
-
-    PetscCall(IPReducedInterrupted(p->s, &stop));
-    if (stop) break;
-    worst = 0.0;
-    for (PetscInt i = 0; i < p->m; i++)
-      if (p->closed[i]) largest = PetscMax(largest, PetscAbsReal(p->q[p->place[i]]));
-    for (PetscInt i = 0; i < p->m; i++) {
-      work[i] = StickWrong(p, i, largest);
-      worst   = PetscMax(worst, work[i]);
-    }
-    for (PetscInt i = 0; i < p->m && worst > 0.0; i++) {
-      if (work[i] < same * worst) continue;
-      p->closed[i] = (PetscBool)!p->closed[i];
-      ever[i]      = PETSC_TRUE;
-      PetscCall(StickMove(p, i, p->closed[i]));
-      if (follow) PetscCall(StickHold(p, i, p->closed[i]));
-      if (2 * k > most) break;
-    }
-  }
-  *ended = (PetscBool)(worst == 0.0);
-  PetscFunctionReturn(0);
-}
-
-/*
-   Releases terms whose force is too large for the normal force of their constraint. Each time those with the largest
-   energy are released. They remain free, even if their constraint closes again, because it has moved while it was open.
-   Each release reduces the energy; the releases therefore end. *released: number of terms released.
-*/
-static PetscErrorCode StickRelease(IPTableau *p, PetscBool ever[], PetscReal work[], PetscInt *released,
-  PetscBool *ended)
-{
-  const PetscReal same = 1.0 - 1e-6;
-  PetscReal       worst;
-
-  PetscFunctionBegin;
-  *released = 0;
-  for (PetscInt i = 0; i < p->n; i++) PetscCall(StickHold(p, i, (PetscBool)(p->closed[i] || ever[i])));
-  do {
-    PetscCall(StickClose(p, PETSC_FALSE, ever, work, ended));
-    worst = 0.0;
-    for (PetscInt i = 0; i < p->n && *ended; i++) {
-      work[i] = StickExcess(p, i);
-      worst   = PetscMax(worst, work[i]);
-    }
-    for (PetscInt i = 0; i < p->n && worst > 0.0; i++) {
-      if (work[i] < same * worst) continue;
-      PetscCall(StickHold(p, i, PETSC_FALSE));
-      ++*released;
-    }
-  } while (worst > 0.0);
-  PetscFunctionReturn(0);
-}
-
-/* Returns whether all terms stick where their constraints are closed, or are free, and C is computed */
+/* Returns whether all terms stick where their constraints are closed, or are free, and the path has few rows */
 PetscBool IPTermStickApplies(const IPTermSet *set, const IPReducedSystem *s)
 {
-  if (!IPTermDenseIsComplete(&set->system) || s->spring) return PETSC_FALSE;
+  const PetscInt most = 1500;
+
+  if (set->system.m > most || s->spring) return PETSC_FALSE;
   for (PetscInt i = 0; i < set->n; i++) {
     if (i >= set->m || set->coefficient[i] < 0.0 || set->limit[i] < PETSC_INFINITY) return PETSC_FALSE;
     if (set->coefficient[i] > 0.0 && set->coefficient[i] < IP_TERM_STICKS) return PETSC_FALSE;
@@ -142,50 +18,131 @@ PetscBool IPTermStickApplies(const IPTermSet *set, const IPReducedSystem *s)
   return PETSC_TRUE;
 }
 
-/* Sets up the tableau with terms that stick where their constraints are closed; sigma is then tau */
-static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s, IPTableau *p, PetscBool *made)
+/*
+   Gets the begin of the path: the motions of open contacts and the forces of closed ones, in the tableau's scale.
+*/
+static PetscErrorCode StickBegin(const PetscReal force[], const PetscReal motion[], IPStickPath *w)
+{
+  IPTableau *p = w->p;
+  PetscReal *f = w->x, *v = w->x + p->rows;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < p->rows; r++) {
+    f[r] = force[r] / p->scale[r];
+    v[r] = motion[r] * p->scale[r];
+  }
+  IPTableauRotate(p, f, 1, PETSC_FALSE);
+  IPTableauRotate(p, v, 1, PETSC_FALSE);
+  for (PetscInt i = 0; i < p->m; i++) {
+    PetscReal tau = 0.0;
+
+    f[i] = p->closed[i] ? PetscMax(f[i], 0.0) : 0.0;
+    v[i] = p->closed[i] ? 0.0 : PetscMax(v[i], 0.0);
+    for (PetscInt a = 0; a < 2 && i < p->n; a++) tau += PetscSqr(f[p->m + 2 * i + a]);
+    for (PetscInt a = 0; a < 2 && i < p->n; a++) {
+      const PetscInt row = p->m + 2 * i + a;
+
+      if (!p->closed[i] || p->dropped[row] || PetscSqrtReal(tau) > IP_TERM_STICKS * f[i]) f[row] = 0.0;
+      if (p->closed[i] || p->dropped[row]) v[row] = 0.0;
+    }
+    w->contact[i] = i >= p->n || p->dropped[p->m + 2 * i] ? IP_STICK_FREE
+                    : p->closed[i]                        ? IP_STICK_HELD
+                                                          : IP_STICK_OPEN;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Sets the column of the load: the difference of the motions at the end and at the begin, both without forces */
+static void StickLoad(const IPStickPath *w)
+{
+  IPTableau *p    = w->p;
+  PetscReal *load = IPTableauColumn(p, p->rows);
+
+  for (PetscInt r = 0; r < p->rows; r++) load[r] = p->q[r] - w->x[r + p->rows];
+  for (PetscInt j = 0; j < p->rows; j++)
+    for (PetscInt r = 0; r < p->rows && w->x[j] != 0.0; r++) load[r] += IPTableauColumn(p, j)[r] * w->x[j];
+}
+
+/* Sets up the tableau and the begin of the path */
+static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s, const PetscReal force[],
+  const PetscReal motion[], IPTableau *p, IPStickPath *w, PetscBool *made)
 {
   PetscFunctionBegin;
   PetscCall(IPTableauCreate(set, p));
   IPTableauChoose(set, s, p);
   for (PetscInt i = 0; i < p->n; i++) {
+    const PetscReal *dead = &set->dead[2 * i];
+
     p->mu[i] = 0.0;
+    if (dead[0] == 0.0 && dead[1] == 0.0) p->axis[2 * i] = 1.0;
+    if (dead[0] == 0.0 && dead[1] == 0.0) p->axis[2 * i + 1] = 0.0;
     for (PetscInt a = 0; a < 2; a++) {
       p->sign[2 * i + a]   = 1.0;
       p->sticks[2 * i + a] = (PetscBool)(!p->dropped[p->m + 2 * i + a] && p->closed[i]);
     }
   }
+  PetscCall(IPStickPathCreate(p, w));
   PetscCall(IPTableauSetUp(set, s, p, made));
-  if (*made) PetscCall(IPTableauEnter(p));
+  if (!*made) PetscFunctionReturn(0);
+  PetscCall(StickBegin(force, motion, w));
+  StickLoad(w);
+  PetscCall(IPTableauEnter(p));
   PetscFunctionReturn(0);
 }
 
 /*
-   Solves a problem whose closed contacts stick. Contacts are opened and closed first. If this does not end, or a force
-   is too large for its constraint, terms are released. The coefficients of friction of all terms that do not stick are
-   then set to zero, so that no further contact sticks in later problems of the same load step.
-   *found: false if there is no solution. *steps: increased by the number of terms released.
+   Moves the references of terms that have slid or opened to where they are. Terms that slid too often become free.
+   motion: shifts of the motions, two entries per term
 */
-PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, PetscInt *steps, PetscBool *found)
+static PetscErrorCode StickRefer(IPTermSet *set, const IPReducedSystem *s, const IPStickPath *w)
 {
-  PetscInt   released = 0;
-  PetscBool *ever, ended = PETSC_FALSE;
-  PetscReal *work;
-  IPTableau  p;
+  const IPTableau *p = w->p;
+  PetscReal       *shift;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(p->rows, &shift));
+  for (PetscInt i = 0; i < p->n; i++) {
+    if (w->contact[i] == IP_STICK_FREE) {
+      if (set->coefficient[i] > 0.0) set->nreleased++;
+      set->coefficient[i] = 0.0;
+    } else if (w->moved[i])
+      for (PetscInt a = 0; a < 2; a++) shift[p->m + 2 * i + a] = w->x[p->rows + p->m + 2 * i + a];
+  }
+  IPTableauRotate(p, shift, 1, PETSC_TRUE);
+  for (PetscInt r = p->m; r < p->rows; r++) {
+    shift[r] /= p->scale[r];
+    set->shift[r - p->m] += shift[r];
+    s->h[r] += shift[r];
+    if (shift[r] != 0.0) set->nreleased++;
+  }
+  PetscCall(PetscFree(shift));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Follows the path from the begin, where the rows have the given forces and motions, and set->closed tells which
+   contacts are closed. Terms that have slid get new references. *found: false if the path does not reach the load, or C
+   is not computed. *steps: increased by the number of events
+*/
+PetscErrorCode IPTermStickSolve(IPTermSet *set, const IPReducedSystem *s, const PetscReal force[],
+  const PetscReal motion[], PetscInt *steps, PetscBool *found)
+{
+  IPTableau   p;
+  IPStickPath w;
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  PetscCall(StickSetUp(set, s, &p, found));
-  PetscCall(PetscCalloc2(p.m, &ever, p.m, &work));
-  if (*found) PetscCall(StickClose(&p, PETSC_TRUE, ever, work, &ended));
-  if (ended) PetscCall(PetscArrayzero(ever, p.m));
-  if (*found) PetscCall(StickRelease(&p, ever, work, &released, found));
-  for (PetscInt i = 0; i < p.n && *found && released; i++)
-    if (!p.sticks[2 * i] && !p.sticks[2 * i + 1]) set->coefficient[i] = 0.0;
-  if (*found) PetscCall(IPTableauTake(set, s, &p));
-  if (*found) set->nreleased += released;
-  *steps += released;
-  PetscCall(PetscFree2(ever, work));
+  if (!IPTermDenseIsComplete(&set->system)) PetscFunctionReturn(0);
+  PetscCall(StickSetUp(set, s, force, motion, &p, &w, found));
+  if (*found) PetscCall(IPStickPathFollow(&w, steps, found));
+  if (*found) {
+    for (PetscInt r = 0; r < p.rows; r++) p.q[r] = w.x[p.basic[r]];
+    for (PetscInt i = 0; i < p.m; i++) p.closed[i] = (PetscBool)(p.place[i] >= 0);
+    for (PetscInt r = p.m; r < p.rows; r++) p.sticks[r - p.m] = (PetscBool)(p.place[r] >= 0);
+    PetscCall(StickRefer(set, s, &w));
+    PetscCall(IPTableauTake(set, s, &p));
+  }
+  PetscCall(IPStickPathDestroy(&w));
   PetscCall(IPTableauDestroy(&p));
   PetscFunctionReturn(0);
 }

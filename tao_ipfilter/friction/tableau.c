@@ -105,7 +105,7 @@ void IPTableauChoose(const IPTermSet *set, const IPReducedSystem *s, IPTableau *
 }
 
 /* Turns the two entries of each term of an array with an entry per row into its frame, or back */
-static void TableauRotate(const IPTableau *p, PetscReal f[], size_t stride, PetscBool back)
+void IPTableauRotate(const IPTableau *p, PetscReal f[], size_t stride, PetscBool back)
 {
   for (PetscInt i = 0; i < p->n; i++) {
     PetscReal      *x = &f[(size_t)(p->m + 2 * i) * stride], *y = x + stride;
@@ -195,9 +195,9 @@ PetscErrorCode IPTableauSetUp(const IPTermSet *set, const IPReducedSystem *s, IP
   p->s = s;
   PetscCall(TableauMakeCompliance(set, s, p, made));
   if (!*made) PetscFunctionReturn(0);
-  for (PetscInt j = 0; j < p->rows; j++) TableauRotate(p, IPTableauColumn(p, j), 1, PETSC_FALSE);
-  for (PetscInt j = 0; j < p->rows; j++) TableauRotate(p, p->A + j, (size_t)p->rows, PETSC_FALSE);
-  TableauRotate(p, p->q, 1, PETSC_FALSE);
+  for (PetscInt j = 0; j < p->rows; j++) IPTableauRotate(p, IPTableauColumn(p, j), 1, PETSC_FALSE);
+  for (PetscInt j = 0; j < p->rows; j++) IPTableauRotate(p, p->A + j, (size_t)p->rows, PETSC_FALSE);
+  IPTableauRotate(p, p->q, 1, PETSC_FALSE);
   TableauScale(set, p);
   for (PetscInt r = 0; r < p->rows; r++) {
     p->basic[r]           = p->rows + r;
@@ -307,7 +307,7 @@ PetscErrorCode IPTableauTake(IPTermSet *set, const IPReducedSystem *s, const IPT
   for (PetscInt i = 0; i < p->n; i++)
     set->slips[i] = (PetscBool) !(p->sticks[2 * i] && (p->sticks[2 * i + 1] || p->dropped[p->m + 2 * i + 1]));
   for (PetscInt r = 0; r < p->rows; r++) s->lambda[r] *= p->scale[r];
-  TableauRotate(p, s->lambda, 1, PETSC_TRUE);
+  IPTableauRotate(p, s->lambda, 1, PETSC_TRUE);
   PetscCall(PetscArraycpy(set->closed, p->closed, p->m));
   PetscCall(TableauTakeDirections(set, s));
   IPTermLawsList(set, s);

@@ -359,7 +359,9 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   With limits only, this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's friction,
   which is not a minimization: the solution x, y, tau satisfies grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i =
   -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be no solution, or several.
-  Terms with coefficients above 100 that can neither stick nor open get the coefficient zero, in `coefficient` itself.
+  If all coefficients are zero or above 100, terms stick while their constraints are closed. The load then grows from
+  those of the given forces. A term that slides or opens meanwhile sticks at another place, and `t` is changed such
+  that its value is zero there. If it slides again and again, it gets the coefficient zero, in `coefficient` itself.
 
   Norm terms require that all constraints are linear inequalities. The problem is solved by the filtered subspace
   method: its reduced problem, with the unknowns of T and of the constraints, contains all nonsmooth terms. A

@@ -4,7 +4,6 @@
 */
 #include "subspaceimpl.h"
 #include "pc_amgf/cholesky.h"
-#include "pc_amgf/mumps.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)
@@ -16,36 +15,28 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the Cholesky factorization of K_WW. mumps: whether MUMPS computes it, if it can, as L D L^T. *definite:
-   false if K_WW is not positive definite
-*/
-static PetscErrorCode ComplianceFactor(Mat K, PetscBool mumps, Mat *F, PetscBool *definite)
+/* Computes the Cholesky factorization of K_WW. *definite: false if K_WW is not positive definite */
+static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
   MatFactorInfo  info;
-  PetscInt       negative = 0;
 
   PetscFunctionBegin;
-  if (mumps) PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
-  PetscCall(MatSetOption(K, MAT_SPD, PETSC_TRUE));
   PetscCall(MatFactorInfoInitialize(&info));
-  PetscCall(MatGetFactor(K, mumps ? MATSOLVERMUMPS : MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
+  PetscCall(MatGetFactor(K, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
   PetscCall(MatCholeskyFactorSymbolic(*F, K, NULL, &info));
   PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
   PetscCall(MatFactorGetError(*F, &error));
   *definite = (PetscBool)(error == MAT_FACTOR_NOERROR);
-  if (*definite && mumps) PetscCall(MatGetInertia(*F, &negative, NULL, NULL));
-  *definite = (PetscBool)(*definite && !negative);
   PetscFunctionReturn(0);
 }
 
-/* Sets up for a sequential K_WW, without constraint rows. mumps, *definite: see ComplianceFactor() */
-PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool mumps, PetscBool *definite)
+/* Sets up for a sequential K_WW, without constraint rows. *definite: false if K_WW is not positive definite. */
+PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPComplianceDestroy(c));
-  PetscCall(ComplianceFactor(K, mumps, &c->F, definite));
+  PetscCall(ComplianceFactor(K, &c->F, definite));
   PetscCall(MatGetSize(K, &c->n, NULL));
   PetscFunctionReturn(0);
 }

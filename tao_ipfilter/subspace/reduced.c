@@ -242,28 +242,24 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/*
-   Factors K_WW, with companions if it is singular. terms: whether there are norm terms. Faces that stick may have
-   several states of equilibrium, of which rounding errors choose one. With MUMPS's factors this was the expected one in
-   all tests. *definite: false if K_WW is not positive definite.
-*/
-static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool terms, PetscBool *definite)
+/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite. */
+static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 {
   PetscBool singular = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, terms, definite));
+  PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
   if (*definite) PetscCall(IPCompanionsAreNeeded(r->KWW, &r->compliance, &singular));
   if (!*definite || singular) PetscCall(IPCompanionsTake(r->KWW, &r->companions));
-  if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, terms, definite));
+  if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool terms, PetscBool *definite)
+static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
 {
   PetscFunctionBegin;
   *definite = PETSC_FALSE;
-  PetscCall(ReducedBroadcast(r, r->first ? ReducedFactorFirst(r, terms, definite) : (PetscErrorCode)0, definite));
+  PetscCall(ReducedBroadcast(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
   PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscFunctionReturn(0);
 }
@@ -369,8 +365,7 @@ static PetscErrorCode ReducedAllocate(IPReduced *r, PetscInt kmax)
 }
 
 /* Sets up the space for a new K or W: gathers and factors K_WW */
-static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool terms,
-  PetscBool *definite)
+static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool *definite)
 {
   PetscMPIInt     rank;
   IS              all, mine, places;
@@ -396,7 +391,7 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(VecScatterCreate(x, mine, r->on_W, places, &r->to_W));
   PetscCall(ISDestroy(&places));
   PetscCall(ISDestroy(&mine));
-  PetscCall(ReducedFactor(r, terms, definite));
+  PetscCall(ReducedFactor(r, definite));
   PetscCall(ReducedAgree(r, ReducedAllocate(r, r->companions.n + basis->max)));
   r->K_id = ((PetscObject)K)->id;
   PetscCall(PetscObjectStateGet((PetscObject)K, &r->K_state));
@@ -476,7 +471,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
   if (*definite) PetscCall(ISEqual(r->W, W, definite));
   if (!*definite) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterFactor, K, NULL, NULL, NULL));
-    PetscCall(ReducedSetSpace(r, K, W, x, basis, (PetscBool)(terms->n > 0), definite));
+    PetscCall(ReducedSetSpace(r, K, W, x, basis, definite));
     PetscCall(PetscLogEventEnd(TAO_IPFilterFactor, K, NULL, NULL, NULL));
   } else if (r->generation != basis->generation) r->system.k = r->companions.n;
   r->generation = basis->generation;
@@ -764,30 +759,45 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
 }
 
 /* Sets the coefficients to zero of the terms that the laws have released */
-PetscErrorCode IPReducedReleaseTerms(const IPReduced *r, Vec coefficient)
+static PetscErrorCode ReducedRelease(const IPReduced *r, const PetscReal own[], Vec coefficient)
 {
-  IPLawsData   data = {0};
   PetscScalar *a;
   VecScatter   scatter;
   Vec          on_first;
 
   PetscFunctionBegin;
   if (!coefficient) PetscFunctionReturn(0);
-  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCallMPI(MPI_Bcast(&data.nreleased, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)coefficient)));
-  if (!data.nreleased) PetscFunctionReturn(0);
   PetscCall(VecScatterCreateToZero(coefficient, &scatter, &on_first));
   PetscCall(VecScatterBegin(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecScatterEnd(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
   PetscCall(VecGetArray(on_first, &a));
   for (PetscInt i = 0; r->laws && i < r->nterms; i++) {
-    if (data.coefficient[i] == 0.0) a[i] = 0.0;
+    if (own[i] == 0.0) a[i] = 0.0;
   }
   PetscCall(VecRestoreArray(on_first, &a));
   PetscCall(VecScatterBegin(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecScatterEnd(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
   PetscCall(VecScatterDestroy(&scatter));
   PetscCall(VecDestroy(&on_first));
+  PetscFunctionReturn(0);
+}
+
+/* Changes coefficients and references of the norm terms as the laws have done */
+PetscErrorCode IPReducedChangeTerms(const IPReduced *r, const IPTerms *terms)
+{
+  IPLawsData data = {0};
+  Vec        shift;
+
+  PetscFunctionBegin;
+  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
+  PetscCallMPI(MPI_Bcast(&data.nreleased, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)terms->t)));
+  if (!data.nreleased) PetscFunctionReturn(0);
+  PetscCall(ReducedRelease(r, data.coefficient, terms->coefficient));
+  PetscCall(VecDuplicate(terms->t, &shift));
+  PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, data.shift, r->on_terms, shift));
+  PetscCall(VecAXPY(terms->t, -1.0, shift));
+  PetscCall(VecDestroy(&shift));
+  if (r->laws) PetscCall(PetscArrayzero(data.shift, 2 * r->nterms));
   PetscFunctionReturn(0);
 }
 

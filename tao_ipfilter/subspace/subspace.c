@@ -59,6 +59,7 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
   PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, ip->terms));
+  IPFilteredOf(tao)->reduced->system.guessed = (PetscBool)!ip->given->warm_s;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
@@ -121,7 +122,8 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscCall(IPReducedSolve(f->reduced, f->y, v, force, ip->terms->n ? ip->terms->force : NULL, solved));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   if (!*solved) PetscFunctionReturn(0);
-  if (ip->terms->n) PetscCall(IPReducedReleaseTerms(f->reduced, ip->terms->coefficient));
+  f->reduced->system.guessed = PETSC_FALSE;
+  if (ip->terms->n) PetscCall(IPReducedChangeTerms(f->reduced, ip->terms));
   ip->rec->nreduced++;
   ip->rec->npivots += f->reduced->nsteps;
   PetscCall(IPBasisAdd(basis, f->y, v));

@@ -58,9 +58,10 @@ typedef struct {
   PetscReal *G;              /* diagonal of P^T K P */
   PetscInt   ncompanions, *companion; /* number of companions; the unknown of W to which each belongs */
   PetscReal *lambda, *gap, *y;        /* forces of the rows; their motions; coordinates */
-  PetscReal *base;   /* forces that h and t already contain, since without them bodies held by constraints
+  PetscReal *base;    /* forces that h and t already contain, since without them bodies held by constraints
                                   only would move far; zero without norm terms */
-  PetscReal  length; /* size of the terms of a gap, for tolerances */
+  PetscReal  length;  /* size of the terms of a gap, for tolerances */
+  PetscBool  guessed; /* the initial forces of the constraints are a guess, not those of a state of equilibrium */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve; may be NULL */
   void      *interrupt_ctx;
   PetscReal *spring, *start; /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the
@@ -102,7 +103,9 @@ typedef struct {
   PetscReal *dead;                /* two entries per term: unit direction along which the term cannot move; zero:
                                      none */
   PetscBool *closed;              /* constraints that are closed initially */
-  PetscInt   nreleased;           /* number of terms that the laws have released so far */
+  PetscReal *shift;               /* two entries per term: by which the laws have shifted the term's reference since
+                                     the last IPReducedChangeTerms() */
+  PetscInt   nreleased;           /* number of terms that the laws have released or shifted so far */
 } IPLawsData;
 
 /*
@@ -117,7 +120,8 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*restart)(IPLaws); /* called after the initially closed rows were changed */
   PetscErrorCode (*forget)(IPLaws);  /* called after the directions were replaced */
   PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscBool simply, PetscInt *steps, PetscInt *nactive,
-    PetscBool *met, PetscBool *solved); /* sets the coefficients of terms that it releases to zero */
+    PetscBool *met, PetscBool *solved); /* sets the coefficients of terms that it releases to zero, and
+                                                 shifts references */
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
@@ -201,7 +205,7 @@ PETSC_INTERN PetscErrorCode IPBasisAdd(const IPBasis *, const PetscReal[], Vec);
 PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
-PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool mumps, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J, PetscInt most);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
@@ -239,7 +243,7 @@ PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const 
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
-PETSC_INTERN PetscErrorCode IPReducedReleaseTerms(const IPReduced *, Vec coefficient);
+PETSC_INTERN PetscErrorCode IPReducedChangeTerms(const IPReduced *, const IPTerms *);
 PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved);
 

@@ -215,7 +215,7 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
   report->contact_updates = 0;
   report->gap_unconverged = PETSC_FALSE;
   p->by_newton            = PETSC_FALSE;
-  PetscCall(PetscArrayzero(sim->history->released, sim->history->npairs * sim->history->nowned));
+  PetscCall(FrictionRestart(p));
   PetscCall(ContactUpdateBegin(p, foreseen, u, report, &u_linearized));
   PetscCall(ContactUpdatesUndeformed(p, PETSC_FALSE, u, report, sol, at_u, &end));
   while (!end) {
