@@ -48,7 +48,7 @@ struct _n_StepControl {
   StepObserver    observer;
   PetscInt        unheld;      /* number of consecutive attempts at this load step that failed because contact cannot
                                  hold the loads; a proven failure counts 2 */
-  char           *cause;       /* reason of the first of these attempts; NULL if there is none */
+  char           *cause;       /* reason for which the first of these attempts failed; NULL if there was none */
   PetscReal       weak_share;  /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
                                  of the bodies; 0: no such term */
   int             interrupted; /* signal that was caught; 0: none */

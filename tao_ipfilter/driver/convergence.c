@@ -175,9 +175,9 @@ static PetscErrorCode LargestUnknown(Tao tao, PetscReal *size, PetscReal *curvat
 }
 
 /*
-   Finds whether the unknowns have grown far beyond their first size, and the Hessian of a nonconvex problem is still
-   shifted there: forces and curvatures that vanish at infinity look like those of a minimum. If the largest unknown has
-   no curvature, a smaller growth is far, too.
+   Finds whether the iterates of a nonconvex problem grow without limit. At infinity gradient and curvature may vanish
+   as at a minimum. The iterates have run away if the unknowns are much larger than at the start and the Hessian still
+   needs a shift there. If the largest unknown has no curvature, a smaller growth suffices.
 */
 static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
 {

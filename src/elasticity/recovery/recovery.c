@@ -28,7 +28,9 @@ typedef union {
 } NodePatch;
 
 typedef struct {
-  PetscReal x[3], s[ELEMENT_STRAINS], B[3][8]; /* centroid; averages over the cell; int grad N */
+  PetscReal x[3];               /* centroid */
+  PetscReal s[ELEMENT_STRAINS]; /* means of the elastic strains over the cell */
+  PetscReal B[3][8];            /* integrals of the gradients of the shape functions over the cell */
 } CellSample;
 
 static void CellSampleAverages(CellState *state, CellSample *cell)

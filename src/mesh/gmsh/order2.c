@@ -19,9 +19,9 @@ static PetscBool OrderIsMiddle(PetscInt place, PetscInt d)
 }
 
 /*
-   Sums the coordinates of certain other nodes. In `ends` of the directions in which the node is in the middle, the
-   other nodes are at an end. In the remaining directions in which the node is in the middle, they are in the middle
-   too. In all other directions they agree with the node.
+   Sums the coordinates of some other nodes of a cell with 27 nodes. A node is at place 0, 1 or 2 in each of three
+   directions; 1 is the middle. The sum is over the nodes that differ from the given node in exactly `ends` directions,
+   if the node is in the middle in these directions and the others are at 0 or 2.
 */
 static void OrderSum(const PetscReal curve[81], PetscInt place, PetscInt ends, PetscReal sum[3])
 {
