@@ -42,24 +42,9 @@ PetscErrorCode CholeskyGraphCreate(Mat A, CholeskyGraph *g)
   PetscFunctionReturn(0);
 }
 
-/* Finds the best ordering that is registered. METIS's, if PETSc or the program provides it, needs about half the
-   operations of PETSc's own nested dissection. */
-static PetscErrorCode GraphOrderingType(MatOrderingType *type)
-{
-  PetscErrorCode (*metis)(Mat, MatOrderingType, IS *, IS *);
-  PetscFunctionList list;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetOrderingList(&list));
-  PetscCall(PetscFunctionListFind(list, MATORDERINGMETISND, &metis));
-  *type = metis ? MATORDERINGMETISND : MATORDERINGND;
-  PetscFunctionReturn(0);
-}
-
 /* Orders the nodes by nested dissection. perm[i]: node that is the i-th */
 PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *g, PetscInt perm[])
 {
-  MatOrderingType type = MATORDERINGND;
   const PetscInt *order;
   PetscInt       *counts;
   PetscScalar    *zeros;
@@ -79,8 +64,7 @@ PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *g, PetscInt perm[])
   PetscCall(MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscFree(zeros));
   PetscCall(PetscFree(counts));
-  PetscCall(GraphOrderingType(&type));
-  PetscCall(MatGetOrdering(pattern, type, &rows, &columns));
+  PetscCall(MatGetOrdering(pattern, MATORDERINGND, &rows, &columns));
   PetscCall(ISGetIndices(rows, &order));
   PetscCall(PetscArraycpy(perm, order, g->n));
   PetscCall(ISRestoreIndices(rows, &order));
