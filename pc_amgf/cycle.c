@@ -20,7 +20,8 @@ static PetscErrorCode CycleConjugate(Vec x)
 
 /*
    Applies the AMG: z = B r. If a library reports an error, or if the AMG's set-up failed before, z is set to zero and
-   the PC is marked as failed. The error may occur on one rank only; all ranks notice it at the KSP's next reduction.
+   the PC is marked as failed. The error may occur on one rank only, so that nothing collective follows it here; all
+   ranks notice it at the KSP's next reduction.
    The case of a failed set-up is needed because KSPs apply the PC before they check it.
 */
 static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
@@ -29,6 +30,8 @@ static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
   PetscBool      failed = (PetscBool)!amgf->lag.built;
   AMGFGuard      guard;
   PetscErrorCode error;
+  PetscInt       n;
+  PetscScalar   *values;
 
   PetscFunctionBegin;
   if (!failed) {
@@ -39,7 +42,10 @@ static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
     PetscCall(PetscInfo(pc, "An error inside the AMG: %s\n", guard.why));
   }
   pc->failedreason = PC_SUBPC_ERROR;
-  PetscCall(VecSet(z, 0.0));
+  PetscCall(VecGetLocalSize(z, &n));
+  PetscCall(VecGetArrayWrite(z, &values));
+  PetscCall(PetscArrayzero(values, n));
+  PetscCall(VecRestoreArrayWrite(z, &values));
   PetscFunctionReturn(0);
 }
 
