@@ -58,9 +58,9 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
 }
 
 /*
-   Adds the part of the slacks to the curvature along the direction: ds^T D ds + max(lambda+^T M (c - s), 0), where ds is
-   the direction of the slacks and M the scaling of the rows. Without scaling ds^T ds is added to the square of the
-   direction's norm.
+   Adds the part of the slacks to the curvature along the direction: ds^T D ds + max(lambda+^T M (c - s), 0). ds:
+   direction of the slacks; M: scaling of the rows. Without scaling ds^T ds is added to the square of the direction's
+   norm.
 */
 static PetscErrorCode CurvatureAddSlacks(Tao tao, PetscReal *curvature, PetscReal *square)
 {
