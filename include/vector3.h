@@ -99,10 +99,10 @@ static inline void MatrixSetInertia(const PetscReal s[6], PetscReal inertia[3][3
   inertia[2][0] = inertia[0][2] = -s[5];
 }
 
-  #define MATRIX_MAX_ORDER 6
+  #define MATRIX_MAX_ORDER 6 /* largest order of a matrix that MatrixInvertInPlace() inverts */
 
 /*
-   Inverts an n x n matrix, n <= MATRIX_MAX_ORDER, in place by Gauss-Jordan elimination with row pivoting. Row i begins at a[stride i]. Returns
+   Inverts an n x n matrix in place by Gauss-Jordan elimination with row pivoting. Row i begins at a[stride i]. Returns
    false if the matrix is singular.
 */
 static inline PetscBool MatrixInvertInPlace(PetscInt n, PetscInt stride, PetscReal a[])

@@ -139,8 +139,13 @@ def readmes():
         yield from (f"{folder}/README.md names {name}, which is not there" for name in sorted(named - own))
 
 
+def written():
+    """Paths of all sources and headers, public ones too"""
+    return sources("c") + sources("h") + sorted(os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "include", "*.h")))
+
+
 def wide_lines():
-    for path in sources("c") + sources("h"):
+    for path in written():
         for number, line in enumerate(text(path).splitlines(), 1):
             if len(line) > COLUMNS:
                 yield f"{path}:{number}: {len(line)} columns, more than {COLUMNS}"
@@ -151,7 +156,7 @@ def unformatted():
     tool = shutil.which("clang-format")
     if not tool or f"version {FORMATTED_BY}" not in subprocess.run([tool, "--version"], capture_output=True, text=True).stdout:
         return
-    paths = [os.path.join(TOP, path) for path in sources("c") + sources("h")]
+    paths = [os.path.join(TOP, path) for path in written()]
     found = subprocess.run([tool, "--dry-run", *paths], capture_output=True, text=True, cwd=TOP).stderr
     yield from sorted({os.path.relpath(line.split(":")[0], TOP) for line in found.splitlines() if "-Wclang-format-violations" in line})
 
