@@ -379,8 +379,8 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
   `TaoGetDualVariables()` returns m_i lambda_i instead, with lambda_i -> z_i. If the weights m_i are the areas of a
   surface, this is a force.
 
-  With `TaoSetInequalityBounds()` the multiplier of an upper bound is negative, as is lambda. That of a row with two
-  bounds is the sum of both. That of a row with equal bounds has either sign.
+  With `TaoSetInequalityBounds()` both z_i and lambda_i of an upper bound are negative. For a row with two bounds,
+  z_i is the sum of the multipliers of both. For a row with equal bounds, z_i may have either sign.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterSetWarmStart()`, `TaoGetDualVariables()`
 @*/

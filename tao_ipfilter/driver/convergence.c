@@ -348,8 +348,7 @@ static PetscErrorCode TestLimits(Tao tao)
     if (!IPConstraintsMet(tao))
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
         "steps are as small as rounding errors at KKT error %g, but the constraint violation %g (relative %g) exceeds "
-        "catol "
-        "%g or crtol %g",
+        "catol %g or crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
     else if (IPAcceptable(ip))
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,

@@ -7,7 +7,7 @@
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
-/* The preconditioner of cholesky.c. A block is a constraint and its term. */
+/* Data of the preconditioner in cholesky.c. A block consists of the rows of one constraint and of its norm term. */
 typedef struct {
   Mat           A, F;        /* K_WW with the softened laws; its Cholesky factors */
   PetscReal    *inverse, *D; /* M^-1 and D of each block: 3 rows of 3 entries */

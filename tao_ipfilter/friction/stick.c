@@ -19,7 +19,7 @@ PetscBool IPTermStickApplies(const IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   Gets the begin of the path: the motions of open contacts and the forces of closed ones, in the tableau's scale.
+   Gets the start of the path: the motions of open contacts and the forces of closed ones, in the tableau's scale.
 */
 static PetscErrorCode StickBegin(const PetscReal force[], const PetscReal motion[], IPStickPath *w)
 {
@@ -91,8 +91,8 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
 }
 
 /*
-   Moves the references of terms that have slid or opened to where they are. Terms that slid too often become free.
-   motion: shifts of the motions, two entries per term
+   Moves the references of terms that have slid or opened to their present places. Terms that slid too often become
+   free.
 */
 static PetscErrorCode StickRefer(IPTermSet *set, const IPReducedSystem *s, const IPStickPath *w)
 {

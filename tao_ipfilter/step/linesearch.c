@@ -517,10 +517,10 @@ static PetscErrorCode SearchLagrangian(Tao tao, const IPIterate *at, PetscBool t
 }
 
 /*
-   Finds a point of inflection of the Lagrangian along the last direction of linear convergence, where constraints curve
-   away: the barrier function does not show it. The Lagrangian must fall at longer and longer steps, up to a part of the
-   unknowns' size, and by much more than the residual explains, while the constraints remain satisfied. *left: whether
-   the solve continues from the longest step.
+   Tries to leave a point of inflection of the Lagrangian along the last direction of linear convergence. With curved
+   constraints the barrier function need not fall there. The Lagrangian must fall at longer and longer steps, up to a
+   fraction of the unknowns' size. The decrease must be much larger than that from the residual, and the constraints
+   must remain satisfied. *left: whether the solve continues from the longest step.
 */
 static PetscErrorCode SearchInflection(Tao tao, PetscBool *left)
 {
