@@ -10,7 +10,7 @@ static PetscErrorCode RowsGetSequential(Mat A, PetscInt *n, const PetscInt **ia,
 
   PetscFunctionBegin;
   PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, n, ia, ja, &done));
-  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed rows",
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed sparse rows: use type aij",
     ((PetscObject)A)->type_name);
   PetscCall(MatSeqAIJGetArrayRead(A, a));
   PetscFunctionReturn(0);

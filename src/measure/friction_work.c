@@ -158,8 +158,9 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
 }
 
 /*
-   Returns the work of the mean of the forces at the two states along the shift of a vertex that has stuck at another
-   place. It is no work of friction, since the force had vanished before the vertex moved.
+   Returns the work that the mean of the friction forces at the two states would do along `shift`, the motion of a
+   vertex that lost contact and sticks again at another place. This is not friction work, because no friction force
+   acted while the vertex moved.
 */
 static PetscReal FrictionShiftWork(const PetscReal shift[3], const PetscReal old[3], const PetscReal tangent[6],
   const PetscScalar f[2])
@@ -307,7 +308,7 @@ PetscErrorCode FrictionSettle(Simulation sim, PetscReal time, Vec u, const Conta
   PetscFunctionReturn(0);
 }
 
-/* Makes the friction forces of a state that was restored from a checkpoint those of the last solve */
+/* After a restart, sets the friction forces of the last solve to those of the checkpoint */
 PetscErrorCode FrictionRecall(Simulation sim)
 {
   ContactHistory *m = sim->history;

@@ -66,7 +66,7 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
 
 /*
    Estimates the discretization error in the energy norm, relative to the energy norm of the displacement.
-   report->energy must be set. moves: the bodies only move, so that their energy is rounding error.
+   report->energy must be set. moves: the bodies only move as a whole, so that their energy is rounding error.
 */
 static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
 {

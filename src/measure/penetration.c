@@ -32,7 +32,7 @@ static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepRepo
   return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
 }
 
-/* Returns whether the scene asks for gaps that are not exact, so that penetration is its own choice */
+/* Returns whether penetration is expected: the penalty method and a single contact update leave it */
 static PetscBool PenetrationIsAllowed(Simulation sim)
 {
   return (PetscBool)(sim->control->penalty > 0.0 || sim->scene->contact_updates == 1);
@@ -47,7 +47,7 @@ static PetscReal PenetrationMotion(const RunReport *run)
   return motion;
 }
 
-/* Fails a load step whose solution has bodies in each other: its gap is not consistent */
+/* Fails a load step because bodies penetrate each other in its solution */
 PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char reason[])
 {
   PetscFunctionBegin;
@@ -60,10 +60,9 @@ PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char re
 }
 
 /*
-   Fails the last load step if a pair carries no force although a vertex of it is in the other body: its gap is open
-   only in the mean, and nothing holds the faces apart. Earlier load steps are only warned of, because a contact that
-   begins on a coarse mesh closes in the mean a little later than its first vertex. In time steps this is not an error
-   either.
+   Fails the last load step if a pair carries no force although one of its vertices penetrates the other body. The mean
+   gap is then open, so that no contact force acts. In earlier load steps this is only a warning: when contact begins on
+   a coarse mesh, the first vertex penetrates a little before the mean gap closes. In dynamics it is always a warning.
 */
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
@@ -80,9 +79,9 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     if (its->normal_force != 0.0 || PenetrationIsMeant(pair, report)) continue;
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "contact pair \"%s\" carries no force, although a vertex of %s or %s is %.3g deep in the other body, %.3g %% of "
-      "the largest displacement: the gap is open in the mean over the nonmortar facets there; use gap: node, swap the "
-      "two faces, or refine them",
+      "contact pair \"%s\" carries no force, although a vertex of %s or %s penetrates the other body by %.3g, %.3g %% "
+      "of the largest displacement: the mean gap of the nonmortar facets there is open; use gap: node, swap the two "
+      "faces, or refine them",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
       100.0 * (double)(its->penetration / motion)));
     PetscCall(PenetrationFail(sim, report, reason));
@@ -120,15 +119,15 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     if (depth <= PENETRATION_SHARE * motion) continue;
     if (pair->self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
-        "contact pair \"%s\": a vertex of %s is %.3g deep in its own body at the end of load step %" PetscInt_FMT
-        ", %.3g %% of the largest displacement, although the gap is closed in the mean: refine the surface there",
+        "contact pair \"%s\": a vertex of %s penetrates its own body by %.3g at the end of load step %" PetscInt_FMT
+        ", %.3g %% of the largest displacement, although the mean gap is closed: refine the surface there",
         pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
-        "contact pair \"%s\": a vertex of %s or %s is %.3g deep in the other body at the end of load step "
-        "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the gap is %s %s: %s",
+        "contact pair \"%s\": a vertex of %s or %s penetrates the other body by %.3g at the end of load step "
+        "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the %s is %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
-        open ? "open" : "closed", node ? "at the nonmortar vertices" : "in the mean",
+        node ? "gap at the nonmortar vertices" : "mean gap", open ? "open" : "closed",
         node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));
   }
   PetscFunctionReturn(0);

@@ -16,8 +16,8 @@ static PetscBool StrainApplies(Scene scene, PetscInt b)
   return (PetscBool)(material->type != MATERIAL_RIGID && !MaterialIsFinite(material));
 }
 
-/* Collective. Finds whether a body may be inverted, or may exceed a limit of which it has not been warned. If no
-   quadrature point does, the mean does not either. warned: bodies of which a warning has been printed */
+/* Collective. Finds whether a body may be inverted, or may exceed a limit for which no warning has been printed. The
+   test is the largest value at quadrature points, which bounds the mean. warned: bodies with a printed warning */
 static PetscErrorCode StrainMayExceed(Simulation sim, const PetscBool warned[], PetscBool *may)
 {
   Scene     scene = sim->scene;

@@ -32,8 +32,9 @@ static PetscErrorCode WorkAddForce(Vec increment[2], PetscReal part, Vec *before
 static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal taken, PetscReal rounding,
   StepReport *report)
 {
-  const PetscReal at_rest = 1e-2; /* if the turnover of a step is below this fraction of the energy, its imbalance is
-                                     relative to this fraction instead */
+  /* The imbalance is divided by the sum of the exchanged energies (turnover), or by this fraction of the stored energy
+     if that is larger. */
+  const PetscReal at_rest = 1e-2;
   const PetscReal stored  = report->energy + report->plastic_work - path->energy;
 
   PetscFunctionBegin;
@@ -47,7 +48,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   PetscFunctionReturn(0);
 }
 
-/* Warns of an energy balance that is not met, at the end of a load step, once per run */
+/* Warns at the end of a load step, once per run, if the energy balance has an error of more than 1 % */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
   const PetscReal allowed = 1e-2;

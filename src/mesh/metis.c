@@ -10,8 +10,8 @@
    (METIS manual, section 5.1). */
 #define METIS_RECURSIVE_MAX_PARTS 8
 
-/* Partitions a whole graph by METIS. part[v] is in [0, nparts). Of more parts than vertices the last ones are empty;
-   METIS cannot make these. */
+/* Partitions a whole graph by METIS. part[v] is in [0, nparts). If there are more parts than vertices, the last parts
+   are empty; METIS itself does not create empty parts. */
 PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[], const PetscInt adjacency[],
   const PetscInt weights[], PetscInt part[])
 {

@@ -11,12 +11,12 @@
           limited by the edge of contact; 26 on a cantilever; 80 on a cylinder. */
 #define ACCURACY_UPDATES 20
 #define ACCURACY_REGULAR \
-  1.05 /* limit relative to the best rate of order 1 elements, error ~ unknowns^(-2/3): if the recovered error falls
-          by less, the solution has a singularity */
+  1.05 /* The best rate of elements of order 1 is error ~ unknowns^(-2/3). The solution is taken to be singular if the
+          recovered error falls by less than this factor times the best rate. */
 #define ACCURACY_UNSEEN \
-  2.0 /* limit relative to the sum of the recovered errors of two meshes: a larger difference of their results shows
-         an error that stress recovery does not include */
-#define ACCURACY_MINOR 1e-2 /* fraction of the largest pair's force; a smaller force is compared with this fraction */
+  2.0 /* If the results of two meshes differ by more than this factor times the sum of their recovered errors, there is
+         an error that stress recovery does not include. */
+#define ACCURACY_MINOR 1e-2 /* The change of a pair's force is relative to at least this fraction of the largest one. */
 #define ACCURACY_MARGIN \
   0.5 /* fraction of the allowed error at which the solver's tolerance aims, since the solver leaves up to 1.3 times
          its tolerance, and a second run costs more than a Newton step */
@@ -158,7 +158,7 @@ PetscErrorCode AccuracyPlan(Accuracy *acc, Scene scene, StepTolerances *toleranc
   PetscFunctionReturn(0);
 }
 
-/* Returns the largest difference over the load steps, relative to the largest value, or to `least` if that is larger */
+/* Returns the largest difference over the load steps, divided by the largest value, or by `least` if that is larger */
 static PetscReal AccuracyLargestChange(PetscInt n, PetscInt stride, const PetscReal now[], const PetscReal before[],
   PetscReal least)
 {

@@ -18,7 +18,7 @@ struct _n_IPSearch {
   PetscReal rounding;           /* rounding error of phi */
   PetscReal theta_rounding;     /* rounding error of theta */
   PetscReal alpha, alpha_dual;
-  PetscReal before; /* norm of the search direction before the last one */
+  PetscReal before; /* norm of the previous search direction; that of the last one is dir.norm */
   PetscBool slows;  /* whether the last step of a length above zero was one of linear convergence */
   Vec       slow;   /* its direction then */
   PetscInt  ntrials;

@@ -29,13 +29,13 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
     if (!GmshGetWord(&reader->in, words[i])) return PETSC_FALSE;
   }
   if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1))
-    return GmshWrong(&reader->in, "its format is \"%s\"; 2.2, 4.0 and 4.1 are read", words[0]);
+    return GmshWrong(&reader->in, "its format is \"%s\"; supported are 2.2, 4.0 and 4.1", words[0]);
   reader->in.version = (int)(10 * version + 0.5);
   if (strcmp(words[1], "0") && strcmp(words[1], "1"))
     return GmshWrong(&reader->in, "its file type is \"%s\", neither 0 for text nor 1 for binary", words[1]);
   reader->in.binary = words[1][0] == '1' ? PETSC_TRUE : PETSC_FALSE;
   if (strcmp(words[2], "8") && (reader->in.version < 41 || strcmp(words[2], "4")))
-    return GmshWrong(&reader->in, "its data size is \"%s\"; 8 is read", words[2]);
+    return GmshWrong(&reader->in, "its data size is \"%s\"; supported is 8", words[2]);
   reader->in.width = words[2][0] - '0';
   if (reader->in.binary) {
     if (!GmshGetBytes(&reader->in, 4, &one)) return PETSC_FALSE;

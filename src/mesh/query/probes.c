@@ -11,7 +11,7 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
 {
   const char *what   = probe->line ? "a point of the line" : "the point",
              *body   = probe->body < 0 ? "any body" : scene->bodies[probe->body].name;
-  const char *advice = probe->line ? ": end the line before that point, and begin another one behind it" : "";
+  const char *advice = probe->line ? ": end the line before that point, and begin another one after it" : "";
   MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;

@@ -141,8 +141,8 @@ static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement 
 
   PetscFunctionBegin;
   PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "refinements \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\"", refinement->name,
-    (double)refinement->distance, refinement->face[0], refinement->face[1]);
+    "refinements \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\": increase the distance",
+    refinement->name, (double)refinement->distance, refinement->face[0], refinement->face[1]);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
     "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
     refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],

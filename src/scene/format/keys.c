@@ -20,7 +20,7 @@ static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, c
   *length = (PetscInt64)ftell(stream);
   rewind(stream);
   PetscCheck(*length >= 0 && *length < PETSC_MPI_INT_MAX, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
-    "the scene file \"%s\" is too long", file);
+    "the scene file \"%s\" has %" PetscInt64_FMT " bytes, more than %d", file, *length, PETSC_MPI_INT_MAX);
   PetscCall(PetscCalloc1(*length + 1, text));
   PetscCheck(fread(*text, 1, (size_t)*length, stream) == (size_t)*length, PETSC_COMM_SELF, PETSC_ERR_FILE_READ,
     "the scene file \"%s\" cannot be read", file);

@@ -179,7 +179,7 @@ PetscErrorCode SceneValuesRead(const char text[], SceneValues *v)
   PetscBool       more = PETSC_TRUE;
 
   PetscFunctionBegin;
-  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "no memory to parse it");
+  PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "not enough memory to parse it");
   yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
   while (more && !ierr) {
     if (!yaml_parser_load(&parser, &doc)) {

@@ -33,11 +33,12 @@ static const char *YAMLExplain(const char problem[])
 {
   static const char *const words[][2] = {
     {"did not find expected key", "the indentation differs from that of the keys above, or a colon is missing"},
-    {"did not find expected '-' indicator", "a list goes on or ends here, but the line is not indented as its dashes"},
+    {"did not find expected '-' indicator",
+      "a list goes on or ends here, but the line is not indented like its dashes"},
     {"did not find expected ',' or ']'", "a bracket [ is not closed, or a comma is missing"},
     {"did not find expected ',' or '}'", "a brace { is not closed, or a comma is missing"},
-    {"could not find expected ':'", "a key lacks its colon and the blank behind it"},
-    {"mapping values are not allowed in this context", "there is a colon too many, or the line is indented too far"},
+    {"could not find expected ':'", "a key lacks its colon and the blank after it"},
+    {"mapping values are not allowed in this context", "there is one colon too many, or the line is indented too far"},
     {"found unexpected end of stream", "a quotation mark is not closed"},
     {"found character that cannot start any token", "a value begins with a character that YAML reserves: quote it"},
   };

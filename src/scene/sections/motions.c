@@ -37,9 +37,10 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
     a->moves ? a->name : b->name, a->face, a->moves ? b->name : a->name);
   for (PetscInt i = 0; i < 6; ++i)
     PetscCheck(a->released[i] == b->released[i], comm, PETSC_ERR_USER_INPUT,
-      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, and the first one %s it %s %c where the other "
-      "one does not",
-      file, a->name, b->name, a->released[i] ? "frees" : "holds", i < 3 ? "along" : "about", "xyz"[i % 3]);
+      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but only \"%s\" has a free %s %c: make it free "
+      "in both or in neither",
+      file, a->name, b->name, a->released[i] ? a->name : b->name, i < 3 ? "translation along" : "rotation about",
+      "xyz"[i % 3]);
   for (PetscInt i = 0; i < 3; ++i)
     PetscCheck((!SceneTurnsFreely(a) && !(SceneRotates(a) && SceneRotates(b))) || a->center[i] == b->center[i], comm,
       PETSC_ERR_USER_INPUT,

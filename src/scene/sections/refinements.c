@@ -50,7 +50,7 @@ static PetscErrorCode NearView(Scene scene, PetscViewer viewer, const void *entr
 
 const SceneOwn SceneOwnNear = {NearRead, NearIsShown, NearView, 2};
 
-/* Returns whether a key is not printed, which is so for the keys of a box if the zone is near a face. */
+/* Returns whether a key is not printed: the keys of a box are not printed for a zone near a face. */
 PetscBool SceneRefinementHides(const void *entry, const char key[])
 {
   return (PetscBool)(NearIsShown(entry) && (!strcmp(key, "lower") || !strcmp(key, "upper") || !strcmp(key, "body")));
