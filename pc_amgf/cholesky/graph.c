@@ -19,7 +19,7 @@ PetscErrorCode CholeskyGraphCreate(Mat A, CholeskyGraph *g)
   PetscFunctionBegin;
   PetscCall(MatGetBlockSize(A, &bs));
   PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &rows, &ia, &ja, &done));
-  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "The matrix has no rows in compressed format");
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "The matrix has no compressed sparse rows: use type aij");
   for (PetscInt i = 0; i < rows && bs > 1; i++) {
     const PetscInt head = i - i % bs, n = ia[i + 1] - ia[i];
 
@@ -42,7 +42,7 @@ PetscErrorCode CholeskyGraphCreate(Mat A, CholeskyGraph *g)
   PetscFunctionReturn(0);
 }
 
-/* Orders the nodes by nested dissection. perm[i]: node that is the i-th */
+/* Orders the nodes by nested dissection. perm[i]: the i-th node */
 PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *g, PetscInt perm[])
 {
   const PetscInt *order;

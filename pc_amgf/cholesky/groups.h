@@ -1,7 +1,7 @@
 /*
    Substitution for one right-hand side with one supernode, in groups of four columns, so that each entry of the
-   right-hand side is read once for four columns. Included once for each precision of the factors, with ENTRY, their
-   type, and NAME(), which appends it to a name.
+   right-hand side is read once for four columns. This file is included once for each precision of the factors. Two
+   macros must be defined before: ENTRY is the type of the factors, and NAME(name) appends the precision to a name.
 */
 
 /* y += a x for four columns of a matrix with columns of length m */
@@ -41,8 +41,8 @@ static inline void NAME(
 }
 
 /*
-   Forward substitution. x: m entries, the right-hand sides of the own columns on entry, followed by zeros; on exit the
-   solution, followed by what the rows below add up to, with the opposite sign
+   Forward substitution. x: m entries. On entry: the right-hand sides of the supernode's own columns, followed by zeros.
+   On exit: the solution, followed by what must be added to the right-hand sides of the rows below.
 */
 AMGF_CLONES static void NAME(GroupForward)(PetscInt m, PetscInt columns, const ENTRY *L, PetscReal *x)
 {
@@ -65,8 +65,8 @@ AMGF_CLONES static void NAME(GroupForward)(PetscInt m, PetscInt columns, const E
   }
 }
 
-/* Backward substitution. x: m entries, the right-hand sides of the own columns, followed by the solution of the rows
-   below */
+/* Backward substitution. x: m entries. On entry: the right-hand sides of the supernode's own columns, followed by the
+   solution of the rows below. On exit the solution replaces these right-hand sides. */
 AMGF_CLONES static void NAME(GroupBackward)(PetscInt m, PetscInt columns, const ENTRY *L, PetscReal *x)
 {
   for (PetscInt j = (columns - 1) / 4 * 4; j >= 0; j -= 4) {

@@ -1,12 +1,12 @@
 /*
-   The multifrontal method: each supernode has a dense matrix, its front, that contains its entries of the matrix and
-   what its children in the tree subtract. The columns of the supernode are eliminated. The rest, the update, is added
-   to the front of the parent.
+   The multifrontal method. Each supernode has a dense matrix, its front: the sum of its entries of the matrix and of
+   the updates of its children in the tree. The columns of the supernode are eliminated from the front. What remains is
+   the update, which is added to the front of the parent.
 */
 #include "choleskyimpl.h"
 #include <petscblaslapack.h>
 
-/* The updates that no parent has taken yet, in the order of the supernodes */
+/* The updates that have not been added to a parent's front yet, in the order of the supernodes */
 typedef struct {
   PetscInt    n, *supernode;
   PetscReal **update;

@@ -9,7 +9,7 @@
 
 typedef struct {
   Cholesky   c;
-  PetscReal *x, *work; /* right-hand sides in the order of L; work */
+  PetscReal *x, *work; /* right-hand sides in the order of L; work array of the substitutions */
   PetscInt   room;     /* number of right-hand sides for which there is room */
 } CholeskyFactors;
 
@@ -96,7 +96,7 @@ static PetscErrorCode MatCholeskyFactorSymbolic_AMGF(Mat F, Mat A, IS order, con
   const PetscBool  single = f->c.single;
 
   PetscFunctionBegin;
-  (void)order; /* the factorization chooses its own */
+  (void)order; /* the factorization chooses its own order */
   (void)info;
   PetscCall(PetscFree2(f->x, f->work));
   f->room = 0;

@@ -56,7 +56,7 @@ static PetscErrorCode SymbolicMerge(const CholeskyGraph *g, PetscInt j, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Computes the rows below the diagonal of each column of L. rows[j]: they, length nrows[j] */
+/* Computes the rows below the diagonal of each column of L: rows[j] are the nrows[j] rows of column j */
 static PetscErrorCode SymbolicColumns(const CholeskyGraph *g, const PetscInt perm[], const PetscInt parent[],
   PetscInt *rows[], PetscInt nrows[])
 {
@@ -87,7 +87,8 @@ static PetscErrorCode SymbolicColumns(const CholeskyGraph *g, const PetscInt per
 
 /*
    Returns whether a supernode is merged with the next one: it must be its child, and few zeros may be added, as in
-   CHOLMOD. before, own: columns of the supernode and of the next one; below, other: rows of each below its own columns
+   CHOLMOD. before, own: numbers of columns of the supernode and of the next one; below, other: numbers of rows below
+   the own columns of both
 */
 static PetscBool SymbolicMayMerge(PetscInt before, PetscInt below, PetscInt own, PetscInt other)
 {

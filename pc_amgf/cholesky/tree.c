@@ -12,7 +12,7 @@ static void TreeFindParents(const CholeskyGraph *g, const PetscInt perm[], const
     for (PetscInt k = g->start[node]; k < g->start[node + 1]; k++) {
       PetscInt i = place[g->neighbour[k]];
 
-      while (i < j && root[i] != j) { /* root[]: an ancestor of the column, which shortens the way */
+      while (i < j && root[i] != j) { /* root[i]: an ancestor of column i (path compression) */
         const PetscInt next = root[i];
 
         root[i] = j;
@@ -23,7 +23,7 @@ static void TreeFindParents(const CholeskyGraph *g, const PetscInt perm[], const
   }
 }
 
-/* Numbers the columns such that the descendants of each come right before it. post[i]: column that is the i-th */
+/* Numbers the columns in postorder: the descendants of a column come right before it. post[i]: the i-th column */
 static PetscErrorCode TreePostorder(PetscInt n, const PetscInt parent[], PetscInt post[])
 {
   PetscInt *child, *sibling, *stack, m = 0, depth = 0;
@@ -51,7 +51,7 @@ static PetscErrorCode TreePostorder(PetscInt n, const PetscInt parent[], PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Computes the tree, and changes perm such that the descendants of each column come right before it. parent: n: none */
+/* Computes the tree, and changes perm to postorder. parent[j]: parent of column j; n: column j has no parent */
 PetscErrorCode CholeskyTree(const CholeskyGraph *g, PetscInt perm[], PetscInt parent[])
 {
   const PetscInt n = g->n;

@@ -15,8 +15,7 @@
 
 /* An edge of a polygon whose vertices are counterclockwise */
 typedef struct {
-  /* start, and unit normal that points out of the polygon */
-  PetscReal from[2], out[2]; /* start; unit vector outwards */
+  PetscReal from[2], out[2]; /* start, and unit normal that points out of the polygon */
   PetscReal length, across;  /* length of the edge, and size of the polygon perpendicular to the edge [length] */
 } PolygonEdge;
 

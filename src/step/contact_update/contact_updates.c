@@ -141,7 +141,7 @@ static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u
 }
 
 /*
-   Tries whether the undeformed bodies are the solution of a load step to zero load. vanishes: whether a solve has led
+   Tests whether the undeformed bodies are the solution of a load step to zero load. vanishes: whether a solve has led
    to u = 0 up to rounding. *rests: true if they are; sim->solved->linearization and *at_u are then linearizations at
    u = 0.
 */
@@ -238,8 +238,8 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
     if (!report->converged) break;
   }
   /*
-     Relative to forces of the size of rounding errors, residuals are meaningless. Bodies that friction holds without
-     load keep a deformation, which a long increment may miss.
+     If all forces are rounding errors, residuals relative to them are meaningless, and the undeformed bodies are tried.
+     Friction may, however, hold bodies in a deformed state without load, and a long increment may miss that state.
   */
   if (!report->converged && vanished && (rested || report->cuts >= CONTACT_UPDATES_SHORT) && !sim->control->interrupted)
     PetscCall(ContactUpdatesUndeformed(p, PETSC_TRUE, u, report, sol, at_u, &end));

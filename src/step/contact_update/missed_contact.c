@@ -170,11 +170,11 @@ PetscErrorCode MissedFindPassed(Simulation sim, PetscReal time, Vec u, StepRepor
     if (depth <= reach) continue;
     if (pair->self)
       PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
-        "contact pair \"%s\": %s goes through itself within the load step, by %.3g; use smaller load steps", pair->name,
-        pair->self, (double)depth));
+        "contact pair \"%s\": %s passes through itself by %.3g within the load step; use smaller load steps",
+        pair->name, pair->self, (double)depth));
     else
       PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
-        "contact pair \"%s\": %s and %s go through each other within the load step, by %.3g; use smaller load steps",
+        "contact pair \"%s\": %s and %s pass through each other by %.3g within the load step; use smaller load steps",
         pair->name, pair->mortar, pair->nonmortar, (double)depth));
     PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }

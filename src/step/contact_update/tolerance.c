@@ -12,9 +12,12 @@
      change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
      may be the cause, and the tolerance is at most a tenth of the previous one.
 
-     The tolerance of the load step is used for the last update, without friction also if the errors of the last two
-     updates let expect that the next one is the last, for a start from a forecast, with weak springs (which would carry
-     the residual), and if the gap tolerance is near rounding, so that results are reproducible.
+     The tolerance of the load step is used in these cases:
+     - for the last update;
+     - without friction, if the errors of the last two updates indicate that the next update is the last;
+     - for a start from a forecast;
+     - with weak springs, which would carry the residual;
+     - if the gap tolerance is near rounding, so that results are reproducible.
 */
 PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)

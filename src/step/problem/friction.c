@@ -130,7 +130,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
   PetscFunctionReturn(0);
 }
 
-/* At the begin of a load step all vertices stick where they are */
+/* Makes all vertices stick where they are, at the beginning of a load step */
 PetscErrorCode FrictionRestart(StepProblem *p)
 {
   ContactHistory *m = p->sim->history;
@@ -174,8 +174,8 @@ static PetscErrorCode FrictionKeepReleased(StepProblem *p)
 }
 
 /*
-   Releases the vertices that must stick but are open at present, since contact updates do not converge: they might
-   stick and open by turns. They stick again from the next load step on.
+   Releases the vertices that must stick but are open at present. This is done if contact updates do not converge,
+   because such vertices might alternately stick and open. They stick again from the next load step on.
 */
 PetscErrorCode FrictionReleaseOpen(StepProblem *p)
 {

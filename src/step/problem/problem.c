@@ -5,8 +5,8 @@
 
 /*
    Sets p->base, the displacement about which the energy is expanded: the last state with the displacements prescribed
-   at p->time. In long time steps of a flying body the rounding errors of K (u - base) would be as large as the inertia
-   forces; the base is then the extrapolated path.
+   at p->time. If a free body moves far in a time step, the rounding errors of K (u - base) would be as large as the
+   inertia forces; the base is then the extrapolated path.
 */
 static PetscErrorCode StepProblemStartBase(StepProblem *p)
 {
@@ -130,7 +130,8 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   PetscCall(BoltsAdvance(&bodies, &p->sim->bolts, tolerance, u, &changes, &failed));
   if (failed) {
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
-      "bolt \"%s\" does not reach its force; the parts that it clamps must resist it", failed));
+      "bolt \"%s\" does not reach its force: no part resists it; check supports and contact of the parts it clamps",
+      failed));
     PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   if (!changes) PetscFunctionReturn(0);
