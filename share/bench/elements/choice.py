@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The element that a scene gets which names none, beside the others on scenes that the choice was not made on: choice.md, second.md
+"""Compares the element that auto chooses with all others, on scenes that were not used to find its rule: choice.md, second.md
 
     share/bench/elements/choice.py [--set first|second] [--only NAME] [--limit SECONDS] [--folder build/choice] [--page FILE]
 """
@@ -172,9 +172,11 @@ def answer(good):
     return "yes" if good else "no"
 
 
-INTRODUCTION = """`share/bench/elements/choice.py` makes this page. The rule of `auto` was chosen with other scenes.
-Errors are those of the contact force, or of the energy if there is no contact. The reference is the
-mean of `full` and `bbar` of order 2 on the mesh refined once. Times are user seconds on one core.
+INTRODUCTION = """If a scene names no element, the program chooses one (`element: auto`). This page compares the
+chosen element with all others on scenes that were not used to find the rule of `auto`. It is made
+by `share/bench/elements/choice.py`. Errors are those of the contact force, or of the energy if
+there is no contact. The reference is the mean of `full` and `bbar` of order 2 on the mesh refined
+once. Times are user seconds on one core. Two criteria say whether the choice was good:
 
 | column | meaning |
 | --- | --- |
@@ -187,16 +189,17 @@ If `auto` is not on the front, order 2 on a coarser mesh is better. The scene mu
 
 
 def page(found, finding):
-    yield "# The element of a scene that names none\n"
+    yield "# How good is the element that `auto` chooses?\n"
     yield INTRODUCTION
     if finding:
         yield finding
+    yield "Number of scenes in which `auto` meets each criterion:\n"
     yield "| refinement | best of order 1 | on the front | scenes |"
     yield "| --- | --- | --- | --- |"
     for level in LEVELS[1]:
         both = [(best_of_mesh(entries, level), on_front(entries, level)) for _, _, entries in found.values() if ("auto", level) in entries]
         yield f"| {level} | {sum(a for a, _ in both)} | {sum(b for _, b in both)} | {len(both)} |"
-    yield ""
+    yield "\nError and time of each run:\n"
     yield "| scene | reference uncertain by | refinement | unknowns | " + " | ".join(ELEMENTS) + " | best of order 1 | on the front |"
     yield "| --- | --- | --- | --- |" + " --- |" * (len(ELEMENTS) + 2)
     for title, (_, uncertain, entries) in found.items():

@@ -1,4 +1,4 @@
-"""A second set of scenes that the choice of the element was not made on: choice.py --set second"""
+"""A second set of scenes that were not used to find the rule of auto: choice.py --set second"""
 
 FINDING = """`auto` is not the best element for two kinds of bodies. Bodies of finite strain with a Poisson's
 ratio of at most 0.4 get `full`; request `bbar` for them. Metals that yield in bending got `bbar` in

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Forces of elements of order 1 and 2 where contact ends at an edge, mesh by mesh: sharp.md
+"""Compares the forces of elements of order 1 and 2 where contact ends at an edge, mesh by mesh: sharp.md
 
     share/bench/elements/sharp.py [--only NAME] [--limit SECONDS] [--folder build/sharp] [--largest] [--page FILE]
 """
@@ -16,7 +16,7 @@ from references import richardson  # noqa: E402
 from runner import environment, keep, read_summary  # noqa: E402
 from store import CONTACT  # noqa: E402
 
-# The sliding of ironing is left out after its second load step
+# Ironing ends after the second load step of its sliding
 SHORTER = (("steps: 10", "steps: 5"), ("1/3, 2/3, 1, 1, 1, 1, 1, 1, 1, 1", "1/3, 2/3, 1, 1, 1"), ("0, 0, 0, 1/7, 2/7, 3/7, 4/7, 5/7, 6/7, 1", "0, 0, 0, 1/7, 2/7"))
 PUNCH = """bodies:
   - slab: {lower: [0, 0, -2], upper: [3, 0.2, 0], cells: [12, 1, 8], young: 1, poisson: 0.3}
@@ -134,9 +134,11 @@ def limit_of(found):
 
 def page(results):
     yield "# Order 2 where contact ends at an edge\n"
-    yield from ("`share/bench/elements/sharp.py` makes this page. The element is `bbar`. Contact updates continue",
-      "until the gap is consistent. Forces of plane problems are those of a layer of thickness 0.2. The",
-      "limit is extrapolated from the last three meshes. If there are only two, the error is assumed to be",
+    yield from ("If contact ends at a sharp edge, the exact pressure is infinite there. This page compares the forces",
+      "of elements of order 1 and 2 in such problems, and in one with a rounded edge, mesh by mesh. It is",
+      "made by `share/bench/elements/sharp.py`. The element is `bbar`. Contact updates continue until the",
+      "gap is consistent. Forces of plane problems are those of a layer of thickness 0.2. The limit is",
+      "extrapolated from the last three meshes. If there are only two, the error is assumed to be",
       "proportional to the cell size.",
       "",
       "For faces of order 2 that are plane before they deform, the gap is measured between facets. Smooth",
