@@ -11,7 +11,7 @@ FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,addre
 FUZZ_TIME      ?= 600
 TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
 FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
-linked_tree     = mkdir -p $(1) && for part in makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
+linked_tree     = mkdir -p $(1) && for part in README.md CONTRIBUTING.md makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
 
 # $(call small_scenes,TREE,PROGRAM...): the small scenes by the program of that tree, in a folder there
 small_scenes    = mkdir -p $(1)/scenes && cd $(1)/scenes && AMGF_DIR=$(CURDIR) OMP_NUM_THREADS=1 bash $(CURDIR)/tests/lib/small_scenes.sh $(2) $(CURDIR)/$(1)/bin/contact

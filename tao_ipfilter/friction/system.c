@@ -72,7 +72,7 @@ static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
   PetscCall(MatTranspose(t->R, MAT_INITIAL_MATRIX, &Rt));
   PetscCall(MatMatMult(t->RD, Rt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &t->G));
   PetscCall(MatDestroy(&Rt));
-  PetscCall(MatAXPY(t->G, 0.0, t->Bf, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatAXPY(t->G, 1.0, t->Bf, DIFFERENT_NONZERO_PATTERN)); /* B_f is zero so far */
   PetscCall(MatGetDiagonal(t->G, t->r));
   PetscCall(VecGetArrayRead(t->r, &a));
   for (PetscInt i = 0; i < t->m; i++) t->compliance[i] = PetscRealPart(a[i]);

@@ -24,6 +24,12 @@ static char help[] =
     PetscCall(AttemptPrint(attempt_error)); \
   } while (0)
 
+static PetscErrorCode Fail(PetscInt number)
+{
+  PetscFunctionBeginUser;
+  SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER, "rank %d of those that fail", (int)number);
+}
+
 /* Ranks `from` to `to`, counted from the last where negative, fail */
 static PetscErrorCode FailOn(PetscInt from, PetscInt to)
 {
@@ -37,9 +43,7 @@ static PetscErrorCode FailOn(PetscInt from, PetscInt to)
   if (from < 0) from += size;
   if (to < 0) to += size;
   PetscCall(RankErrorBegin(&error));
-  if (rank >= from && rank <= to)
-    ierr = PetscError(PETSC_COMM_SELF, __LINE__, PETSC_FUNCTION_NAME, __FILE__, PETSC_ERR_USER, PETSC_ERROR_INITIAL,
-      "rank %d of those that fail", rank - (int)from);
+  if (rank >= from && rank <= to) ierr = Fail(rank - from);
   PetscCall(RankErrorEnd(PETSC_COMM_WORLD, ierr, &error));
   PetscCheck(!error.code, PETSC_COMM_WORLD, error.code, "%s", error.message);
   PetscFunctionReturn(0);
@@ -96,6 +100,7 @@ static PetscErrorCode DenyMemory(size_t n, PetscBool clear, int line, const char
 
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != hungry || !function || strcmp(function, starved)) return (*given)(n, clear, line, function, file, result);
+  PetscFunctionBeginUser; /* PetscError() takes a function off PETSc's stack */
   ++denied;
   return PetscError(PETSC_COMM_SELF, line, function, file, PETSC_ERR_MEM, PETSC_ERROR_INITIAL, "no memory in %s()",
     function);

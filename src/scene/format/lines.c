@@ -55,7 +55,8 @@ static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t
   *line = 0;
   LineCopy(message, message + strcspn(message, " ,:"), key);
   (void)snprintf(entry, sizeof(entry), "-%s", key);
-  PetscCall(PetscOptionsHasName(NULL, NULL, entry, &set));
+  PetscCall(PetscOptionsValidKey(entry, &set));
+  if (set) PetscCall(PetscOptionsHasName(NULL, NULL, entry, &set));
   if (set) PetscFunctionReturn(0);
   if (end) LineCopy(quote + 1, end, name);
   (void)snprintf(entry, sizeof(entry), "%s_%s", list ? list : "", name);

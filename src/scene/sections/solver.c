@@ -22,8 +22,9 @@ static PetscErrorCode SceneAddOption(Scene scene, const char name[], const char 
 
 PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
 {
-  const char *text;
-  PetscBool   ours;
+  const char *text, *name;
+  char        option[SCENE_KEY_LENGTH];
+  PetscBool   ours, valid;
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "solver"));
@@ -35,7 +36,11 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
 
     PetscCall(PetscStrncmp(value->key, SOLVER_PREFIX, sizeof(SOLVER_PREFIX) - 1, &ours));
     if (!ours || value->used) continue;
-    PetscCall(SceneAddOption(scene, value->key + sizeof(SOLVER_PREFIX) - 1, value->text));
+    name = value->key + sizeof(SOLVER_PREFIX) - 1;
+    PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
+    PetscCall(PetscOptionsValidKey(option, &valid));
+    if (!valid) PetscCall(SceneKeysError(keys, "\"%s\" in solver is not the name of an option", name));
+    PetscCall(SceneAddOption(scene, name, value->text));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", value->key));
   }
   PetscFunctionReturn(0);
