@@ -1,5 +1,5 @@
 # Checks beyond `make check`: PETSc with debugging, sanitizers, valgrind, static analysis, fuzzing. Each builds in a folder of its
-# own, a tree of links to the sources, so that nothing of the ordinary build changes.
+# own, a copy of the sources, so that nothing of the ordinary build changes.
 
 SUPPRESSIONS   := $(CURDIR)/tests/suppressions
 # After an error PETSc leaves its objects as they are: those tests are not asked for leaks
@@ -11,7 +11,8 @@ FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,addre
 FUZZ_TIME      ?= 600
 TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
 FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
-linked_tree     = mkdir -p $(1) && for part in README.md CONTRIBUTING.md makefile pc_amgf tao_ipfilter src include apps share tests; do ln -sfn $(CURDIR)/$$part $(1)/$$part; done
+tree_parts     := $(wildcard *.md CITATION.cff .clang-format .clang-tidy .ci) makefile pc_amgf tao_ipfilter src include apps share tests
+copied_tree     = mkdir -p $(1) && rm -rf $(addprefix $(1)/,$(tree_parts)) && cp -a $(tree_parts) $(1)
 
 # $(call small_scenes,TREE,PROGRAM...): the small scenes by the program of that tree, in a folder there
 small_scenes    = mkdir -p $(1)/scenes && cd $(1)/scenes && AMGF_DIR=$(CURDIR) OMP_NUM_THREADS=1 bash $(CURDIR)/tests/lib/small_scenes.sh $(2) $(CURDIR)/$(1)/bin/contact
@@ -22,12 +23,12 @@ DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 .PHONY: format debug sanitize memcheck tidy fuzz nlp grid control
 
 debug:
-	@$(call linked_tree,build/debug)
-	@env -u PKG_CONFIG_PATH $(MAKE) --no-print-directory -C build/debug check TIMEOUT=600 $(DEBUG_PETSC) CFLAGS='-g -O1' TESTS='$(DEBUG_TESTS)'
+	@$(call copied_tree,build/debug)
+	@env -u PKG_CONFIG_PATH $(DEBUG_PETSC) CFLAGS='-g -O1' $(MAKE) --no-print-directory -C build/debug check TIMEOUT=600 TESTS='$(DEBUG_TESTS)'
 
 # SANITIZE_ERRORS='*': all quick tests; those fail that load the plugin into a program built without sanitizers, as Python is
 sanitize:
-	@$(call linked_tree,build/sanitize)
+	@$(call copied_tree,build/sanitize)
 	@LSAN_OPTIONS=suppressions=$(SUPPRESSIONS)/lsan.supp:print_suppressions=0 UBSAN_OPTIONS=print_stacktrace=1; export LSAN_OPTIONS UBSAN_OPTIONS; \
 	  run='$(MAKE) --no-print-directory -C build/sanitize check TIMEOUT=600' && \
 	  ASAN_OPTIONS=fast_unwind_on_malloc=0 $$run CFLAGS='$(SANITIZE_FLAGS)' TESTS='$(SANITIZE_TESTS)' && \
@@ -39,7 +40,7 @@ MEMCHECK := OPENBLAS_CORETYPE=Haswell valgrind --quiet --error-exitcode=1 --leak
   --num-callers=30 --suppressions=$(SUPPRESSIONS)/valgrind.supp $(addprefix --suppressions=,$(wildcard /usr/share/openmpi/openmpi-valgrind.supp))
 
 memcheck:
-	@$(call linked_tree,build/memcheck)
+	@$(call copied_tree,build/memcheck)
 	@$(MAKE) --no-print-directory -C build/memcheck all CFLAGS='-g -O1'
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -scene_check > /dev/null
 	$(MEMCHECK) build/memcheck/bin/contact tests/contact/contact_patch.yaml -quiet
@@ -64,7 +65,7 @@ tidy:
 
 # Findings are left in build/fuzz/found-*; what is worth keeping of them goes to tests/fuzz/corpus
 fuzz:
-	@$(call linked_tree,build/fuzz)
+	@$(call copied_tree,build/fuzz)
 	@OMPI_CC=clang $(MAKE) --no-print-directory -C build/fuzz lib/libcontact.a lib/libpetscamgf.so CFLAGS='$(FUZZ_FLAGS)'
 	@for target in gmsh scene; do \
 	  mkdir -p build/fuzz/corpus-$$target && \

@@ -3,7 +3,7 @@
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp -r "$AMGF_DIR/tao_ipfilter" "$AMGF_DIR/pc_amgf" "$AMGF_DIR/include" "$work"
+cp -rL "$AMGF_DIR/tao_ipfilter" "$AMGF_DIR/pc_amgf" "$AMGF_DIR/include" "$work"
 cd "$work" || exit 1
 headers=$(pkg-config --cflags PETSc)
 folders=()

@@ -15,7 +15,7 @@ for objects in build/pc_amgf build/tao_ipfilter "$AMGF_DIR/build/src" "$AMGF_DIR
   echo "${objects#"$AMGF_DIR"/}: ${calls:-no call}"
 done
 
-mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c" -o hermitian -Llib -lpetscamgf -Wl,-rpath,"$work/lib" $(pkg-config --libs PETSc) -lm
+mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c" -o hermitian -Llib -lpetscamgf -Wl,-rpath,"$work/lib",-rpath,"$(pkg-config --variable=libdir PETSc)" $(pkg-config --libs PETSc) -lm
 for ranks in 1 2; do
   mpiexec --oversubscribe -n $ranks ./hermitian -ksp_view > view
   grep -E '^(bfb|fbf|additive)|^  [A-Za-z].*: (ok|[0-9.e+-]* exceeds)' view | diff "$AMGF_DIR/tests/pc_amgf/amgf_hermitian_solves.out" - && echo "ranks $ranks: solves"
