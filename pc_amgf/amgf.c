@@ -61,35 +61,37 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    Level: intermediate
 
    Notes:
-   For symmetric (or complex Hermitian) positive definite A (n x n) for which multigrid converges well except on a
-   subspace of small dimension n_c, the range of P. Examples: contact or penalty rows, interface conditions, inclusions
-   of high contrast. With Q = P (P^T A P)^-1 P^T the error is multiplied by (I-BA)(I-QA)(I-BA) in `bfb`, by
-   (I-QA)(I-BA)(I-QA) in `fbf`; `additive` is B + Q. With complex scalars, P^T stands for the conjugate transpose.
+   The preconditioner is for symmetric (or complex Hermitian) positive definite A (n x n) for which multigrid converges
+   well except on a subspace of small dimension n_c, the range of P. Examples: contact or penalty rows, interface
+   conditions, inclusions of high contrast. Let Q = P (P^T A P)^-1 P^T. The error is multiplied by
+   (I-BA)(I-QA)(I-BA) in `bfb`, and by (I-QA)(I-BA)(I-QA) in `fbf`. `additive` is B + Q. With complex scalars, P^T
+   stands for the conjugate transpose.
 
-   If A < omega B^-1 with omega < 2, and beta bounds the condition number of BA for the operator without its stiff
-   part, the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1, to
-   the rounding errors of its precision.
-   `fbf` and `additive` need no omega: they are positive definite with any positive definite B.
+   Let A < omega B^-1 with omega < 2, and let beta bound the condition number of BA for the operator without its stiff
+   part. Then the condition number of `bfb` is at most 2 (beta + 2 + omega)/(2 - omega). The default AMG has omega = 1,
+   to the rounding errors of its precision. `fbf` and `additive` need no omega: they are positive definite with any
+   positive definite B.
 
    The subspace is the first of these that is given: `PCAMGFSetFilterIS()` or `PCAMGFSetFilterInterpolation()`; an `IS`
    or `Mat` composed on the Pmat under "amgf_filter" (if it is composed after the set-up, the next application uses it);
-   `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without any, or if it is empty, the preconditioner is B. If no subspace
-   was given or detected, one warning is printed, unless `PCAMGFSetFilterOptional()`.
+   `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without a subspace, or if it is empty, the preconditioner is B. If no
+   subspace was given or detected, one warning is printed; `PCAMGFSetFilterOptional()` turns it off.
 
-   The default AMG is that of hypre's BoomerAMG, where PETSc has hypre, with HMIS coarsening, ext+i interpolation of at
-   most 4 entries per row, no aggressive level, one sweep of Gauss-Seidel, forward down and backward up, strength
-   threshold 0.25, or 0.7 for block size 3. With real scalars and an operator of type AIJ, BAIJ or SBAIJ its cycle is
-   that of `PCBLOCKAMG`, in single precision. hypre's own cycle, in double precision and with l1 Gauss-Seidel, is used
-   instead with other matrix types; where positive diagonal entries of coupled rows differ by a factor of more than 1e7
-   (`bfb`: 1e4), too large for single precision; with `-amgf_amg_pc_type hypre`; and if an option of hypre's own cycle
-   is given, for example `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
+   If PETSc has hypre, the default AMG has the hierarchy of hypre's BoomerAMG: HMIS coarsening, ext+i interpolation of
+   at most 4 entries per row, no aggressive level, strength threshold 0.25, or 0.7 for block size 3. Its V-cycle has one
+   sweep of Gauss-Seidel, forward on the way down and backward on the way up. With real scalars and an operator of type
+   AIJ, BAIJ or SBAIJ this is `PCBLOCKAMG`, in single precision. hypre's own cycle, in double precision and with l1
+   Gauss-Seidel, is used instead in four cases: with other matrix types; if positive diagonal entries of coupled rows
+   differ by a factor of more than 1e7 (`bfb`: 1e4), which is too large for single precision; with
+   `-amgf_amg_pc_type hypre`; and if an option of hypre's own cycle is given, for example
+   `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
 
    Without hypre the default AMG is `PCGAMG`. With complex scalars its interpolation is not smoothed: the restriction of
    `PCGAMG` is the transpose without conjugation, and B would not be Hermitian.
 
-   The default filter solver is `KSPPREONLY` with Cholesky, with complex scalars LU, by MUMPS, on the first few ranks
-   where it is small (`PCAMGFSetFilterRanks()`); if PETSc has no MUMPS, by PETSc's own factorization, on several ranks
-   redundantly on every rank (`PCREDUNDANT`). Options set by the user take precedence.
+   The default filter solver is `KSPPREONLY` with a Cholesky factorization by MUMPS, or LU with complex scalars. A small
+   system is factored on the first few ranks (`PCAMGFSetFilterRanks()`). If PETSc has no MUMPS, its own factorization is
+   used, on several ranks redundantly on every rank (`PCREDUNDANT`). Options set by the user take precedence.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix
    in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
@@ -100,8 +102,8 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    The operator may be AIJ, BAIJ or (real scalars) SBAIJ, on any number of ranks, if the AMG supports the type
    (`PCHYPRE` supports all three, `PCGAMG` AIJ only).
 
-   The transpose uses the transpose of B, except for BoomerAMG, whose transposed cycle does not support most smoothers:
-   there B is assumed to be symmetric.
+   `PCApplyTranspose()` uses the transpose of B. For BoomerAMG, whose transposed cycle does not support most smoothers,
+   B is assumed to be symmetric.
 
    If an inner set-up fails, the owner `KSP` ends with `KSP_DIVERGED_PC_FAILED`, or with an error under
    `-ksp_error_if_not_converged`.

@@ -83,7 +83,7 @@ static PetscErrorCode SolverCreate(Tao tao)
 }
 
 /*MC
-  TAOIPFILTER - Interior point with a filter line search, for problems too large to factor:
+  TAOIPFILTER - An interior point method with a filter line search, for problems too large to factor:
   min f(x) subject to c_E(x) = 0, c_I(x) >= 0 (or c_l <= c_I(x) <= c_u), and x_l <= x <= x_u
 
   Options Database Keys:
@@ -148,9 +148,9 @@ static PetscErrorCode SolverCreate(Tao tao)
   Level: beginner
 
   Notes:
-  Slacks, multipliers and bounds are eliminated from the Newton system, which leaves A = H + Sigma + J^T D J, solved by
-  a Krylov method. The unknowns in nonzero columns of J are composed on A as an IS under `PCAMGF_FILTER_KEY`, which
-  `PCAMGF` uses as filter.
+  Slacks, multipliers and bounds are eliminated from the Newton system. The remaining matrix is A = H + Sigma + J^T D J.
+  A Krylov method solves its systems. The unknowns in nonzero columns of J are composed on A as an IS under
+  `PCAMGF_FILTER_KEY`; `PCAMGF` uses them as filter.
 
   Equality constraints are kept in the symmetric augmented system of A and their Jacobian, which is factored by MUMPS.
   PETSc must have MUMPS. Linearly dependent constraints are regularized by proximal terms, which vanish at the solution.
@@ -164,11 +164,11 @@ static PetscErrorCode SolverCreate(Tao tao)
   `-tao_ipfilter_direct_memory` is 0; `TaoIPFilterGetFallbacks()` counts that as a system solved by MUMPS.
   `-tao_ipfilter_equality` sets the method, `-tao_view` prints which was used.
 
-  `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I, DE and DI being what `TaoGetDualVariables()`
-  returns; without it the Hessian is computed by finite differences of gradients, up to 1,000 unknowns. With more
-  unknowns, and no equality constraints, a limited-memory BFGS matrix (`MATLMVMBFGS`, options prefix `-tao_ipfilter_`)
-  is used. The assembled matrix, for the preconditioner, then contains a multiple of the identity instead; the Krylov
-  method multiplies with the full BFGS matrix.
+  `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I. DE and DI are the multipliers that
+  `TaoGetDualVariables()` returns. Without `TaoSetHessian()` the Hessian is computed by finite differences of gradients,
+  up to 1,000 unknowns. With more unknowns, and no equality constraints, a limited-memory BFGS matrix (`MATLMVMBFGS`,
+  options prefix `-tao_ipfilter_`) is used. The Krylov method multiplies with the full BFGS matrix. The assembled
+  matrix, for the preconditioner, contains a multiple of the identity instead.
 
   A Hessian of type AIJ, BAIJ, SBAIJ or dense, and Jacobians of type AIJ, are used without conversion. Other assembled
   types, such as `MATNEST` and `MATIS`, are converted to AIJ at every evaluation. If a Hessian or Jacobian routine does
@@ -189,26 +189,29 @@ static PetscErrorCode SolverCreate(Tao tao)
   `-tao_ipfilter_direct_memory` (its options have the prefix `-tao_ipfilter_direct_`); otherwise the solve ends.
   `TaoIPFilterGetFallbacks()` counts the remedies.
 
-  With `-tao_ipfilter_subspace` a quadratic objective with linear inequalities that involve few unknowns, the set W, is
-  minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first rank. The remaining residual,
-  preconditioned by the `PC` of the Krylov method for H, is the next direction in P. With `-tao_ipfilter_pc_amgf_factor`
-  auto a factorization replaces the AMG there as soon as it is estimated to be cheaper for the expected number of
-  solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`. With false the AMG is always used.
+  The filtered subspace method, `-tao_ipfilter_subspace`, is for linear inequalities that involve few unknowns, the set
+  W. A quadratic objective is minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first
+  rank. The `PC` of the Krylov method for H is applied to the remaining residual, which gives the next direction in P.
+  With `-tao_ipfilter_pc_amgf_factor` auto a factorization replaces the AMG there as soon as it is estimated to be
+  cheaper for the expected number of solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`. With false the AMG is
+  always used.
 
-  A nonquadratic objective with such constraints is minimized by Newton's method, whose quadratic models are solved by
-  this method to a fraction of the current residual. The products of the directions with the new Hessian are computed
-  again, an indefinite Hessian is shifted, and a line search on the objective, with a penalty for violated constraints,
-  gives the step length. Each Newton step counts as an iteration; a direction counts towards the limit of
-  `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`. The directions are reused in all later solves with the
-  same Hessian, for any constraints and loads: `TaoIPFilterSetSubspace()`. Convergence is tested as in the interior
-  point method, by the KKT error with the caller's gradient. `auto` uses this method if the routine of the Jacobian does
-  not change its matrix, W has at most half of the unknowns, the `PC` is `PCAMGF` with adaptive forcing or a
-  factorization (then of H, computed once), and start and KKT measure have their defaults. If it does not converge, the
-  interior point method continues from the best iterate; `TaoIPFilterGetFallbacks()` counts that.
+  A nonquadratic objective with such constraints is minimized by Newton's method. This method solves its quadratic
+  models to a fraction of the current residual. For each new Hessian the products with the directions are computed
+  again. An indefinite Hessian is shifted. A line search on the objective, with a penalty for violated constraints,
+  gives the step length. Each Newton step counts as an iteration. A direction counts towards the limit of
+  `KSPSetTolerances()`, not that of `TaoSetMaximumIterations()`.
 
-  A trial point at which the objective is infinite or NaN is rejected; with `TaoSetObjective()` and `TaoSetGradient()`
-  constraints and derivatives are not evaluated there. Where the Hessian is indefinite a multiple of the identity, or of
-  `TaoIPFilterSetPrimalMass()`, is added: `TaoIPFilterGetRegularizations()` tells how often.
+  The directions are reused in all later solves with the same Hessian, for any constraints and loads:
+  `TaoIPFilterSetSubspace()`. Convergence is tested as in the interior point method, by the KKT error with the caller's
+  gradient. If the method does not converge, the interior point method continues from the best iterate;
+  `TaoIPFilterGetFallbacks()` counts that. `auto` uses the method if four conditions hold: the routine of the Jacobian
+  does not change its matrix; W has at most half of the unknowns; the `PC` is `PCAMGF` with adaptive forcing, or a
+  factorization (then of H, computed once); start and KKT measure have their defaults.
+
+  A trial point at which the objective is infinite or NaN is rejected. With `TaoSetObjective()` and `TaoSetGradient()`
+  constraints and derivatives are not evaluated there. If the Hessian is indefinite, a multiple of the identity, or of
+  `TaoIPFilterSetPrimalMass()`, is added. `TaoIPFilterGetRegularizations()` returns how often.
 
   `TaoComputeDualVariables()` gives the multipliers of the bounds, those of upper bounds negative, so that
   grad f + J_E^T DE - J^T DI = DL + DU.
@@ -219,24 +222,27 @@ static PetscErrorCode SolverCreate(Tao tao)
   constraint; infinite bounds are ignored.
 
   The KKT error of `-tao_ipfilter_kkt relative` has two measures, which both must be within the tolerance. With
-  `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective. The first
-  measure is relative to the largest value of the same kind: the norm of the stationarity residual r over that of the
-  gradient, the largest violation over the largest constraint value, the largest product of a slack s or distance t and
-  its multiplier over the largest length times the largest multiplier. If such a reference value is zero, it is replaced
-  by a small fraction of its initial value, or of the value from the Hessian's diagonal and x. A gradient that consists
-  of rounding errors counts as zero. The second measure is the change of the objective that the residuals correspond to:
-  each of sum_j |r_j| l_j, sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i| and sum_i m_i t_i z_i, where l_j is
-  the larger of |x_j| and |r_j| over the diagonal of A, over twenty times |f|; or over twenty times 1e-6 of the terms
-  sum_j |x_j (H x)_j| + |x_j g_j| of f, or 1e-8 of those at the start, where f vanishes. In these sums each row, bound
-  and unknown is measured by its own size, so distant bounds have no larger weight than near ones. At the default
-  tolerance the error of the objective is about 2e-7. A constant added to the objective changes the second measure, not
-  the first.
+  `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective.
+
+  The first measure is the largest of three ratios. They are the norm of the stationarity residual r over that of the
+  gradient; the largest violation over the largest constraint value; and the largest product of a slack s or distance t
+  and its multiplier, over the product of the largest length and the largest multiplier. If a divisor is zero, it is
+  replaced by a small fraction of its initial value, or of the value from the Hessian's diagonal and x. A gradient that
+  consists of rounding errors counts as zero.
+
+  The second measure is a bound of the error of the objective f that the residuals cause, relative to f. The bound is
+  the largest of three sums: sum_j |r_j| l_j; sum_i m_i |lambda_i| |c_i - s_i| + sum_i |y_i| |c_E,i|; and
+  sum_i m_i t_i z_i. The length l_j is |x_j|, or |r_j| over the diagonal entry of A if that is larger. The bound is
+  divided by 20 max(|f|, 1e-6 F, 1e-8 F_0), where F = sum_j |x_j (H x)_j| + |x_j g_j| is the magnitude of the terms of
+  f, and F_0 is F at the start. In the sums each row, bound and unknown is measured by its own size, so distant bounds
+  have no larger weight than near ones. At the default tolerance the error of the objective is about 2e-7. A constant
+  added to the objective changes the second measure, not the first.
 
   With `none` and `gradient` the residuals are absolute; with `gradient` the objective and each row are first scaled so
   that their gradients at the start are at most 100. The absolute limits, in the caller's units, apply in addition.
 
   If the iterates show that the inequalities have no interior, they are relaxed by a hundredth of the tolerance times
-  their size, or by the tolerance if that is not enough; the sentence of `TaoIPFilterGetReason()` states by how much. If
+  their size, or by the tolerance if that is not enough. The sentence of `TaoIPFilterGetReason()` states by how much. If
   this changes the objective by more than the tolerance, the result is only acceptable (`TAO_CONVERGED_STEPTOL`). A
   solve that fails returns the point with the smallest violation, or, among the points within the tolerance, the one
   with the smallest KKT error.

@@ -95,8 +95,8 @@ static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest
    u.
 
    - depth: for each pair, the largest penetration of a vertex of either face [length]; 0 if no vertex penetrates
-   - rounding: for each pair, the uncertainty of the depth [length]: a tenth of the distance between smooth surfaces and
-     facets, which is 0 for plane faces
+   - rounding: for each pair, the uncertainty of the depth [length]. It is a tenth of the distance between smooth
+     surfaces and facets, and 0 for plane faces.
 
    The gap of a mortar pair is a mean, weighted by the shape function of a nonmortar vertex. Here the depth of each
    single vertex of both sides is measured along the normal of the other face. Smooth pairs are measured between the

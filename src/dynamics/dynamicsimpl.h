@@ -1,8 +1,9 @@
 /*
-   Inertia. In a time step the term c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u -
-   viscous) + rate/2 (u - viscous)^T D (u - viscous) is added to the energy of the bodies, where E is the elastic energy
-   and D the matrix of dampers. The gradient of this term is the sum of the inertia and damping forces. Each file uses
-   only the files listed before it.
+   Inertia. In a time step this term is added to the energy of the bodies:
+     c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u - viscous)
+     + rate/2 (u - viscous)^T D (u - viscous)
+   E is the elastic energy, D the matrix of dampers. The gradient of the term is the sum of the inertia and damping
+   forces. Each file uses only the files listed before it.
 */
 #ifndef DYNAMICSIMPL_H
 #define DYNAMICSIMPL_H

@@ -1,14 +1,14 @@
 /*
    The mean force f of a step from U to U'. Its work f (U' - U) is the change of a cell's energy, including plastic
-   work, and it has no moment about the mean of the initial and the final places (Simo and Tarnow, The discrete
-   energy-momentum method, 1992; Gonzalez, Exact energy and momentum conserving algorithms for general models in
-   nonlinear elasticity, 2000):
+   work. With lever arms that are the mean of the initial and the final positions it has no moment. References: Simo and
+   Tarnow, The discrete energy-momentum method, 1992; Gonzalez, Exact energy and momentum conserving algorithms for
+   general models in nonlinear elasticity, 2000.
      f = int F_m (S_m + alpha C^(-1) dE C^(-1)) : dN/dX,   S = F^(-1) P,   dE = sym F_m^T (F' - F),   C = F^T F,
-   where F_m and S_m are the means of the values at U and U', F and C belong to U, and alpha is one number per cell. The
-   metric C makes the term with alpha a stress in the deformed cell. alpha dE alone would be very different from one in
+   F_m and S_m are the means of the values at U and U'. F and C belong to U. alpha is one number per cell. The metric C
+   makes the term with alpha a stress in the deformed cell; alpha dE alone would be very different from such a stress in
    cells that are strained by 1 or more. For laws of small strain F_m = F = I and S = P.
-   The mean of the forces at U and U' would not do this work: where a metal begins to yield its stress is a concave
-   function of the strain, so that the mean is too small.
+   The mean of the forces at U and U' would not do this work. For example, where a metal begins to yield, the stress is
+   a concave function of the strain, so that the mean is too small.
 */
 #include "elasticityimpl.h"
 

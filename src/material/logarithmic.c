@@ -1,9 +1,9 @@
 /*
    Logarithmic strain E = 1/2 ln C with C = F^T F, and the stress and the tangent of an energy that is a function of E.
-   In the basis of eigenvectors of C, whose eigenvalues are 1 + c_a, with f(c) = 1/2 ln(1 + c) and its divided
-   differences (Miehe, Comparison of two algorithms for the computation of fourth-order isotropic tensor functions,
-   1998):
-     dE_ab = f[a,b] dC_ab,   d2E_ab(X, Y) = sum_k f[a,k,b] (X_ak Y_kb + Y_ak X_kb).
+   The eigenvalues of C are 1 + c_a. In the basis of its eigenvectors, with the divided differences f[] of f(c) =
+   1/2 ln(1 + c):
+     dE_ab = f[a,b] dC_ab,   d2E_ab(X, Y) = sum_k f[a,k,b] (X_ak Y_kb + Y_ak X_kb)
+   (Miehe, Comparison of two algorithms for the computation of fourth-order isotropic tensor functions, 1998).
    Divided differences are continuous where eigenvalues coincide, so that this needs no special case.
 */
 #include "materialimpl.h"

@@ -29,8 +29,9 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
 }
 
 /*
-   Computes, for one pair and the vertices of both sides that this rank owns, the present friction forces, and minus the
-   work that the mean of the forces at the last and the present state has done since the last state
+   Computes the present friction forces of one pair at the owned vertices of both sides (force), and the energy that
+   they have dissipated since the last state (work). The latter is minus the work of the mean of the forces at the last
+   and the present state.
 */
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])

@@ -1,10 +1,10 @@
 /*
    Smooths pressures that the mortar side cannot resolve. If the nonmortar side is finer and stiffer than the mortar
    facets, few rows carry all of the force. The rows between them have no pressure, and gaps that are small compared
-   with the mortar facets' deformation. The mortar side only responds to means over its shape functions. Therefore open
-   rows that are surrounded by closed ones, and the rows around them, get the pressure of the mortar vertices (means of
-   the rows' values over the shared area), interpolated back to the rows. The sum of value x area over the rows is
-   preserved.
+   with the mortar facets' deformation. The mortar side only responds to means over its shape functions. Therefore the
+   pressures of open rows that are surrounded by closed ones, and of the rows around them, are replaced: first the rows'
+   values are averaged at the mortar vertices, weighted by the shared area, then these means are interpolated back to
+   the rows. The sum of value x area over the rows is preserved.
 */
 #include "pair_rows.h"
 #include "src/state/contact_state.h"

@@ -411,12 +411,12 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
 
    The first mesh's error in energy is estimated by stress recovery. This does not include the errors of faceted curved
    surfaces and of the edge of contact. Therefore a second mesh is always run. From then on the error is extrapolated
-   from the change of energy and of each pair's force between two meshes, whichever is largest, with the convergence
-   rate of the recovered error, at most a factor of 4, the rate of trilinear elements. The result is at least a quarter
-   of the recovered error. It is at least the recovered error if that falls more slowly than for a regular solution, as
-   near singular edges. If the change is larger than the recovered errors of both meshes explain, the change is the
-   error. A pair's force enters with two values: its magnitude, relative to the largest of all pairs, and the sum of the
-   magnitudes of its rows' forces.
+   from the change between two meshes: that of the energy or of a pair's force, whichever is largest. The assumed
+   convergence rate is that of the recovered error, but at most a factor of 4, the rate of trilinear elements. The
+   result is at least a quarter of the recovered error. It is at least the recovered error if that falls more slowly
+   than for a regular solution, as near singular edges. If the change is larger than the recovered errors of both meshes
+   explain, the change is the error. A pair's force has two values: its magnitude, relative to the largest of all pairs,
+   and the sum of the magnitudes of its rows' forces.
 
    A mesh is fine enough when its error is within a factor of 2 of the target. Uniform refinement divides the error by 4
    and costs 8 times as much, so that all coarser meshes together cost a seventh of the last. If the first mesh already

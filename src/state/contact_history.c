@@ -124,9 +124,9 @@ static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm co
 }
 
 /*
-   Measures how much the gap changed since the last solve. *change: the maximum over the rows of lin, on all ranks, of
-   |gap - slack stored for the vertex| in rows under pressure, and of the penetration -gap in the other rows, whose open
-   gaps do not matter [length].
+   Measures how much the gap changed since the last solve. *change: the maximum over the rows of lin on all ranks
+   [length]. A row under pressure counts with |gap - slack stored for the vertex|. Any other row counts with its
+   penetration -gap, because open gaps do not matter.
 */
 PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearization lin, PetscReal *change)
 {

@@ -75,8 +75,8 @@ static void ConvexForces(const IPTermSet *set, const TermConvex *convex, const P
 /*
    Computes the residual set->F[row] of a row that can carry a force, and its derivatives: by_v by the two motions of
    its term, by_f by the two forces. A constraint uses the first entry only. The slip law is written as |b| tau = bound
-   b, not divided by |b| (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image
-   restoration, 1999), and its derivative is made symmetric; Newton's method then converges from distant starts.
+   b instead of tau = bound b/|b|, and its derivative is made symmetric. Newton's method then converges from distant
+   starts (Chan, Golub and Mulet, A nonlinear primal-dual method for total variation-based image restoration, 1999).
 */
 static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const TermConvex *convex, PetscInt row,
   PetscReal by_v[2], PetscReal by_f[2])

@@ -273,9 +273,9 @@ static PetscReal TermSetNorm(const IPTermSet *set, const IPReducedSystem *s)
 }
 
 /*
-   Updates which constraints are closed and which terms slip. All wrong constraints are exchanged. If their number has
-   not fallen for several steps, only the last of them is exchanged, since exchanges of all may cycle (Portugal, Judice
-   and Vicente, A comparison of block pivoting and interior-point algorithms for linear least squares problems with
+   Updates which constraints are closed and which terms slip. All wrong constraints are exchanged. This may cycle:
+   therefore only the last of them is exchanged if their number has not fallen for several steps (Portugal, Judice and
+   Vicente, A comparison of block pivoting and interior-point algorithms for linear least squares problems with
    nonnegative variables, 1994). *changed: whether anything changed.
 */
 static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, TermSetCount *count, PetscBool *changed)

@@ -92,8 +92,8 @@ PetscErrorCode IPBarrierFromAffine(Tao tao)
 }
 
 /*
-   Returns whether the KKT error is below the largest error of the last iterates with Mehrotra's rule, and if so stores
-   it in place of the oldest one (Nocedal, Waechter and Waltz 2009, section 4)
+   Returns whether the KKT error is below the largest of the last iterates with Mehrotra's rule. If so, it replaces the
+   oldest of these errors (Nocedal, Waechter and Waltz 2009, section 4).
 */
 static PetscBool BarrierProgresses(TAO_IPFILTER *ip)
 {

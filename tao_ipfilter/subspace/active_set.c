@@ -5,8 +5,8 @@
      gap = C lambda - JZ y - h >= 0 in the inactive rows,
    where C = J K_WW^-1 J^T, JZ = J K_WW^-1 Q_W and T = P^T K P - Q_W^T K_WW^-1 Q_W. The method is block principal
    pivoting (Portugal, Judice and Vicente, A comparison of block pivoting and interior-point algorithms for linear least
-   squares problems with nonnegative variables, 1994), that is, the primal-dual active set method, which changes to
-   exchanging single rows if exchanging all of them makes no progress, and therefore terminates.
+   squares problems with nonnegative variables, 1994). It exchanges all wrong rows at once, as the primal-dual active
+   set method does. If that makes no progress, it exchanges single rows. Therefore it terminates.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>

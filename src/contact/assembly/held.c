@@ -116,8 +116,8 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
   PetscFunctionReturn(0);
 }
 
-/* For a vertex of the nonmortar face with this prescribed motion and this coordinate along the axis, determines whether
-   the mortar face is held at that coordinate (*held), and whether it is held by the same motion (*alike) */
+/* Compares the mortar face with a nonmortar vertex that has this prescribed motion, and this coordinate (place) along
+   the axis. *held: whether the mortar face is held at that coordinate; *alike: whether the same motion holds it */
 static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
 {
   *held  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);

@@ -1,7 +1,8 @@
 /*
    Estimates how far a curved surface is from its plane facets. At a corner of a facet the normal of the surface is the
-   mean of the normals of all facets there. The height above an edge from x_i to x_j of an arc with the normals n_i and
-   n_j is (n_j - n_i) (x_j - x_i) / 8 in the middle, and a parabola along the edge.
+   mean of the normals of all facets there. The surface above an edge from x_i to x_j is taken as an arc with the
+   normals n_i and n_j at its ends. Its height is a parabola along the edge, with (n_j - n_i).(x_j - x_i) / 8 in the
+   middle.
 */
 #include "detectimpl.h"
 #include <stdlib.h>

@@ -25,9 +25,9 @@ static PetscBool NodeIsOnBorder(PetscInt border, const PetscReal xi[2])
 }
 
 /*
-   Returns whether the vertex x lies beside the mortar face: the closest point y is on the border of the face, and the
-   part of x - y perpendicular to the facet's normal is longer than `margin` [length] and than BORDER_MARGIN times the
-   facet's size
+   Returns whether the vertex x lies beside the mortar face. This is so if two conditions hold: the closest point y is
+   on the border of the face; and the part of x - y perpendicular to the facet's normal is longer than `margin` [length]
+   and longer than BORDER_MARGIN times the facet's size.
 */
 static PetscBool NodeIsBesideFace(const ContactCandidates *mortar, const ContactNearest *nearest, const PetscReal x[3],
   PetscReal margin)

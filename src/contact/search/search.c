@@ -2,9 +2,10 @@
 #include "searchimpl.h"
 
 /*
-   The prism that a nonmortar facet sweeps along its normal. It reaches from the search depth below the facet to above
-   the facet by the search distance plus the facet's diameter, because a facet that is partly within the search distance
-   is integrated as a whole. A sphere of that radius would contain more facets the finer the mesh is.
+   The prism that a nonmortar facet sweeps along its normal. Below the facet it ends at the search depth. Above the
+   facet it ends at the search distance plus the facet's diameter, because a facet that is partly within the search
+   distance is integrated as a whole. In contrast, a sphere of that radius would contain more facets the finer the mesh
+   is.
 */
 typedef struct {
   ContactFrame frame;

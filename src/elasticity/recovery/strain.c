@@ -65,10 +65,13 @@ static PetscErrorCode StrainMeasureCell(const CellState *cell, PetscReal *volume
 
 /*
    Collective. Measures strain and rotation of bodies with a law of small strain. u: global displacement, 3 components
-   per node [length]; values: three per body, namely the mean of the largest absolute principal strain weighted with the
-   strain energy, the mean of the rotation angle weighted with the volume [rad], and the share of the volume in which a
-   direction is compressed to a length of zero or less; 0 for other laws. With these weights unloaded parts have no
-   influence on the strain, and the few cells at a singular edge have little.
+   per node [length]. Each body gets three values, which are 0 for other laws:
+
+   - values[0]: mean of the largest absolute principal strain, weighted with the strain energy
+   - values[1]: mean of the rotation angle, weighted with the volume [rad]
+   - values[2]: fraction of the volume in which a direction is compressed to a length of zero or less
+
+   With these weights unloaded parts have no influence on the strain, and the few cells at a singular edge have little.
 */
 PetscErrorCode ElasticityMeasureStrain(Elasticity e, Vec u, PetscReal values[][3])
 {

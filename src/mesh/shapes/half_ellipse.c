@@ -1,8 +1,8 @@
 /*
    Prism over a half or a quarter of an ellipse: an O-grid of a core and a ring, extruded along the axis. The parameters
    are u along the depth, v across it, and w from 0 to 1 along the axis. The core is [0, 1] x [-1, 1], or [0, 1]^2 for a
-   quarter. For a point outside of the core, with m = max(u, |v|), q = (u, v)/m is on the core's outline, and s = m - 1
-   runs from 0 on the outline to 1 on the arc. The position on the arc is linear in arc length along q.
+   quarter. A point outside of the core lies in the direction q = (u, v)/m, with m = max(u, |v|), on the core's outline.
+   s = m - 1 runs from 0 on the outline to 1 on the arc. The position on the arc is linear in arc length along q.
 */
 #include "shapesimpl.h"
 

@@ -173,9 +173,8 @@ static PetscErrorCode ContactUpdatesUndeformed(StepProblem *p, PetscBool vanishe
 }
 
 /*
-   Finds whether the elastic energy at u is zero up to rounding, compared with those of the last state and of earlier
-   load steps, at the end of a load step with friction to zero load. *rested: whether that of the last state was zero,
-   too
+   For a load step with friction to zero load, finds whether the elastic energy at u vanishes up to rounding, compared
+   with the energies of the last state and of earlier load steps. *rested: whether that of the last state vanished, too
 */
 static PetscErrorCode ContactUpdatesVanish(const StepProblem *p, Vec u, PetscBool *vanishes, PetscBool *rested)
 {

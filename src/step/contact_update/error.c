@@ -260,8 +260,9 @@ static void PlaceTake(ContactLinearization lin, PetscInt row, PetscReal error, G
 }
 
 /*
-   Finds the vertex of this rank at which the gap at at_u differs most from the linearized gap of the solution, or the
-   vertex of the row with the largest force [force] that has slid off the opposite face if slid is true.
+   Finds a vertex of this rank where contact updates do not converge. If slid is false, it is the vertex at which the
+   gap at at_u differs most from the linearized gap of the solution. If slid is true, it is the vertex with the largest
+   force [force] of those that have slid off the opposite face.
 */
 static PetscErrorCode PlaceFind(Simulation sim, const ContactSolution *sol, ContactLinearization at_u, PetscBool slid,
   GapPlace *place)

@@ -142,8 +142,8 @@ PetscErrorCode FrictionRestart(StepProblem *p)
 }
 
 /*
-   Stores which vertices that must stick are free, since the optimizer has set their coefficients to zero, and by how
-   much it has shifted the references of others that have opened and stuck again
+   Stores what the optimizer has changed at vertices that must stick. Vertices whose coefficients it has set to zero are
+   free. Other vertices have opened and stuck again, and it has shifted the positions from which their slip is measured.
 */
 static PetscErrorCode FrictionKeepReleased(StepProblem *p)
 {
