@@ -15,6 +15,15 @@ PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
 PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 
+/* A file of a run that does not belong to its Output */
+typedef struct {
+  const char *role; /* what it is, for messages */
+  const char *name; /* NULL: the run has no such file */
+  PetscBool   written;
+} OutputFile;
+
+PETSC_EXTERN PetscErrorCode OutputCheckDistinct(MPI_Comm, PetscInt n, const OutputFile[], const char base[]);
+
 /* Data for the HTML page of a run */
 typedef struct {
   char file[PETSC_MAX_PATH_LEN]; /* the page */

@@ -6,7 +6,8 @@
      d = c1 - c0 + t x (x1 - c1) + Q e,   e = c0 + Q^T (x1 - c1) - x0.
 
    Here x0 and x1 are the positions of the node, c0 and c1 those of the centre of rotation, Q is the rotation, t its
-   rotation vector, and e the deformation.
+   rotation vector, and e the deformation. Bodies with a law of small strain move along chords: their displacements are
+   proportional to the loads.
 */
 #include "constraintsimpl.h"
 #include <vector3.h>
@@ -84,10 +85,12 @@ static PetscErrorCode ArcsFind(const Bodies *b, Vec u0, const BodyPose poses[], 
   PetscFunctionBegin;
   *any = PETSC_FALSE;
   for (PetscInt body = 0; body < b->scene->nbodies; ++body) {
-    BodyArc *arc = &arcs[body];
+    const Material *material = &b->scene->bodies[body].material;
+    BodyArc        *arc      = &arcs[body];
 
     PoseGetVector((const PetscReal(*)[3])poses[body].Q, arc->angle);
-    arc->turns = (PetscBool)(VectorNorm(arc->angle) > least_angle);
+    arc->turns = (PetscBool)((MaterialIsFinite(material) || material->type == MATERIAL_RIGID) &&
+                             VectorNorm(arc->angle) > least_angle);
     *any       = (PetscBool)(*any || arc->turns);
   }
   if (*any) PetscCall(ArcsFindCenters(b, u0, poses, arcs));

@@ -126,6 +126,20 @@ static PetscReal FrictionLateShare(PetscReal now, PetscReal gap, const PetscScal
   return gap * gap < square ? PetscMin(share, 1.0) : 0.0;
 }
 
+/*
+   Returns the work that the force of the last state would gain in a row that opened, if this force acted half of the
+   way. The friction force had vanished before the row moved in its direction.
+*/
+static PetscReal FrictionOpenWork(PetscReal now, const PetscReal old[3], const PetscReal tangent[6],
+  const PetscScalar s[2])
+{
+  PetscReal work = 0.0;
+
+  if (now > 0.0) return 0.0;
+  for (int a = 0; a < 2; ++a) work += 0.5 * PetscRealPart(s[a]) * VectorDot(&tangent[3 * a], old);
+  return PetscMax(work, 0.0);
+}
+
 /* Computes the bounds of all rows [force], and for each pair their sum over that at the last state */
 static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal bound[],
   PetscReal share[])
@@ -192,11 +206,13 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   PetscCall(VecGetArrayRead(sol->slip, &s));
   PetscCall(VecGetArrayRead(sol->gap, &g));
   for (PetscInt r = 0; r < lin->nlocal && !SimulationIsDynamic(sim); ++r) {
-    const PetscInt k = ContactHistoryIndex(m, lin, r);
+    const PetscInt   k       = ContactHistoryIndex(m, lin, r);
+    const PetscReal *tangent = &lin->tangent[6 * r], *old = &m->settled[3 * k];
+    const PetscReal  counts = FrictionLateShare(bound[k], PetscRealPart(g[r]), &s[2 * r], share[lin->pair[r]]);
 
-    late[k] = FrictionLateShare(bound[k], PetscRealPart(g[r]), &s[2 * r], share[lin->pair[r]]) *
-              FrictionLateWork(m->bound[k], bound[k], &m->settled[3 * k], &lin->tangent[6 * r], &f[2 * r], &s[2 * r]);
-    late[k] += FrictionShiftWork(&m->shift[3 * k], &m->settled[3 * k], &lin->tangent[6 * r], &f[2 * r]);
+    late[k] = counts * FrictionLateWork(m->bound[k], bound[k], old, tangent, &f[2 * r], &s[2 * r]) +
+              (1.0 - counts) * FrictionOpenWork(bound[k], old, tangent, &s[2 * r]);
+    late[k] += FrictionShiftWork(&m->shift[3 * k], old, tangent, &f[2 * r]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
@@ -206,74 +222,104 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 }
 
 /*
+   Computes for every pair and vertex the work of friction since the last state (work, [npairs x nowned]), and the
+   bounds of the friction forces at u. Friction never gains energy. If rounding errors, or the mean of the forces in rows
+   that are no longer there, make the work of a pair negative, it counts as zero. sums: [npairs] work of each pair on all
+   ranks; *late: the part that the mean of the forces at the two states lacks, on all ranks; friction: [3 npairs x
+   nowned] friction forces at u, or NULL.
+*/
+static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
+  PetscReal work[], PetscReal bound[], PetscReal sums[], PetscReal friction[], PetscReal *late)
+{
+  const Bodies          bodies = SimulationBodies(sim);
+  const ContactHistory *m      = sim->history;
+  const PetscScalar    *now;
+  PetscReal            *mean, *all;
+  Vec                   force, increment[2];
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
+  PetscCall(PetscCalloc1(m->npairs + 1, &all));
+  PetscCall(PetscMalloc1(m->nowned, &mean));
+  PetscCall(FrictionGetLateWork(sim, time, sol, work, bound));
+  for (PetscInt p = 0; p < m->npairs; ++p) {
+    PetscReal *of = &work[p * m->nowned];
+
+    if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) {
+      PetscCall(PetscArrayzero(of, m->nowned));
+      continue;
+    }
+    PetscCall(FrictionPairWork(sim, increment, sol, p, force, mean));
+    for (PetscInt v = 0; v < m->nowned; ++v) {
+      all[m->npairs] += of[v];
+      of[v] += mean[v];
+      all[p] += of[v];
+    }
+    if (!friction) continue;
+    PetscCall(VecGetArrayRead(force, &now));
+    for (PetscInt i = 0; i < 3 * m->nowned; ++i) friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
+    PetscCall(VecRestoreArrayRead(force, &now));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(m->npairs + 1), MPIU_REAL, MPIU_SUM, sim->comm));
+  *late = all[m->npairs];
+  for (PetscInt p = 0; p < m->npairs; ++p) {
+    sums[p] = all[p];
+    if (all[p] >= 0.0 || SimulationIsDynamic(sim)) continue;
+    sums[p] = 0.0;
+    *late -= all[p];
+    PetscCall(PetscArrayzero(&work[p * m->nowned], m->nowned));
+  }
+  PetscCall(PetscFree(mean));
+  PetscCall(PetscFree(all));
+  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
+  PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/*
    Computes for every pair the work of friction from the start to the solution `sol` at u, and the sum of the magnitudes
-   of the friction forces. *late: FrictionLateWork() of all rows.
+   of the friction forces. *late: see FrictionGetWork().
 */
 PetscErrorCode FrictionMeasure(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol, StepReport *report,
   PetscReal *late)
 {
-  const Bodies          bodies = SimulationBodies(sim);
-  const ContactHistory *m      = sim->history;
-  PetscReal            *sums, *work, *more, *bound;
-  Vec                   force, increment[2];
+  const ContactHistory *m = sim->history;
+  PetscReal            *sums, *since, *work, *bound;
 
   PetscFunctionBegin;
   report->dissipated = *late = 0.0;
   if (!sol->shear) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
-  PetscCall(PetscCalloc1(2 * m->npairs + 1, &sums));
-  PetscCall(PetscMalloc3(m->nowned, &work, m->npairs * m->nowned, &more, m->npairs * m->nowned, &bound));
-  PetscCall(FrictionGetLateWork(sim, time, sol, more, bound));
-  for (PetscInt p = 0; p < m->npairs; ++p) {
-    if (!report->pairs[p].frictional) continue;
-    PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
-    for (PetscInt v = 0; v < m->nowned; ++v) {
-      sums[2 * p] += m->dissipated[p * m->nowned + v] + work[v] + more[p * m->nowned + v];
-      sums[2 * m->npairs] += more[p * m->nowned + v];
-    }
-  }
+  PetscCall(PetscCalloc2(2 * m->npairs, &sums, m->npairs, &since));
+  PetscCall(PetscMalloc2(m->npairs * m->nowned, &work, m->npairs * m->nowned, &bound));
+  PetscCall(FrictionGetWork(sim, time, u, sol, work, bound, since, NULL, late));
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) sums[2 * (k / m->nowned)] += m->dissipated[k];
   PetscCall(FrictionAddSizes(sim->solved->linearization, sol, sums));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs + 1), MPIU_REAL, MPIU_SUM, sim->comm));
-  *late = sums[2 * m->npairs];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
   for (PetscInt p = 0; p < m->npairs; ++p) {
-    report->pairs[p].dissipated  = sums[2 * p];
+    report->pairs[p].dissipated  = sums[2 * p] + since[p];
     report->pairs[p].shear_force = sums[2 * p + 1];
-    report->dissipated += sums[2 * p];
+    report->dissipated += report->pairs[p].dissipated;
   }
-  PetscCall(PetscFree3(work, more, bound));
-  PetscCall(PetscFree(sums));
-  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
-  PetscCall(VecDestroy(&force));
+  PetscCall(PetscFree2(work, bound));
+  PetscCall(PetscFree2(sums, since));
   PetscFunctionReturn(0);
 }
 
 /* Adds the dissipation up to u to the history, and stores the friction forces and their bounds at u */
 static PetscErrorCode FrictionSettleForces(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol)
 {
-  const Bodies       bodies = SimulationBodies(sim);
-  ContactHistory    *m      = sim->history;
-  const PetscScalar *now;
-  PetscReal         *work, *late, *bound;
-  Vec                force, increment[2];
+  ContactHistory *m = sim->history;
+  PetscReal      *sums, *work, *bound, late;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
-  PetscCall(PetscMalloc3(m->nowned, &work, m->npairs * m->nowned, &late, m->npairs * m->nowned, &bound));
-  PetscCall(FrictionGetLateWork(sim, time, sol, late, bound));
+  PetscCall(PetscMalloc1(m->npairs, &sums));
+  PetscCall(PetscMalloc2(m->npairs * m->nowned, &work, m->npairs * m->nowned, &bound));
+  PetscCall(FrictionGetWork(sim, time, u, sol, work, bound, sums, m->friction, &late));
   PetscCall(PetscArraycpy(m->bound, bound, m->npairs * m->nowned));
-  for (PetscInt p = 0; p < m->npairs; ++p) {
-    if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) continue;
-    PetscCall(FrictionPairWork(sim, increment, sol, p, force, work));
-    for (PetscInt v = 0; v < m->nowned; ++v) m->dissipated[p * m->nowned + v] += work[v] + late[p * m->nowned + v];
-    PetscCall(VecGetArrayRead(force, &now));
-    for (PetscInt i = 0; i < 3 * m->nowned; ++i) m->friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
-    PetscCall(VecRestoreArrayRead(force, &now));
-  }
-  PetscCall(PetscFree3(work, late, bound));
-  for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
-  PetscCall(VecDestroy(&force));
+  for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) m->dissipated[k] += work[k];
+  PetscCall(PetscFree2(work, bound));
+  PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 

@@ -16,6 +16,8 @@ struct _n_LoadPath {
   PetscReal unbalanced, turnover; /* `unbalanced`: work in the present load step that is neither stored as energy nor
                                      taken up by contact [force length]; `turnover`: sum over the solves of this load
                                      step of the largest of external work, energy and contact work [force length] */
+  PetscBool presses;              /* whether a pair with friction has contact forces at u */
+  PetscBool pressed;              /* whether one had such forces in the present load step, also at its begin */
   PetscBool warned;               /* true after a warning about the imbalance */
 };
 

@@ -25,6 +25,7 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
   sim->report.nsteps    = step + 1 - sim->control->first_step;
   sim->path->unbalanced = sim->path->turnover = 0.0;
+  sim->path->pressed                          = sim->path->presses;
   sim->control->unheld                        = 0;
   PetscCall(PetscFree(sim->control->cause));
   sim->control->time_step = (TimeStepControl){.shortest = 1.0};

@@ -35,3 +35,10 @@ try "no load steps" "$sound" -load_steps 0
 try "output that is a folder" "$sound" -output ./
 try "unwritable output" "$sound" -output nowhere/results -refine 0
 try "unwritable summary" "$sound" -summary nowhere/summary.json -refine 0 -load_steps 1
+try "checkpoint in place of the mesh" "$sound" -output results -checkpoint results.h5
+try "checkpoint in place of a step, by another path" "$sound" -output results -checkpoint ./results_0002.h5
+try "summary in place of the history" "$sound" -output results -summary results.csv
+change 's/young: 1$/young: 2/' && cp changed.yaml copy.yaml
+try "summary in place of the scene" changed.yaml -summary changed.yaml
+try "summary and checkpoint of one name" "$sound" -summary same -checkpoint ./same
+cmp changed.yaml copy.yaml && [ -z "$(ls | grep -e results -e same)" ] && echo "  nothing was written"

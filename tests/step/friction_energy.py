@@ -71,9 +71,39 @@ load: {{factors: {load}}}
 ramps:
   - along: {{factors: {along}}}
 """
+# A tooth that is pushed between two teeth, pulled off one of them and pressed against the other. The teeth bend by more than a degree.
+TEETH = """problem: teeth
+bodies:
+  - first: {shape: wedge, axis: y, corners: [2,2, 2,4, 4,3], extent: [0,2], side_cells: 3, length_cells: 2, young: 1e4, poisson: 0.3}
+  - second: {shape: wedge, axis: y, corners: [2,6, 2,8, 4,7], extent: [0,2], side_cells: 3, length_cells: 2, young: 1e4, poisson: 0.3}
+  - tooth: {shape: wedge, axis: y, corners: [4,3.05, 4,6.95, 2.2,5], extent: [0,2], side_cells: 4, length_cells: 3, young: 1e4, poisson: 0.3}
+displacements:
+  - one: {face: first.side1, value: [0, 0, 0]}
+  - two: {face: second.side1, value: [0, 0, 0]}
+  - drive: {face: tooth.side1, value: [0, 0, -0.1], ramp: down}
+  - push: {face: tooth.side1, value: [0.15, 0, 0], ramp: along}
+contact:
+  - auto: {friction: 0.1}
+load: {steps: 6}
+ramps:
+  - down: {factors: [0.5, 1, 1, 1, 1, 1]}
+  - along: {factors: [0, 0, 0.5, 1, 0, -1]}
+"""
+# A rubber block that is squeezed to half of its height in one load step; friction acts nowhere
+APART = """problem: apart
+bodies:
+  - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 10, poisson: 0.3}
+  - far: {lower: [0, 0, 1.2], upper: [1, 1, 1.5], cells: [1, 1, 1], material: rigid}
+symmetry: [block.xmin, block.ymin, block.zmin]
+displacements:
+  - press: {face: block.zmax, value: [free, free, -0.5]}
+  - hold: {body: far, value: [0, 0, 0]}
+contact:
+  - pair: {mortar: far.zmin, nonmortar: block.zmax, friction: 0.3}
+"""
 STEPS = 16
 PUSHES = {"low": dict(height=0.25, law="friction: 0.3"), "high": dict(height=1, law="friction: 0.3"), "limited": dict(height=0.25, law="friction: 5, shear_limit: 0.3")}
-SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED}
+SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED, "teeth": TEETH, "apart": APART}
 for push, values in PUSHES.items():
     SCENES[push + "_once"] = PUSH.format(load=[1, 1, 1], along=[0, 1, 0], **values)
     SCENES[push + "_slowly"] = PUSH.format(load=[1] * (2 * STEPS + 1), along=[k / STEPS for k in [*range(STEPS + 1), *range(STEPS - 1, -1, -1)]], **values)
@@ -111,6 +141,12 @@ else:
         steps = list(parts(name))[1:]  # at first overlaps are pressed out, by no work of loads
         say(f"{name}: in every step work is stored or dissipated, to 1 %", all(within(part["energy"] + part["dissipated"], part["work"], 0.01) for _, part in steps), steps)
         say(f"{name}: with what normal forces do, to 1e-8", all(within(part["energy"] + part["dissipated"] + part["normal_work"], part["work"], 1e-8) and step["imbalance"] < 1e-8 for step, part in steps), steps)
+    teeth = load("teeth")
+    taken = [pair["dissipated"] for step in teeth["steps"] for pair in step["pairs"]]
+    say("teeth: friction takes work in steps 3, 4 and 6", all(part["dissipated"] > 0.01 for step, part in parts("teeth") if step["step"] in (3, 4, 6)), list(parts("teeth")))
+    say("teeth: it never gives any back, also where a contact opens", min(taken) >= 0 and all(part["dissipated"] > -1e-12 for _, part in parts("teeth")), taken)
+    say("teeth: the energy is balanced, although bodies of small strain rotate", all(step["imbalance"] < 1e-8 for step in teeth["steps"][2:]), [step["imbalance"] for step in teeth["steps"]])
+    say("apart: no warning of work that is lost, where friction does not act", not any("of the work" in warning for warning in load("apart")["warnings"]), load("apart")["warnings"])
     for push in PUSHES:
         once, slowly = load(push + "_once")["steps"], load(push + "_slowly")["steps"]
         for title, step, other in ("pushed", once[1], slowly[STEPS]), ("and back", once[2], slowly[-1]):
