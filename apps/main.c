@@ -72,6 +72,7 @@ typedef struct {
   PetscBool traceback; /* the user asked for PETSc's traceback */
   PetscBool silent;    /* another rank prints the message */
   int       end;       /* exit code of the program */
+  Scene     scene;     /* the scene that is simulated; NULL: it has not been read yet */
   PetscBool alone;     /* the error occurred on this rank only, and no other rank knows of it */
   char      sentence[512];
 } AppError;
@@ -112,6 +113,8 @@ static PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *functi
     error->end    = (int)AppClassifyError(n);
     if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
     (void)PetscStrncpy(error->sentence, text ? text : "unknown", sizeof(error->sentence));
+    if (error->scene && error->end == RUN_REFUSED)
+      SceneAddPlace(error->scene, sizeof(error->sentence), error->sentence);
     if (!error->silent && !error->traceback) fprintf(stderr, "contact: error: %s\n", error->sentence);
     fflush(stderr);
     if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, error->end);
@@ -575,13 +578,14 @@ static void AppMakePage(const ReportPage *page)
     fprintf(stderr, "contact: cannot write the page %s: %s\n", page->file, sentence);
 }
 
-static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
+static PetscErrorCode AppRunScene(const AppOptions *app, AppError *error, RunEnd *end)
 {
   Scene scene;
 
   PetscFunctionBeginUser;
   if (!app->quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
+  error->scene = scene;
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());
@@ -590,6 +594,7 @@ static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
     PetscCall(AppSolve(app, scene, end));
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
+  error->scene = NULL;
   PetscCall(SceneDestroy(&scene));
   PetscFunctionReturn(0);
 }
@@ -604,7 +609,7 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(AppGetOptions(argc, argv, &app));
   PetscCall(AppCheckWords(argc, argv));
-  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
+  if (app.scene[0]) PetscCall(AppRunScene(&app, error, end));
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);

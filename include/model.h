@@ -240,7 +240,6 @@ typedef struct {
 /* A spring and damper between a point of a body and the ground, or a point of another body */
 typedef struct {
   char     *name;
-  size_t    line;        /* of the scene file; 0: not known */
   PetscInt  body, to;    /* to: PETSC_DECIDE: the ground */
   PetscReal point[2][3]; /* point of the body; point of the other body or of the ground [length] */
   PetscBool axial;       /* the spring acts along the line between the points, not along the axes */
@@ -253,7 +252,6 @@ typedef struct {
 /* Pretension of a bolt: a section through a body, with a force or a shortening */
 typedef struct {
   char     *name;
-  size_t    line; /* of the scene file; 0: not known */
   PetscInt  body;
   PetscReal point[3], axis[3]; /* a point of the section's plane; normal of the plane, of any length */
   PetscBool shortens;          /* the shortening is prescribed, not the force */
@@ -350,9 +348,17 @@ typedef struct {
                     option */
 } SceneOption;
 
+/* The keys of a scene file, and their lines, counted from 1 */
+typedef struct {
+  PetscInt n;
+  char   **keys;
+  size_t  *lines;
+} SceneKeyLines;
+
 typedef struct _n_Scene {
   char              *name;
   char              *file;  /* the file that it was read from; NULL: none */
+  SceneKeyLines      lines; /* of that file, for messages */
   char              *units; /* units as text for tables; NULL: none */
   PetscInt           nbodies;
   SceneBody         *bodies;
@@ -431,8 +437,6 @@ PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char file[], PetscRea
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
-/* Returns "FILE: line N: " for messages about an entry of the scene, or "" if the line is not known */
-PETSC_EXTERN const char *ScenePlace(Scene, size_t line, char text[PETSC_MAX_PATH_LEN]);
 /* Sets both sides of a pair whose `self` is set, and marks the body if they are its whole boundary */
 PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);
 /* Returns the body that a face belongs to */

@@ -25,18 +25,16 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
   for (PetscInt b = 0; b < n; ++b) {
     const SceneBolt *bolt = &scene->bolts[b];
     PetscInt         ncells;
-    char             place[PETSC_MAX_PATH_LEN];
 
     PetscCall(ElasticityAddSection(bodies->elasticity, bolt->body, bolt->point, bolt->axis, &ncells));
     PetscCheck(ncells, bodies->comm, PETSC_ERR_USER_INPUT,
-      "%sbolt \"%s\": the plane through its point (%g, %g, %g) with its axis (%g, %g, %g) does not cut its body \"%s\"",
-      ScenePlace(scene, bolt->line, place), bolt->name, (double)bolt->point[0], (double)bolt->point[1],
-      (double)bolt->point[2], (double)bolt->axis[0], (double)bolt->axis[1], (double)bolt->axis[2],
-      scene->bodies[bolt->body].name);
+      "bolt \"%s\": the plane through its point (%g, %g, %g) with its axis (%g, %g, %g) does not cut its body \"%s\"",
+      bolt->name, (double)bolt->point[0], (double)bolt->point[1], (double)bolt->point[2], (double)bolt->axis[0],
+      (double)bolt->axis[1], (double)bolt->axis[2], scene->bodies[bolt->body].name);
     PetscCheck(ncells > 0, bodies->comm, PETSC_ERR_USER_INPUT,
-      "%sbolt \"%s\": its section and that of another bolt cut the same cells of body \"%s\"; move its point or refine "
+      "bolt \"%s\": its section and that of another bolt cut the same cells of body \"%s\"; move its point or refine "
       "the mesh",
-      ScenePlace(scene, bolt->line, place), bolt->name, scene->bodies[bolt->body].name);
+      bolt->name, scene->bodies[bolt->body].name);
   }
   PetscFunctionReturn(0);
 }

@@ -18,7 +18,6 @@ static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector
   PetscSection    global;
   PetscInt        nodes[MESH_MAX_NODES], offset;
   PetscReal       off = 0.0;
-  char            text[PETSC_MAX_PATH_LEN];
 
   PetscFunctionBegin;
   PetscCall(MeshLocate(bodies->dm, 1, (const PetscReal(*)[3])here->point[end], &body, &place));
@@ -38,9 +37,8 @@ static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->n[end], 1, MPIU_INT, MPI_SUM, bodies->comm));
   PetscCheck(c->n[end] && off <= tolerance, bodies->comm, PETSC_ERR_USER_INPUT,
-    "%sconnector \"%s\": its point (%g, %g, %g) is outside of its body \"%s\"",
-    ScenePlace(bodies->scene, here->line, text), here->name, (double)here->point[end][0], (double)here->point[end][1],
-    (double)here->point[end][2], bodies->scene->bodies[body].name);
+    "connector \"%s\": its point (%g, %g, %g) is outside of its body \"%s\"", here->name, (double)here->point[end][0],
+    (double)here->point[end][1], (double)here->point[end][2], bodies->scene->bodies[body].name);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->node[end], MESH_MAX_NODES, MPIU_INT, MPI_SUM, bodies->comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->N[end], MESH_MAX_NODES, MPIU_REAL, MPIU_SUM, bodies->comm));
   PetscFunctionReturn(0);

@@ -547,11 +547,10 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
 
     for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
     PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT,
-      "%s: nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->name,
-      scene->bodies[b].name);
+      "nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->bodies[b].name);
     PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" is not held against %s: prescribe a displacement, or add springs, a tie or a contact pair",
-      scene->name, scene->bodies[b].name, modes[mode]);
+      "body \"%s\" is not held against %s: prescribe a displacement, or add springs, a tie or a contact pair",
+      scene->bodies[b].name, modes[mode]);
   }
   PetscFunctionReturn(0);
 }

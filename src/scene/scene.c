@@ -162,6 +162,8 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(PetscStrallocpy(keys->file, &s->file));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
   PetscCall(SceneReadAndValidate(keys, s));
+  s->lines    = keys->lines;
+  keys->lines = (SceneKeyLines){0, NULL, NULL};
   PetscCall(SceneKeysDestroy(&keys));
   PetscCall(SceneSetOptions(s));
   *scene = s;
@@ -221,6 +223,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->units));
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree(s->file));
+  PetscCall(SceneDestroyLines(&s->lines));
   PetscCall(PetscFree(*scene));
   PetscFunctionReturn(0);
 }

@@ -17,6 +17,6 @@ PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKe
 /* describe_loads.c: prints the loads of a scene */
 PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
 
-/* view.c, describe.c, scene.c: their functions are declared in the public header */
+/* view.c, describe.c, place.c, scene.c: their functions are declared in the public header */
 
 #endif

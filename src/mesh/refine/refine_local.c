@@ -170,7 +170,7 @@ PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBo
       PetscBool has;
 
       PetscCall(DMHasLabel(*dm, local->zones[z].face[k], &has));
-      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinements \"%s\": there is no face \"%s\"", local->zones[z].name,
+      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinement \"%s\": there is no face \"%s\"", local->zones[z].name,
         local->zones[z].face[k]);
     }
   }

@@ -141,10 +141,10 @@ static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement 
 
   PetscFunctionBegin;
   PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "refinements \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\": increase the distance",
+    "refinement \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\": increase the distance",
     refinement->name, (double)refinement->distance, refinement->face[0], refinement->face[1]);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
-    "refinements \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
+    "refinement \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
     refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
     *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }
@@ -162,7 +162,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     ++n;
     if (hexes->place[4 * c + 3] >= refinement->levels) continue;
     PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP,
-      "refinements \"%s\": body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
+      "refinement \"%s\": body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
       refinement->name, bodies[body[c]].name, bodies[body[c]].order);
     marked[c] = PETSC_TRUE;
     *more     = PETSC_TRUE;

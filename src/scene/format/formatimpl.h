@@ -8,13 +8,6 @@
 #include <model.h>
 #include <rankerror.h>
 
-/* Line of each key in the file, counted from 1. */
-typedef struct {
-  PetscInt n;
-  char   **keys;
-  size_t  *lines;
-} SceneKeyLines;
-
 /* yaml.c: Not collective. Raises an error if the text is not YAML that can be read */
 PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
 
@@ -83,11 +76,14 @@ PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 /*
    lines.c: SceneKeysGetLine() returns the line of a key, 0 if it is not known. SceneKeysAddLine() puts the line before
    a message if it is known. SceneKeysRaise() raises an error that occurred while the scene was read, with file and
-   line.
+   line. SceneLinesFind() returns the line of the first entry that a message names, 0 if it names none.
+   SceneDestroyLines() frees the keys and lines.
 */
 PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
 PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
 PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
+PETSC_INTERN size_t         SceneLinesFind(const SceneKeyLines *, const char message[]);
+PETSC_INTERN PetscErrorCode SceneDestroyLines(SceneKeyLines *);
 
 /*
    kinds.c: SceneKindOf() returns the word for an entry of a list: body for bodies. SceneListOf() returns the list whose

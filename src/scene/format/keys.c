@@ -237,7 +237,7 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
     PetscCall(PetscSNPrintf(full, sizeof(full), "%.*s%s", (int)below, unknown, nearest));
     PetscCall(PetscSNPrintf(meant, length, "the nearest valid key is \"%s\"", SceneKeyOf(keys, full)));
   } else {
-    PetscCall(PetscStrncpy(meant, "there are", length));
+    PetscCall(PetscStrncpy(meant, "valid keys are", length));
     for (PetscInt k = 0; k < n; ++k) {
       PetscCall(PetscStrlcat(meant, k ? ", " : " ", length));
       PetscCall(PetscStrlcat(meant, names[k], length));
@@ -361,9 +361,7 @@ PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < (*keys)->nasked; ++i) PetscCall(PetscFree((*keys)->asked[i]));
   PetscCall(PetscFree((*keys)->asked));
-  for (PetscInt i = 0; i < (*keys)->lines.n; ++i) PetscCall(PetscFree((*keys)->lines.keys[i]));
-  PetscCall(PetscFree((*keys)->lines.keys));
-  PetscCall(PetscFree((*keys)->lines.lines));
+  PetscCall(SceneDestroyLines(&(*keys)->lines));
   for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
   PetscCall(PetscFree((*keys)->materials));
   PetscCall(SceneValuesDestroy(&(*keys)->values));

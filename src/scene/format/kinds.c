@@ -5,11 +5,12 @@
 
 /* Words for an entry of a list, and the list. The first word of a list is the one that messages use. */
 static const char *const kinds[][2] = {{"body", "bodies"}, {"contact pair", "contact"}, {"contact pairs", "contact"},
-  {"displacement", "displacements"}, {"displacements", "displacements"}, {"pressure", "pressures"},
-  {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"}, {"connector", "connectors"},
-  {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"}, {"refinement", "refinements"},
-  {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material", "materials"}, {"material name", "materials"},
-  {"face", "faces"}, {"symmetry plane", "symmetry"}, {"body force", "body_forces"}, {"probe", "probes"}};
+  {"contact rule", "contact"}, {"displacement", "displacements"}, {"displacements", "displacements"},
+  {"pressure", "pressures"}, {"traction", "tractions"}, {"force", "forces"}, {"spring", "springs"}, {"bolt", "bolts"},
+  {"connector", "connectors"}, {"tie", "ties"}, {"cyclic symmetry", "cyclic"}, {"temperature", "temperatures"},
+  {"refinement", "refinements"}, {"ramp", "ramps"}, {"ramp name", "ramps"}, {"material", "materials"},
+  {"material name", "materials"}, {"face", "faces"}, {"symmetry plane", "symmetry"}, {"body force", "body_forces"},
+  {"probe", "probes"}};
 
 const char *SceneKindOf(const char list[])
 {

@@ -7,25 +7,30 @@
 #include <strings.h>
 
 /* Returns the line of a key. If the key is repeated, the last line is returned; 0: not known. */
-size_t SceneKeysGetLine(SceneKeys keys, const char key[])
+static size_t LineOfKey(const SceneKeyLines *lines, const char key[])
 {
-  for (PetscInt i = keys->lines.n; i-- > 0;) {
-    if (!strcasecmp(keys->lines.keys[i], key)) return keys->lines.lines[i];
+  for (PetscInt i = lines->n; i-- > 0;) {
+    if (!strcasecmp(lines->keys[i], key)) return lines->lines[i];
   }
   return 0;
+}
+
+size_t SceneKeysGetLine(SceneKeys keys, const char key[])
+{
+  return LineOfKey(&keys->lines, key);
 }
 
 /*
    Returns the line of a key, or otherwise that of the entry or list to which the key belongs: bodies_slab for
    bodies_slab_young. The text `key` is shortened.
 */
-static size_t LineOfOwner(SceneKeys keys, char key[])
+static size_t LineOfOwner(const SceneKeyLines *lines, char key[])
 {
-  size_t line = SceneKeysGetLine(keys, key);
+  size_t line = LineOfKey(lines, key);
 
   for (char *last = strrchr(key, '_'); !line && last; last = strrchr(key, '_')) {
     *last = 0;
-    line  = SceneKeysGetLine(keys, key);
+    line  = LineOfKey(lines, key);
   }
   return line;
 }
@@ -40,30 +45,44 @@ static void LineCopy(const char text[], const char *end, char key[SCENE_KEY_LENG
 }
 
 /*
+   Returns the line of the first named entry in a message, such as body "slab"; 0: not known. *list: whether the quoted
+   word is the name of an entry; name: the quoted word, which may be shortened.
+*/
+static size_t LineOfEntry(const SceneKeyLines *lines, const char message[], PetscBool *list,
+  char name[SCENE_KEY_LENGTH])
+{
+  const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
+  const char *kind = end && quote > message ? SceneListOf(message, quote - 1) : NULL;
+  char        entry[2 * SCENE_KEY_LENGTH];
+
+  *list   = (PetscBool)(kind != NULL);
+  name[0] = 0;
+  if (end) LineCopy(quote + 1, end, name);
+  (void)snprintf(entry, sizeof(entry), "%s_%s", kind ? kind : "", name);
+  return kind ? LineOfKey(lines, entry) : 0;
+}
+
+/*
    Finds the line of the file that a message is about. *line: 0 if it is not known, or if the value does not come from
    the file. The function looks for a named entry, such as body "slab"; if there is none, for the key with which the
    message begins; and last for the quoted word, as in: the key "bodies" is missing.
 */
 static PetscErrorCode LineOfMessage(SceneKeys keys, const char message[], size_t *line)
 {
-  const char *quote = strchr(message, '"'), *end = quote ? strchr(quote + 1, '"') : NULL;
-  const char *list = end && quote > message ? SceneListOf(message, quote - 1) : NULL;
-  char        key[SCENE_KEY_LENGTH], name[SCENE_KEY_LENGTH] = "", entry[2 * SCENE_KEY_LENGTH];
-  PetscBool   set;
+  char      key[SCENE_KEY_LENGTH], name[SCENE_KEY_LENGTH], option[2 * SCENE_KEY_LENGTH];
+  PetscBool set, list;
 
   PetscFunctionBegin;
   *line = 0;
   LineCopy(message, message + strcspn(message, " ,:"), key);
-  (void)snprintf(entry, sizeof(entry), "-%s", key);
-  PetscCall(PetscOptionsValidKey(entry, &set));
-  if (set) PetscCall(PetscOptionsHasName(NULL, NULL, entry, &set));
+  (void)snprintf(option, sizeof(option), "-%s", key);
+  PetscCall(PetscOptionsValidKey(option, &set));
+  if (set) PetscCall(PetscOptionsHasName(NULL, NULL, option, &set));
   if (set) PetscFunctionReturn(0);
-  if (end) LineCopy(quote + 1, end, name);
-  (void)snprintf(entry, sizeof(entry), "%s_%s", list ? list : "", name);
-  if (list) *line = SceneKeysGetLine(keys, entry);
-  if (!list && key[0]) *line = LineOfOwner(keys, key);
+  *line = LineOfEntry(&keys->lines, message, &list, name);
+  if (!list && key[0]) *line = LineOfOwner(&keys->lines, key);
   /* a symmetry plane is called displacement "symmetry_slab_xmin" */
-  if (!*line && name[0]) *line = LineOfOwner(keys, name);
+  if (!*line && name[0]) *line = LineOfOwner(&keys->lines, name);
   PetscFunctionReturn(0);
 }
 
@@ -96,4 +115,24 @@ PetscErrorCode SceneKeysRaise(SceneKeys keys, const RankError *error)
   PetscCall(SceneKeysAddLine(keys, sizeof(message), message));
   PetscCall(SceneKeysSayNested(keys, sizeof(message), message));
   SETERRQ(keys->comm, error->code, "%s: %s", keys->file, message);
+}
+
+size_t SceneLinesFind(const SceneKeyLines *lines, const char message[])
+{
+  char            name[SCENE_KEY_LENGTH];
+  PetscBool       list;
+  const size_t    line     = LineOfEntry(lines, message, &list, name);
+  const PetscBool symmetry = (PetscBool)(list && !strncmp(name, "symmetry_", 9));
+
+  return line || !symmetry ? line : LineOfOwner(lines, name);
+}
+
+PetscErrorCode SceneDestroyLines(SceneKeyLines *lines)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < lines->n; ++i) PetscCall(PetscFree(lines->keys[i]));
+  PetscCall(PetscFree(lines->keys));
+  PetscCall(PetscFree(lines->lines));
+  lines->n = 0;
+  PetscFunctionReturn(0);
 }

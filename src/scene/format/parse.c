@@ -212,8 +212,8 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
   for (PetscInt i = 0; i < *n; ++i) {
     PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
     if (!SceneIsName(words[i]))
-      PetscCall(
-        SceneKeysError(keys, "\"%s\" in %s is not a name: a letter, then letters, digits, _ or -", words[i], key));
+      PetscCall(SceneKeysError(keys, "%s \"%s\" has no valid name: a letter, then letters, digits, _ or -",
+        SceneKindOf(key), words[i]));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
       if (same) PetscCall(SceneKeysErrorOf(keys, key, words[i], "occurs twice; each name in a list must be unique"));

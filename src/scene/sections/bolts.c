@@ -17,7 +17,6 @@ PetscErrorCode SceneFinishBolt(SceneKeys keys, Scene scene, const char owner[], 
 
   PetscFunctionBegin;
   (void)scene;
-  bolt->line = SceneKeysGetLine(keys, owner);
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_body", owner));
   PetscCall(SceneHasOneOf(keys, owner, "bolt", "force", "shortening", &bolt->shortens));
   if (bolt->lock < 0)

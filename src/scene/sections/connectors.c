@@ -19,7 +19,6 @@ PetscErrorCode SceneFinishConnector(SceneKeys keys, Scene scene, const char owne
 
   PetscFunctionBegin;
   (void)scene;
-  connector->line = SceneKeysGetLine(keys, owner);
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_body", owner));
   PetscCall(SceneHasOneOf(keys, owner, "connector", "stiffness", "value", &value));
   connector->axial = (PetscBool)!value;

@@ -113,13 +113,13 @@ static PetscErrorCode MaterialsError(SceneKeys keys, const char key[], const cha
   PetscCall(OptionsDistance(name, nearest, &distance));
   PetscCall(PetscStrlen(name, &letters));
   if (2 * distance < letters) PetscCall(PetscSNPrintf(meant, sizeof(meant), "the nearest one is \"%s\"", nearest));
-  else PetscCall(PetscStrncpy(meant, "there are", sizeof(meant)));
+  else PetscCall(PetscStrncpy(meant, "valid are", sizeof(meant)));
   for (PetscInt k = 0; k < n && 2 * distance >= letters; ++k) {
     PetscCall(PetscStrlcat(meant, k ? ", " : " ", sizeof(meant)));
     PetscCall(PetscStrlcat(meant, names[k], sizeof(meant)));
   }
   PetscCall(SceneKeysError(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
-    keys->library[0] ? keys->library : "the scene, which names no library", meant));
+    keys->library[0] ? keys->library : "the scene (it names no library)", meant));
   keys->decides = PETSC_TRUE;
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
