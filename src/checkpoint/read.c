@@ -489,7 +489,10 @@ PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint 
   Restart        r = {.file = file, .scene = scene};
   RankError      error;
   PetscErrorCode ierr;
-  PetscBool      exists;
+  PetscBool      exists, library;
+  SilencedOutput mute;
+  H5E_auto2_t    print;
+  void          *stream;
 
   PetscFunctionBegin;
   PetscCall(PetscTestFile(file, 'r', &exists));
@@ -497,10 +500,16 @@ PetscErrorCode CheckpointRead(Scene scene, DM dm, const char file[], Checkpoint 
   PetscCall(PetscNew(checkpoint));
   PetscCall(RestartCreate(dm, &r));
   PetscCall(RankErrorBegin(&error));
+  (void)H5Eget_auto2(H5E_DEFAULT, &print, &stream);
+  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* HDF5 prints a page for each error, and one at the end */
+  SilenceOutputBegin(&mute);
   ierr = RestartReadFile(&r, *checkpoint, same);
+  SilenceOutputEnd(&mute);
+  if (!ierr) (void)H5Eset_auto2(H5E_DEFAULT, print, stream);
   PetscCall(RankErrorEnd(r.comm, ierr, &error));
-  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot continue from the checkpoint \"%s\": %s", file,
-    error.message);
+  library = (PetscBool) !!strstr(error.message, "HDF5 call");
+  PetscCheck(!error.code, r.comm, PETSC_ERR_USER_INPUT, "the run cannot continue from the checkpoint \"%s\": %s%s",
+    file, library ? "it is damaged: " : "", error.message);
   PetscCall(RestartDestroy(&r));
   PetscFunctionReturn(0);
 }

@@ -184,8 +184,7 @@ PetscErrorCode IPComputeKKT(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPComputeScale(tao));
-  if (ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->measure == IP_KKT_RELATIVE)
-    PetscCall(IPErrorBoundEnergy(tao, &ip->scale->energy, &ip->scale->present));
+  if (ip->opt->measure == IP_KKT_RELATIVE) PetscCall(IPErrorBoundEnergy(tao, &ip->scale->energy, &ip->scale->present));
   PetscCall(IPStationarity(tao, ip->at.lambda, ip->rx));
   PetscCall(VecNorm(ip->rx, NORM_2, &k->dual_norm));
   PetscCall(VecNorm(ip->rx, NORM_INFINITY, &k->inf_du));

@@ -83,6 +83,14 @@ static PetscErrorCode SetRowBounds(FormulasProblem *problem, const char text[])
   PetscFunctionReturn(0);
 }
 
+/* Of an optimum: at least 1, but what is below 1e-3 has its own size */
+static PetscReal Size(PetscReal optimum)
+{
+  const PetscReal size = PetscAbsReal(optimum);
+
+  return PetscMax(size, size > 0.0 ? PetscMin(1.0, 1e3 * size) : 1.0);
+}
+
 /* The optimum to 1e-6, and constraints met to 1e-6 beside the rows of the Jacobian; for what has no answer
    (NLP_DEGENERATE), an end by the reason that it has; where a failure is admitted (NLP_REACHED), no other answer */
 static PetscErrorCode RunCase(const Case *test)
@@ -102,8 +110,8 @@ static PetscErrorCode RunCase(const Case *test)
   if (!*test->row_bounds) PetscCall(FormulasViolation(&problem, PETSC_TRUE, &violation));
   if (test->p.end == NLP_DEGENERATE) right = (PetscBool)(reason == TAO_DIVERGED_NAN);
   else
-    right = (PetscBool)(reason > 0 && violation < 1e-6 &&
-                        PetscAbsReal(f - test->p.optimum) < 1e-6 * PetscMax(1.0, PetscAbsReal(test->p.optimum)));
+    right =
+      (PetscBool)(reason > 0 && violation < 1e-6 && PetscAbsReal(f - test->p.optimum) < 1e-6 * Size(test->p.optimum));
   if (test->p.end == NLP_REACHED && reason < 0) right = PETSC_TRUE;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", test->p.name, right ? "right" : "NOT AS EXPECTED"));
   if (!right)
@@ -142,6 +150,28 @@ static PetscErrorCode TestRelaxedUnits(void)
   PetscFunctionReturn(0);
 }
 
+/* Without scaling a gradient that is small only in the caller's units is no convergence: the answer is right, or said to
+   be none */
+static PetscErrorCode TestUnscaled(void)
+{
+  static const Case unscaled[] = {
+    {{"unscaled, objective in 1e-8", "1e-8*((x1-1)^2+(x2-2)^2+(x1-x2)^4)", "3-x1-x2", "", "", "5 5", 1.875e-9,
+       NLP_SOLVED, NULL},
+      ""},
+    {{"unscaled, unknown in 1e8", "(x1*1e-8-2)^2+(x2-1)^2", "2-x1*1e-8-x2", "", "", "3e8 3", 0.5, NLP_REACHED, NULL},
+      ""},
+    {{"unscaled, falls slowly", "-log(1+x1)+x2^2", "", "", "0: :", "1 1", -1e20, NLP_REACHED, NULL}, ""},
+  };
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_scaling", "none"));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_max_it", "150"));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(unscaled); k++) PetscCall(RunCase(&unscaled[k]));
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_scaling"));
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_max_it"));
+  PetscFunctionReturn(0);
+}
+
 /* A cold start begins with the barrier parameter of the option, with rows or without */
 static PetscErrorCode TestFirstBarrier(void)
 {
@@ -173,6 +203,7 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(cases); k++) PetscCall(RunCase(&cases[k]));
   PetscCall(TestRelaxedUnits());
+  PetscCall(TestUnscaled());
   PetscCall(TestFirstBarrier());
   PetscCall(PetscFinalize());
   return 0;
