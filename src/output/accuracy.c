@@ -32,7 +32,8 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
     (double)acc->target, (double)(acc->share * acc->target)));
   if (acc->contact)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "  optimizer's tolerance %g, at most %" PetscInt_FMT " contact updates, until the gap changes by less than %g\n",
+      "  optimizer's tolerance %g, at most %" PetscInt_FMT " contact updates, until the gap changes by less than %g of "
+      "the largest displacement\n",
       (double)acc->tolerance, acc->updates, (double)acc->update_tolerance));
   else PetscCall(PetscViewerASCIIPrintf(viewer, "  linear solver's tolerance %g\n", (double)acc->tolerance));
   PetscCall(TableViewHead(report, TABLE_LEVELS, &SchemaLevels, 0, viewer));

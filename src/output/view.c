@@ -123,8 +123,8 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
 }
 
 /*
-   Prints from which load step on MUMPS replaced AMG. From this step on the columns of AMG set-ups and applications
-   count factorizations and solves with the factors.
+   Prints from which load step on a factorization replaced the AMG. From this step on the columns of AMG set-ups and
+   applications count factorizations and solves with the factors.
 */
 static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 {
@@ -136,8 +136,8 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   }
   if (n)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "MUMPS replaced AMG from load step %" PetscInt_FMT " on: \"amg set-ups\" counts factorizations, \"amg applic\" "
-      "solves with the factors\n",
+      "A factorization replaced the AMG from load step %" PetscInt_FMT " on: \"amg set-ups\" counts factorizations, "
+      "\"amg applic\" counts solves with the factors\n",
       first));
   PetscFunctionReturn(0);
 }
@@ -146,8 +146,8 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
 static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "error over the energy",
-    "error in the energy norm relative to the displacement's norm, and shares of the bodies"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy",
+    "relative error in the energy norm, and the contribution of each body"));
   PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
   PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
   PetscFunctionReturn(0);

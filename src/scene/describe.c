@@ -332,7 +332,7 @@ static PetscBool DescribeUses(BodyEffect effect, const SceneBody *body, const Bo
 }
 
 /*
-   Prints whether an effect is used and the bodies that use it, for example: on, in slab block. off: text that is
+   Prints whether an effect is used and the bodies that use it, for example: on, in slab, block. off: text that is
    printed if no body uses it.
 */
 static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char name[], BodyEffect effect,
@@ -344,7 +344,7 @@ static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const 
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s", name));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!DescribeUses(effect, &scene->bodies[b], &choices[b])) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", on ? " " : "on, in ", scene->bodies[b].name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", on ? ", " : "on, in ", scene->bodies[b].name));
     on = PETSC_TRUE;
   }
   PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", on ? "" : "off: ", on ? "" : off));

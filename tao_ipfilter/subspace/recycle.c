@@ -125,7 +125,7 @@ static PetscErrorCode RecycleSayChoice(Tao tao, PC pc)
   if (!ip->opt->monitor || !why[0] || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
     PetscFunctionReturn(0);
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
-    factored ? "direct (MUMPS)" : "CG with AMG", why));
+    factored ? "direct (Cholesky)" : "CG with AMG", why));
   PetscFunctionReturn(0);
 }
 
