@@ -27,6 +27,9 @@
   5.0 /* longest step, as a multiple of the step that it corrects. Longer than 1 where contact updates alone move
           away from the solution */
 #define NEWTON_APPLICATIONS 2 /* largest number of applications of the preconditioner of K in this solve */
+#define NEWTON_TOO_SMALL \
+  5.0 /* if the error of the last update exceeds its tolerance by this factor, the subspace does not
+                                contain the solution of Newton's method, and every product adds a direction */
 
 typedef struct {
   StepProblem         *p;
@@ -39,6 +42,7 @@ typedef struct {
   Vec                  force, gap;       /* force: J(u)^T lambda [force]; gap: g(u) on the rows of
                                             sim->solved->linearization [length] */
   PetscReal            rtol;             /* relative tolerance of GMRES */
+  PetscInt             most;             /* largest number of applications of the preconditioner of K in a product */
   PetscReal            size, scale;      /* size: step of the finite differences [length]; scale: divisor that gives
                                             multipliers the unit of a length [force/length] */
   PetscBool            gaps_only;        /* finite differences use the matrix J of the facets for smooth pairs, which
@@ -227,7 +231,7 @@ static PetscErrorCode NewtonMult(Mat shell, Vec z, Vec y)
   PetscCall(NewtonSplit(s, y, PETSC_FALSE));
   PetscCall(NewtonDifference(s));
   PetscCall(VecScale(s->f, -1.0));
-  PetscCall(NewtonPrecondition(s, 0, 1.0, &solved));
+  PetscCall(NewtonPrecondition(s, s->most, s->rtol, &solved));
   s->smooth = (PetscBool)(s->smooth && solved);
   PetscCall(NewtonSplit(s, y, PETSC_TRUE));
   PetscCall(VecAXPY(y, 1.0, z));
@@ -337,8 +341,10 @@ static PetscErrorCode NewtonSetAccuracy(GapNewton *s, const StepReport *report)
 
     s->gaps_only = (PetscBool)(s->gaps_only && rate <= NEWTON_SLOW);
     s->rtol      = PetscMin(s->rtol, rate);
+    s->most      = s->p->by_newton && rate > NEWTON_TOO_SMALL * s->p->newton_rtol;
   }
-  s->rtol = PetscMin(safe, PetscMax(s->rtol, safe * allowed * size / report->update_error));
+  s->rtol           = PetscMin(safe, PetscMax(s->rtol, safe * allowed * size / report->update_error));
+  s->p->newton_rtol = s->rtol;
   PetscFunctionReturn(0);
 }
 

@@ -84,6 +84,7 @@ typedef struct {
                                         load step */
   PetscReal   gap_change;   /* change of the gap in the contact update before the last one [length] */
   PetscBool   by_newton;    /* true if Newton's method found the point at which the gap is linearized */
+  PetscReal   newton_rtol;  /* relative tolerance to which Newton's method for the last contact update was solved */
   PetscBool   rough;        /* true if a contact update made no progress, so that Newton's method is not
                                         used for now */
   PetscInt    nflows;       /* number of iterates that show plastic flow */
