@@ -56,7 +56,7 @@ typedef struct {
   Mat             F;
   PetscBool       own;                    /* F are factors of cholesky/, not of MUMPS */
   AMGFStamp       analysed;               /* stamp of the operator that was analysed */
-  PetscReal       flops, entries, memory; /* MUMPS's estimates for the factors: operations, entries, memory [bytes] */
+  PetscReal       flops, entries, memory; /* costs of the factors: operations, entries, memory [bytes] */
   char            why[160];               /* explanation of the last choice */
 } AMGFFactor;
 

@@ -8,4 +8,8 @@
 #define MATSOLVERAMGF       "amgf"
 #define MATSOLVERAMGFSINGLE "amgf_single"
 
+/* Functions that are composed with the factors, see cholesky/solver.c */
+#define AMGF_CHOLESKY_SET_SINGLE "AMGFCholeskySetSingle_C"
+#define AMGF_CHOLESKY_GET_COSTS  "AMGFCholeskyGetCosts_C"
+
 #endif

@@ -1,7 +1,7 @@
 /*
    Uses a Cholesky factorization of the operator instead of the AMG, if this is estimated to be faster for the expected
    number of applications. MUMPS computes it. On one rank, if the choice is automatic, the factorization of cholesky/ is
-   used: a solve with it takes two thirds of the time. The estimate uses the operation counts of MUMPS's analysis and
+   used: a solve with it takes half the time. The estimate uses the operation counts of the symbolic factorization and
    fixed rates, not measured times, so that repeated runs choose the same solver.
 */
 #define _POSIX_C_SOURCE 200809L /* declares clock_gettime() */
@@ -45,6 +45,45 @@ static PetscErrorCode FactorTakeMatrix(Mat A, Mat *taken)
   PetscCall(MatGetType(*taken, &type));
   PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_CHOLESKY, &mumps));
   if (!mumps) PetscCall(MatDestroy(taken));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether the factorization of cholesky/ is tried first: on one rank, if the choice is automatic */
+static PetscErrorCode FactorMayBeOwn(PC pc, PetscBool *own)
+{
+  PetscMPIInt size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)pc->pmat, own, MATSEQAIJ, MATSEQBAIJ, MATSEQSBAIJ, ""));
+  if (PetscDefined(USE_COMPLEX) || size > 1 || ((PC_AMGF *)pc->data)->factor.use != PC_AMGF_FACTOR_AUTO)
+    *own = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds the pattern of the factors of cholesky/, and stores their costs in the PC. They are rounded to single precision
+   if they do not fit into the cache.
+*/
+static PetscErrorCode FactorAnalyseOwn(PC pc)
+{
+  const PetscReal cached = 1e6; /* entries of factors in double precision that fit into the cache */
+  AMGFFactor     *f      = &((PC_AMGF *)pc->data)->factor;
+  MatFactorInfo   info;
+  PetscBool       single;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&f->F));
+  f->own = PETSC_TRUE;
+  PetscCall(MatGetFactor(pc->pmat, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, &f->F));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatCholeskyFactorSymbolic(f->F, pc->pmat, NULL, &info));
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
+  PetscUseMethod(f->F, AMGF_CHOLESKY_GET_COSTS, (Mat, PetscReal *, PetscReal *, PetscReal *),
+    (f->F, &f->flops, &f->entries, &f->memory));
+  single = (PetscBool)(f->entries > cached);
+  f->memory += f->entries * (single ? sizeof(float) : sizeof(PetscReal));
+  PetscUseMethod(f->F, AMGF_CHOLESKY_SET_SINGLE, (Mat, PetscBool), (f->F, single));
   PetscFunctionReturn(0);
 }
 
@@ -122,26 +161,26 @@ static PetscErrorCode FactorFindRate(PC pc, PetscReal *rate)
 /*
    Estimates the times of both solvers on this number of ranks [s]. built: whether the AMG is already set up, so that
    its set-up costs nothing. The constants are fitted to runs of elastic bodies with 2,000 to 200,000 unknowns on one
-   core; ranks are assumed to share the work equally. An application of the AMG includes the caller's work: a product
-   with the operator and the orthogonalization of a direction. The caller's work for contact does not depend on the
-   size.
+   core; ranks are assumed to share the work equally. An application of either includes the caller's work: a product
+   with the operator, the orthogonalization of a direction, and its work for contact, which does not depend on the size.
+   The analysis of the factorization is done already.
 */
 static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
-  const PC_AMGF    *amgf     = (PC_AMGF *)pc->data;
-  const AMGFFactor *f        = &amgf->factor;
-  const PetscReal   analysis = 5e-8, setup = 1.5e-7;     /* time per entry of the matrix [s]: MUMPS's analysis; AMG
-                                                            set-up */
-  const PetscReal   single = 1.6e-9, other = 1e-8;       /* time of one AMG application per entry of the matrix [s]:
-                                                            PCBLOCKAMG; BoomerAMG */
-  const PetscReal   direction = 2.5e-9, contact = 8e-3;  /* time of the caller's work [s]: per entry of the matrix;
-                                                            per application */
-  const PetscReal   cached       = 2e6;                  /* entries beyond which the matrix does not fit into the
-                                                            cache: with far more entries the time per entry doubles */
-  const PetscReal   factor_entry = 4e-8, solve = 3.3e-9; /* time per entry of the factors [s]: factorization; one
-                                                            solve */
+  const PC_AMGF    *amgf   = (PC_AMGF *)pc->data;
+  const AMGFFactor *f      = &amgf->factor;
+  const PetscReal   setup  = 1.5e-7;                  /* time of the AMG set-up per entry of the matrix [s] */
+  const PetscReal   single = 8e-10, other = 1e-8;     /* time of one AMG application per entry of the matrix [s]:
+                                                           PCBLOCKAMG; BoomerAMG */
+  const PetscReal   product = 1.3e-9, contact = 2e-3; /* time of the caller's work [s]: per entry of the matrix;
+                                                           per application */
+  const PetscReal   cached    = 2e6;                  /* entries beyond which the matrix does not fit into the
+                                                           cache: with far more entries the time per entry doubles */
+  const PetscReal   factor[2] = {4e-8, 7e-9};         /* time per entry of the factors [s], by MUMPS and by */
+  const PetscReal   solve[2]  = {3.3e-9, 7e-10};      /* cholesky/: factorization; one solve */
+  const PetscReal   held      = 1e7;                  /* the same for the entries of the factors and a solve */
   MatInfo           info;
-  PetscReal         rate;
+  PetscReal         rate, caller;
   PetscBool         half, block;
 
   PetscFunctionBegin;
@@ -150,11 +189,11 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
   if (half) info.nz_used *= 2.0;
   PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCBLOCKAMG, &block));
   PetscCall(FactorFindRate(pc, &rate));
-  costs->factor = analysis * info.nz_used + factor_entry * f->entries + f->flops / rate;
-  costs->solve  = solve * f->entries;
+  caller        = contact + product * info.nz_used;
+  costs->factor = factor[f->own] * f->entries + f->flops / rate;
+  costs->solve  = solve[f->own] * f->entries * (1.0 + f->entries / (f->entries + held)) + caller;
   costs->setup  = built ? 0.0 : setup * info.nz_used;
-  costs->apply  = contact + info.nz_used * direction +
-                 (block ? single : other) * info.nz_used * (1.0 + info.nz_used / (info.nz_used + cached));
+  costs->apply  = (block ? single : other) * info.nz_used * (1.0 + info.nz_used / (info.nz_used + cached)) + caller;
   PetscFunctionReturn(0);
 }
 
@@ -196,6 +235,7 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   AMGFFactor     *f       = &amgf->factor;
   const PetscReal largest = 5e5; /* number of unknowns above which the analysis alone takes minutes, and as much
                                     memory as the AMG */
+  PetscBool       own;
   AMGFStamp       now;
   PetscInt        n;
   Mat             A;
@@ -206,10 +246,14 @@ static PetscErrorCode FactorExpect(PC pc, PetscReal applications, PetscReal solv
   if (n > largest) PetscFunctionReturn(0);
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
   if (!AMGFStampSamePattern(&now, &f->analysed)) {
-    PetscCall(FactorTakeMatrix(pc->pmat, &A));
-    if (!A) PetscFunctionReturn(0);
-    PetscCall(FactorAnalyse(pc, A));
-    PetscCall(MatDestroy(&A));
+    PetscCall(FactorMayBeOwn(pc, &own));
+    if (own) PetscCall(FactorAnalyseOwn(pc));
+    else {
+      PetscCall(FactorTakeMatrix(pc->pmat, &A));
+      if (!A) PetscFunctionReturn(0);
+      PetscCall(FactorAnalyse(pc, A));
+      PetscCall(MatDestroy(&A));
+    }
   }
   PetscCall(FactorCompare(pc, applications, solves, &f->on));
   if (!f->on) PetscCall(MatDestroy(&f->F)); /* only the estimates of the analysis are kept */
@@ -238,40 +282,23 @@ static PetscErrorCode FactorNumerically(Mat F, Mat A, MatFactorError *error)
   PetscFunctionReturn(0);
 }
 
-/*
-   Factors the operator by the factorization of cholesky/, if the choice of a factorization is automatic, on one rank.
-   The factors are rounded to single precision if they do not fit into the cache. *factored: false if the operator is
-   not factored here, or is not positive definite
-*/
-static PetscErrorCode FactorOwn(PC pc, Mat A, PetscBool *factored)
+/* Factors the operator by the factorization of cholesky/. *factored: false if the operator is not positive definite */
+static PetscErrorCode FactorOwn(PC pc, PetscBool *factored)
 {
-  const PetscReal cached = 1e6; /* entries of factors in double precision that fit into the cache */
-  AMGFFactor     *f      = &((PC_AMGF *)pc->data)->factor;
-  MatFactorError  error;
-  MatFactorInfo   info;
-  PetscMPIInt     size;
-  AMGFStamp       now;
-  Mat             rows;
+  AMGFFactor    *f = &((PC_AMGF *)pc->data)->factor;
+  MatFactorError error;
+  MatFactorInfo  info;
+  AMGFStamp      now;
 
   PetscFunctionBegin;
-  *factored = PETSC_FALSE;
-  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
-  if (size > 1 || f->use != PC_AMGF_FACTOR_AUTO) PetscFunctionReturn(0);
-  PetscCall(MatConvert(A, MATSEQAIJ, MAT_INITIAL_MATRIX, &rows));
-  PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
-  if (!f->own || !AMGFStampSamePattern(&now, &f->analysed)) {
-    PetscCall(MatDestroy(&f->F));
-    PetscCall(
-      MatGetFactor(rows, f->entries > cached ? MATSOLVERAMGFSINGLE : MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, &f->F));
-    PetscCall(MatCholeskyFactorSymbolic(f->F, rows, NULL, &info));
-    f->analysed = now;
-  }
-  PetscCall(MatCholeskyFactorNumeric(f->F, rows, &info));
+  if (!f->F || !f->own || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyseOwn(pc));
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatCholeskyFactorNumeric(f->F, pc->pmat, &info));
   PetscCall(MatFactorGetError(f->F, &error));
-  PetscCall(MatDestroy(&rows));
-  f->own = *factored = (PetscBool)!error;
+  *factored = (PetscBool)!error;
   if (!*factored) PetscCall(MatDestroy(&f->F));
+  f->own = *factored;
   PetscFunctionReturn(0);
 }
 
@@ -281,22 +308,22 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PC_AMGF       *amgf  = (PC_AMGF *)pc->data;
   AMGFFactor    *f     = &amgf->factor;
   MatFactorError error = MAT_FACTOR_OTHER;
-  PetscBool      own;
+  PetscBool      own   = PETSC_FALSE;
   AMGFStamp      now;
   Mat            A;
 
   PetscFunctionBegin;
   PetscCall(PCReset(amgf->amg));
+  PetscCall(FactorMayBeOwn(pc, &own));
+  if (own) PetscCall(FactorOwn(pc, &own));
+  f->failed = PETSC_FALSE;
+  if (own) PetscFunctionReturn(0);
   PetscCall(FactorTakeMatrix(pc->pmat, &A));
   PetscCheck(A, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
     "-pc_amgf_factor needs real scalars, MUMPS, and an operator of type AIJ, BAIJ or SBAIJ");
   PetscCall(MatGetStamp_AMGF(pc->pmat, &now));
-  PetscCall(FactorOwn(pc, A, &own));
-  if (own) error = MAT_FACTOR_NOERROR;
-  else {
-    if (!f->F || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
-    if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
-  }
+  if (!f->F || f->own || !AMGFStampSamePattern(&now, &f->analysed)) PetscCall(FactorAnalyse(pc, A));
+  if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
   PetscCall(PetscInfo(pc, "Cholesky factorization instead of the AMG failed with error %d\n", (int)error));
   f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
   PetscCall(MatDestroy(&A));
@@ -384,10 +411,9 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Level: advanced
 
   Notes:
-  Has no effect unless the choice is `PC_AMGF_FACTOR_AUTO`. The factors are computed by MUMPS, or, on one rank, by the
-  solver of pc_amgf/cholesky. The cost of the factorization is estimated from MUMPS's analysis, which gives
-  floating-point operations, entries and memory. The cost of the AMG is estimated from the number of entries of the
-  operator.
+  MUMPS computes the factorization, but on one rank with `PC_AMGF_FACTOR_AUTO` the factorization of pc_amgf/cholesky.
+  The cost of the factorization is estimated from its symbolic part, which gives floating-point operations, entries and
+  memory. The cost of the AMG is estimated from the number of entries of the operator.
 
   Call this function before the first `PCSetUp()`, and again if the expected numbers change. The next `PCSetUp()` may
   then replace the AMG by a factorization. A factorization is not replaced by the AMG as long as the nonzero pattern of

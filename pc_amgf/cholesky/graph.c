@@ -8,43 +8,68 @@ PetscErrorCode CholeskyGraphDestroy(CholeskyGraph *g)
   PetscFunctionReturn(0);
 }
 
-/* Creates the graph of a sequential AIJ matrix with a symmetric pattern. The block size is that of A if all rows of a
-   block have the same columns, otherwise 1. */
+/* Returns the block size of the rows of A in compressed format if all rows of a block have the same columns,
+   otherwise 1 */
+static PetscInt GraphFindBlock(PetscInt bs, PetscInt rows, const PetscInt ia[], const PetscInt ja[])
+{
+  for (PetscInt i = 0; i < rows; i++) {
+    const PetscInt head = i - i % bs, n = ia[i + 1] - ia[i];
+
+    if (n % bs || n != ia[head + 1] - ia[head]) return 1;
+    for (PetscInt k = 0; k < n; k++)
+      if (ja[ia[i] + k] != ja[ia[head] + k] || ja[ia[i] + k] % bs != k % bs) return 1;
+  }
+  return bs;
+}
+
+/* Creates the graph of a sequential matrix of type AIJ, BAIJ or SBAIJ with a symmetric pattern. The block size is that
+   of A if all rows of a block have the same columns, otherwise 1. */
 PetscErrorCode CholeskyGraphCreate(Mat A, CholeskyGraph *g)
 {
-  PetscInt        rows, bs;
+  PetscInt        rows, bs, step = 1;
   const PetscInt *ia, *ja;
-  PetscBool       done;
+  PetscBool       done, half, blocks;
 
   PetscFunctionBegin;
   PetscCall(MatGetBlockSize(A, &bs));
-  PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &rows, &ia, &ja, &done));
+  PetscCall(PetscObjectBaseTypeCompare((PetscObject)A, MATSEQSBAIJ, &half));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &blocks, MATSEQBAIJ, MATSEQSBAIJ, ""));
+  PetscCall(MatGetRowIJ(A, 0, half, blocks, &rows, &ia, &ja, &done)); /* with blocks: their rows and columns */
   PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "The matrix has no compressed sparse rows: use type aij");
-  for (PetscInt i = 0; i < rows && bs > 1; i++) {
-    const PetscInt head = i - i % bs, n = ia[i + 1] - ia[i];
-
-    if (n % bs || n != ia[head + 1] - ia[head]) bs = 1;
-    for (PetscInt k = 0; k < n && bs > 1; k++)
-      if (ja[ia[i] + k] != ja[ia[head] + k] || ja[ia[i] + k] % bs != k % bs) bs = 1;
-  }
+  if (!blocks) step = bs = GraphFindBlock(bs, rows, ia, ja);
   g->block = bs;
-  g->n     = rows / bs;
-  PetscCall(PetscMalloc2(g->n + 1, &g->start, ia[rows] / (bs * bs), &g->neighbour));
+  g->n     = rows / step;
+  PetscCall(PetscMalloc2(g->n + 1, &g->start, ia[rows] / (step * step), &g->neighbour));
   g->start[0] = 0;
   for (PetscInt i = 0; i < g->n; i++) {
     PetscInt n = g->start[i];
 
-    for (PetscInt k = ia[i * bs]; k < ia[i * bs + 1]; k += bs)
-      if (ja[k] / bs != i) g->neighbour[n++] = ja[k] / bs;
+    for (PetscInt k = ia[i * step]; k < ia[i * step + 1]; k += step)
+      if (ja[k] / step != i) g->neighbour[n++] = ja[k] / step;
     g->start[i + 1] = n;
   }
-  PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &rows, &ia, &ja, &done));
+  PetscCall(MatRestoreRowIJ(A, 0, half, blocks, &rows, &ia, &ja, &done));
+  PetscFunctionReturn(0);
+}
+
+/* Finds the best ordering that is registered: METIS's, if PETSc or the program provides it. It halves the operations
+   of PETSc's own nested dissection. */
+static PetscErrorCode GraphOrderingType(MatOrderingType *type)
+{
+  PetscErrorCode (*metis)(Mat, MatOrderingType, IS *, IS *);
+  PetscFunctionList list;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOrderingList(&list));
+  PetscCall(PetscFunctionListFind(list, MATORDERINGMETISND, &metis));
+  *type = metis ? MATORDERINGMETISND : MATORDERINGND;
   PetscFunctionReturn(0);
 }
 
 /* Orders the nodes by nested dissection. perm[i]: the i-th node */
 PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *g, PetscInt perm[])
 {
+  MatOrderingType type = MATORDERINGND;
   const PetscInt *order;
   PetscInt       *counts;
   PetscScalar    *zeros;
@@ -64,7 +89,8 @@ PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *g, PetscInt perm[])
   PetscCall(MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscFree(zeros));
   PetscCall(PetscFree(counts));
-  PetscCall(MatGetOrdering(pattern, MATORDERINGND, &rows, &columns));
+  PetscCall(GraphOrderingType(&type));
+  PetscCall(MatGetOrdering(pattern, type, &rows, &columns));
   PetscCall(ISGetIndices(rows, &order));
   PetscCall(PetscArraycpy(perm, order, g->n));
   PetscCall(ISRestoreIndices(rows, &order));

@@ -1,4 +1,4 @@
-/* The factorization as two of PETSc's MatSolverType, for sequential AIJ matrices */
+/* The factorization as two of PETSc's MatSolverType, for sequential matrices of types AIJ, BAIJ and SBAIJ */
 #include "choleskyimpl.h"
 #include "solver.h"
 #include "pc_amgf/cholesky.h"
@@ -77,11 +77,15 @@ static PetscErrorCode MatMatSolve_AMGF(Mat F, Mat B, Mat X)
 static PetscErrorCode MatCholeskyFactorNumeric_AMGF(Mat F, Mat A, const MatFactorInfo *info)
 {
   CholeskyFactors *f = (CholeskyFactors *)F->data;
-  PetscBool        positive;
+  PetscBool        positive, is;
+  Mat              rows = A;
 
   PetscFunctionBegin;
   (void)info;
-  PetscCall(CholeskyNumeric(A, &f->c, &positive));
+  PetscCall(PetscObjectBaseTypeCompare((PetscObject)A, MATSEQAIJ, &is));
+  if (!is) PetscCall(MatConvert(A, MATSEQAIJ, MAT_INITIAL_MATRIX, &rows));
+  PetscCall(CholeskyNumeric(rows, &f->c, &positive));
+  if (!is) PetscCall(MatDestroy(&rows));
   PetscCall(PetscLogFlops(f->c.flops));
   F->factorerrortype = positive ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
   F->assembled       = PETSC_TRUE;
@@ -114,6 +118,8 @@ static PetscErrorCode MatDestroy_AMGF(Mat F)
   PetscCall(CholeskyDestroy(&f->c));
   PetscCall(PetscFree2(f->x, f->work));
   PetscCall(PetscObjectComposeFunction((PetscObject)F, "MatFactorGetSolverType_C", NULL));
+  PetscCall(PetscObjectComposeFunction((PetscObject)F, AMGF_CHOLESKY_SET_SINGLE, NULL));
+  PetscCall(PetscObjectComposeFunction((PetscObject)F, AMGF_CHOLESKY_GET_COSTS, NULL));
   PetscCall(PetscFree(F->data));
   PetscFunctionReturn(0);
 }
@@ -122,6 +128,29 @@ static PetscErrorCode MatFactorGetSolverType_AMGF(Mat F, MatSolverType *type)
 {
   PetscFunctionBegin;
   *type = ((CholeskyFactors *)F->data)->c.single ? MATSOLVERAMGFSINGLE : MATSOLVERAMGF;
+  PetscFunctionReturn(0);
+}
+
+/* Sets whether later numerical factorizations are rounded to single precision */
+static PetscErrorCode AMGFCholeskySetSingle_AMGF(Mat F, PetscBool single)
+{
+  PetscFunctionBegin;
+  ((CholeskyFactors *)F->data)->c.single = single;
+  PetscCall(PetscFree(F->solvertype));
+  PetscCall(PetscStrallocpy(single ? MATSOLVERAMGFSINGLE : MATSOLVERAMGF, &F->solvertype));
+  PetscFunctionReturn(0);
+}
+
+/* Gets the costs of a factorization after its symbolic part: operations, entries of the factors, and the memory of the
+   largest fronts beside the factors [bytes] */
+static PetscErrorCode AMGFCholeskyGetCosts_AMGF(Mat F, PetscReal *flops, PetscReal *entries, PetscReal *fronts)
+{
+  const Cholesky *c = &((CholeskyFactors *)F->data)->c;
+
+  PetscFunctionBegin;
+  *flops   = c->flops;
+  *entries = (PetscReal)c->entry[c->nsuper];
+  *fronts  = 3.0 * sizeof(PetscReal) * PetscSqr((PetscReal)c->tallest);
   PetscFunctionReturn(0);
 }
 
@@ -142,6 +171,8 @@ static PetscErrorCode MatGetFactor_AMGF(Mat A, MatFactorType type, Mat *F)
   (*F)->ops->destroy                = MatDestroy_AMGF;
   (*F)->ops->choleskyfactorsymbolic = MatCholeskyFactorSymbolic_AMGF;
   PetscCall(PetscObjectComposeFunction((PetscObject)*F, "MatFactorGetSolverType_C", MatFactorGetSolverType_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)*F, AMGF_CHOLESKY_SET_SINGLE, AMGFCholeskySetSingle_AMGF));
+  PetscCall(PetscObjectComposeFunction((PetscObject)*F, AMGF_CHOLESKY_GET_COSTS, AMGFCholeskyGetCosts_AMGF));
   PetscCall(PetscFree((*F)->solvertype));
   PetscCall(PetscStrallocpy(MATSOLVERAMGF, &(*F)->solvertype));
   PetscFunctionReturn(0);
@@ -151,18 +182,20 @@ static PetscErrorCode MatGetFactor_AMGFSingle(Mat A, MatFactorType type, Mat *F)
 {
   PetscFunctionBegin;
   PetscCall(MatGetFactor_AMGF(A, type, F));
-  ((CholeskyFactors *)(*F)->data)->c.single = PETSC_TRUE;
-  PetscCall(PetscFree((*F)->solvertype));
-  PetscCall(PetscStrallocpy(MATSOLVERAMGFSINGLE, &(*F)->solvertype));
+  PetscCall(AMGFCholeskySetSingle_AMGF(*F, PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
 /* Registers the factorization with PETSc */
 PetscErrorCode AMGFCholeskyRegister(void)
 {
+  const MatType types[] = {MATSEQAIJ, MATSEQBAIJ, MATSEQSBAIJ};
+
   PetscFunctionBegin;
   PetscCall(MatInitializePackage()); /* PETSc 3.18 would forget the types that it registers after the first one */
-  PetscCall(MatSolverTypeRegister(MATSOLVERAMGF, MATSEQAIJ, MAT_FACTOR_CHOLESKY, MatGetFactor_AMGF));
-  PetscCall(MatSolverTypeRegister(MATSOLVERAMGFSINGLE, MATSEQAIJ, MAT_FACTOR_CHOLESKY, MatGetFactor_AMGFSingle));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(types); i++) {
+    PetscCall(MatSolverTypeRegister(MATSOLVERAMGF, types[i], MAT_FACTOR_CHOLESKY, MatGetFactor_AMGF));
+    PetscCall(MatSolverTypeRegister(MATSOLVERAMGFSINGLE, types[i], MAT_FACTOR_CHOLESKY, MatGetFactor_AMGFSingle));
+  }
   PetscFunctionReturn(0);
 }

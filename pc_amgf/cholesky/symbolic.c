@@ -161,7 +161,8 @@ static PetscErrorCode SymbolicExpand(const CholeskyGraph *g, const PetscInt perm
     c->tallest      = PetscMax(c->tallest, (PetscInt)rows);
     c->start[s + 1] = c->start[s] + rows;
     c->entry[s + 1] = c->entry[s] + rows * columns;
-    c->flops += (PetscReal)columns * PetscSqr((PetscReal)rows);
+    c->flops +=
+      (PetscReal)columns * ((PetscReal)rows * (PetscReal)(rows - columns) + PetscSqr((PetscReal)columns) / 3.0);
   }
   PetscCall(PetscMalloc1(c->start[b->n], &c->row));
   PetscCall(PetscMalloc1(g->n, &of));

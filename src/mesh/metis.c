@@ -1,5 +1,5 @@
 /* The partitioner "metis": serial METIS on the graph gathered on the first rank. ParMETIS is not used, because Debian's
-   PETSc is built without it. */
+   PETSc is built without it. For the same reason this file registers METIS's ordering for factorizations. */
 #include "meshimpl.h"
 #include <petsc/private/partitionerimpl.h>
 #include <metis.h>
@@ -41,6 +41,44 @@ PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt 
   for (PetscInt v = 0; v < nv; ++v) part[v] = (PetscInt)where[v];
   PetscCall(PetscFree(vwgt));
   PetscCall(PetscFree3(xadj, adjncy, where));
+  PetscFunctionReturn(0);
+}
+
+/* Orders the rows of a sequential matrix with a symmetric pattern for its factorization, by METIS's nested
+   dissection */
+static PetscErrorCode MetisOrder(Mat A, MatOrderingType type, IS *rows, IS *columns)
+{
+  const PetscInt *ia, *ja;
+  PetscInt        nv, m = 0, *order;
+  idx_t           n, *xadj, *adjncy, *perm, *place, options[METIS_NOPTIONS];
+  PetscBool       done;
+  int             status;
+
+  PetscFunctionBegin;
+  (void)type;
+  PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &nv, &ia, &ja, &done));
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "A matrix of type %s has no compressed rows",
+    ((PetscObject)A)->type_name);
+  PetscCall(PetscMalloc4(nv + 1, &xadj, ia[nv], &adjncy, nv, &perm, nv, &place));
+  xadj[0] = 0;
+  for (PetscInt v = 0; v < nv; ++v) {
+    for (PetscInt k = ia[v]; k < ia[v + 1]; ++k)
+      if (ja[k] != v) adjncy[m++] = (idx_t)ja[k];
+    xadj[v + 1] = (idx_t)m;
+  }
+  PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &nv, &ia, &ja, &done));
+  PetscCall(MatGetSize(A, &nv, NULL));
+  n = (idx_t)nv;
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  status                     = METIS_NodeND(&n, xadj, adjncy, NULL, options, perm, place);
+  PetscCheck(status == METIS_OK, PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed with status %d", status);
+  PetscCall(PetscMalloc1(nv, &order));
+  for (PetscInt v = 0; v < nv; ++v) order[v] = (PetscInt)perm[v];
+  PetscCall(PetscFree4(xadj, adjncy, perm, place));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, nv, order, PETSC_OWN_POINTER, rows));
+  PetscCall(PetscObjectReference((PetscObject)*rows));
+  *columns = *rows;
   PetscFunctionReturn(0);
 }
 
@@ -182,11 +220,13 @@ static PetscErrorCode PetscPartitionerCreate_Metis(PetscPartitioner part)
   PetscFunctionReturn(0);
 }
 
-/* Registers the partitioner "metis". MeshCreate() calls this function. A program that distributes its own DMPlex must
-   call it before the option -petscpartitioner_type metis is read. */
+/* Registers the partitioner "metis" and, if PETSc does not have it, the ordering "metisnd". MeshCreate() calls this
+   function. A program that distributes its own DMPlex must call it before the option -petscpartitioner_type metis is
+   read. */
 PetscErrorCode MeshRegisterPartitioner(void)
 {
   PetscFunctionBegin;
+  if (!PetscDefined(HAVE_METIS)) PetscCall(MatOrderingRegister(MATORDERINGMETISND, MetisOrder));
   PetscCall(PetscPartitionerRegister(PETSCPARTITIONERMETIS, PetscPartitionerCreate_Metis));
   PetscFunctionReturn(0);
 }
