@@ -7,6 +7,7 @@
    a motion that the loads drive and no contact resists. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
+#include "src/state/interrupt.h"
 #include "src/state/path.h"
 
 #define EQUILIBRIUM_ROWS 3 /* number of linearizations whose rows form the cone */
@@ -260,6 +261,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
 {
   const PetscReal beyond = 1e3, negligible = 1e-7;
   const PetscInt  n = m->n;
+  PetscBool       stop;
   Vec             w;
 
   PetscFunctionBegin;
@@ -269,6 +271,8 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
     ConeRow  row, best = {.row = PETSC_DECIDE};
     PetscInt of = 0;
 
+    PetscCall(InterruptTest(m->sim, &stop));
+    if (stop) break;
     ConeSubtract(cone, load, left);
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     PetscCall(FreeMotionsDisplace(m, left, w));
@@ -391,7 +395,8 @@ static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec lo
 
 /*
    Tests, after a solve failed, whether an equilibrium exists for the loads at `time` and the positions of the last
-   state. *none: no equilibrium exists; the report then names the moving body and its motion.
+   state. *none: no equilibrium exists; the report then names the moving body and its motion. A signal ends the test,
+   and *none is false.
 */
 PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {
@@ -399,10 +404,13 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   ContactCone          cone;
   FreeMotions          motions;
   PetscReal           *load, *left, size;
+  PetscBool            stop;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
   if (!sim->contact || !force) PetscFunctionReturn(0);
+  PetscCall(InterruptTest(sim, &stop));
+  if (stop) PetscFunctionReturn(0);
   PetscCall(EquilibriumTurnBack(sim, time, force));
   PetscCall(EquilibriumMeasureLoad(force, &size));
   PetscCall(FreeMotionsCreate(sim, &motions));

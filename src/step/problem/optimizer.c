@@ -4,6 +4,7 @@
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/control.h"
+#include "src/state/interrupt.h"
 #include "src/state/path.h"
 
 /*

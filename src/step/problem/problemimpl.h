@@ -8,12 +8,6 @@
 #include "src/measure/measureimpl.h"
 #include <petscamgf.h>
 
-/* interrupt.c: ends the run after a signal */
-PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
-PETSC_INTERN PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop);
-PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
-PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
-
 /* stiffness.c: chooses the storage of the stiffness matrix and attaches rigid body modes */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);

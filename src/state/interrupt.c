@@ -1,5 +1,5 @@
-/* Ends a run after the current Newton step if SIGINT, SIGTERM or SIGUSR1 is received. */
-#include "problemimpl.h"
+/* Ends a run after the current Newton step if SIGINT, SIGTERM or SIGUSR1 is received */
+#include "src/state/interrupt.h"
 #include <signal.h>
 #include "src/state/control.h"
 
