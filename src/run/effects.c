@@ -75,7 +75,6 @@ static PetscErrorCode EffectSetCount(RunReport *report, const char name[], Petsc
   PetscFunctionReturn(0);
 }
 
-/* Sets the effects of single bodies */
 static PetscErrorCode EffectsSetBodies(Simulation sim, const EffectCounts *n, RunReport *report)
 {
   const struct {

@@ -288,7 +288,6 @@ PetscErrorCode MeshLocatorGetPlaces(MeshLocator locator, const MeshPlace **place
   PetscFunctionReturn(0);
 }
 
-/* Frees a locator */
 PetscErrorCode MeshLocatorDestroy(MeshLocator *locator)
 {
   PetscFunctionBegin;

@@ -49,7 +49,6 @@ static PetscErrorCode ZonePlaceVertex(const SceneBody *body, const PetscReal par
   PetscFunctionReturn(0);
 }
 
-/* Adds a face to the zone */
 static PetscErrorCode ZoneAddFace(DM dm, const SceneBody bodies[], const char face[], Zone *zone)
 {
   const PetscInt  k = zone->nfaces++;

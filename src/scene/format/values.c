@@ -53,7 +53,6 @@ static PetscErrorCode ValuesReadNested(SceneValues *v, yaml_document_t *doc, con
   PetscFunctionReturn(0);
 }
 
-/* Appends a word to a list. */
 static PetscErrorCode ValuesAppend(const char word[], size_t *length, char **list)
 {
   const size_t more = strlen(word);

@@ -13,7 +13,6 @@ static const ShapeKey gmsh_keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-/* Gets the keys of a body's shape. */
 PetscErrorCode SceneGetShapeKeys(const SceneBody *body, const ShapeKey **keys)
 {
   const Shape *shape;

@@ -165,7 +165,8 @@ PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_lin
    linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
    of the last solve
 */
-#define STEP_INVERTED "the prescribed displacements invert an element at the start of the load step"
+#define STEP_INVERTED \
+  "the prescribed displacements invert an element at the start of the load step; use smaller load steps"
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);

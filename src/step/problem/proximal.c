@@ -334,8 +334,8 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
   PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
   PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
   if (!p->unheld)
-    PetscCall(
-      ReportReason(report, PETSC_FALSE, "no equilibrium was found for the rigid bodies that are driven by forces"));
+    PetscCall(ReportReason(report, PETSC_FALSE,
+      "no equilibrium was found for the rigid bodies that are driven by forces; use smaller load steps"));
   PetscFunctionReturn(0);
 }
 
