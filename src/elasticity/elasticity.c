@@ -33,7 +33,7 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
     PetscCall(CellBasisCreate(nnodes, order == 1 ? e->quadrature : 3, *basis));
   }
   PetscCheck(!body->basis || body->basis == *basis, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-    "The cells of a body are of different kinds");
+    "A body has cells with different numbers of nodes, one with %" PetscInt_FMT, nnodes);
   body->basis = *basis;
   PetscCall(ElementGet(body->type, nnodes, &body->element));
   PetscFunctionReturn(0);

@@ -10,8 +10,8 @@
   30.0 /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
                             the tolerance */
 #define IP_STEEP \
-  0.1                    /* if the largest row sum of |J| has fallen below this fraction of its first value, the
-                            first value is not used */
+  0.1                    /* The first value of the largest row sum of |J| is used as a scale until the row sum
+                            falls below this fraction of it. */
 #define IP_RUNAWAY 100.0 /* largest size of an iterate relative to its first size that scales follow */
 
 /*

@@ -40,7 +40,7 @@ PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
-/* Computes 1/sqrt|H_jj|. Entries below 1e-8 of the largest are replaced by that value. */
+/* Computes 1/sqrt(H_jj). Entries H_jj below 1e-8 times the largest one are replaced by 1e-8 times the largest one. */
 static PetscErrorCode InverseRoots(Vec hdiag, Vec roots)
 {
   PetscScalar *h;
