@@ -45,8 +45,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
   path->presses = PETSC_FALSE;
   for (PetscInt p = 0; p < report->npairs; ++p)
     path->presses = (PetscBool)(path->presses || (report->pairs[p].frictional && report->pairs[p].normal_force > 0.0));
-  path->pressed       = (PetscBool)(path->pressed || path->presses);
-  report->normal_work = report->contact_work - report->dissipated;
+  path->pressed = (PetscBool)(path->pressed || path->presses);
   report->imbalance =
     path->turnover > 0.0 ? path->unbalanced / PetscMax(path->turnover, at_rest * PetscAbsReal(path->energy)) : 0.0;
   PetscFunctionReturn(0);
@@ -110,7 +109,8 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
    Adds the work from the last state to u. unbalanced: internal - contact - dead forces, which are the reactions in
    prescribed rows; rigid: forces on rigid bodies that are driven by forces, or NULL; contact: contact forces if there
    is friction, which this function takes over, or NULL. late: work of friction beyond that of the mean forces; it comes
-   from the loads, whose mean forces are too small by the same.
+   from the loads, whose mean forces are too small by the same. With temperatures it may come from the thermal
+   expansion, whose work is not computed.
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, PetscReal late,
   StepReport *report)
@@ -141,13 +141,15 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
                                                         bodies */
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
-  path->work += late;
+  if (!sim->scene->ntemperatures) path->work += late;
   path->contact_work += late;
   PetscCall(WorkAddBolts(sim, u, report));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (sim->history->frictional && !sim->temperatures.n && !SimulationIsDynamic(sim))
+  if (!sim->history->frictional || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  report->normal_work = report->contact_work - report->dissipated;
+  if (!sim->scene->ntemperatures)
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
       report));
   PetscFunctionReturn(0);

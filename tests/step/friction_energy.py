@@ -97,13 +97,25 @@ bodies:
 symmetry: [block.xmin, block.ymin, block.zmin]
 displacements:
   - press: {face: block.zmax, value: [free, free, -0.5]}
-  - hold: {body: far, value: [0, 0, 0]}
+  - hold: {body: far, value: [0, 0, 0], rotation: [0, 0, 0], center: [0.5, 0.5, 1.2]}
 contact:
   - pair: {mortar: far.zmin, nonmortar: block.zmax, friction: 0.3}
 """
+# A ring that shrinks onto a shaft and expands until it is loose: heat does all work
+RING = """problem: ring
+bodies:
+  - shaft: {shape: tube_arc, axis: z, radii: [5, 10], angles: [0, 90], extent: [0, 5], cells: [3, 8, 3], young: 2e5, poisson: 0.3, expansion: 12e-6}
+  - ring: {shape: tube_arc, axis: z, radii: [10, 16], angles: [0, 90], extent: [0, 5], cells: [3, 10, 3], young: 1e5, poisson: 0.3, expansion: 20e-6}
+symmetry: [shaft.amin, shaft.amax, ring.amin, ring.amax, shaft.lmin, ring.lmin]
+temperatures:
+  - cool: {body: ring, value: -100}
+contact:
+  - fit: {mortar: shaft.outer, nonmortar: ring.inner, friction: 0.2}
+load: {factors: [0.5, 1, 0.5, -0.2]}
+"""
 STEPS = 16
 PUSHES = {"low": dict(height=0.25, law="friction: 0.3"), "high": dict(height=1, law="friction: 0.3"), "limited": dict(height=0.25, law="friction: 5, shear_limit: 0.3")}
-SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED, "teeth": TEETH, "apart": APART}
+SCENES = {"sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"), "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM, "swapped": SWAPPED, "teeth": TEETH, "apart": APART, "ring": RING}
 for push, values in PUSHES.items():
     SCENES[push + "_once"] = PUSH.format(load=[1, 1, 1], along=[0, 1, 0], **values)
     SCENES[push + "_slowly"] = PUSH.format(load=[1] * (2 * STEPS + 1), along=[k / STEPS for k in [*range(STEPS + 1), *range(STEPS - 1, -1, -1)]], **values)
@@ -147,6 +159,10 @@ else:
     say("teeth: it never gives any back, also where a contact opens", min(taken) >= 0 and all(part["dissipated"] > -1e-12 for _, part in parts("teeth")), taken)
     say("teeth: the energy is balanced, although bodies of small strain rotate", all(step["imbalance"] < 1e-8 for step in teeth["steps"][2:]), [step["imbalance"] for step in teeth["steps"]])
     say("apart: no warning of work that is lost, where friction does not act", not any("of the work" in warning for warning in load("apart")["warnings"]), load("apart")["warnings"])
+    steps = load("ring")["steps"]
+    size = max(step["energy"] for step in steps)
+    say("ring: no load does work", all(abs(step["work"]) < 1e-6 * size for step in steps), [step["work"] for step in steps])
+    say("ring: friction takes work, and the rest of the contact's is that of normal forces", steps[0]["dissipated"] > 0.001 * size and all(within(step["dissipated"] + step["normal_work"], step["contact_work"], 1e-9) for step in steps), [(step["dissipated"], step["normal_work"], step["contact_work"]) for step in steps])
     for push in PUSHES:
         once, slowly = load(push + "_once")["steps"], load(push + "_slowly")["steps"]
         for title, step, other in ("pushed", once[1], slowly[STEPS]), ("and back", once[2], slowly[-1]):

@@ -209,14 +209,16 @@ static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, SceneDisplacement *d)
+/* rotation: whether the entry has this key, whose value may be 0 */
+static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, PetscBool rotation, SceneDisplacement *d)
 {
   const PetscBool whole = SceneIsWholeBody(d->face), turns = RotationIsShown(d);
 
   PetscFunctionBegin;
   d->moves = (PetscBool)(whole || turns);
   if (turns && !center) PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation, but no center", d->name));
-  if (center && !turns) PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center, but no rotation", d->name));
+  if (center && !rotation)
+    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center, but no rotation", d->name));
   if (!whole && SceneTurnsFreely(d))
     PetscCall(SceneKeysError(keys,
       "displacement \"%s\" has a free rotation, which only a rigid body can have, as {body: <body>, ...}", d->name));
@@ -230,7 +232,7 @@ static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, Sc
 PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char owner[], void *entry)
 {
   SceneDisplacement *d = entry;
-  PetscBool          point, from, to, body, center;
+  PetscBool          point, from, to, body, center, rotation;
   const char        *face;
 
   PetscFunctionBegin;
@@ -239,6 +241,7 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
   PetscCall(SceneHasKey(keys, owner, "to", &to));
   PetscCall(SceneHasKey(keys, owner, "body", &body));
   PetscCall(SceneHasKey(keys, owner, "center", &center));
+  PetscCall(SceneHasKey(keys, owner, "rotation", &rotation));
   if (point || from || to) PetscCall(DisplacementSetPlace(keys, scene, owner, point, d));
   else {
     PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
@@ -247,6 +250,6 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
     PetscCall(SceneSetWholeBody(keys, scene, owner,
       "displacements of an elastic body are prescribed at a face, a point or an edge", d->body, &d->face));
   }
-  PetscCall(DisplacementSetMotion(keys, center, d));
+  PetscCall(DisplacementSetMotion(keys, center, rotation, d));
   PetscFunctionReturn(0);
 }
