@@ -1,45 +1,33 @@
-# What accuracy costs in time: runs, tables, figures and pages. An interrupted bench goes on where it stopped.
+# What accuracy costs in time: runs, tables, figures and pages. An interrupted bench goes on where it stopped
 
-# BENCH="--only tolerance" runs some studies. The pages are made in build/front, build/bench, build/choice and build/sharp; bench-page takes them into share/bench
-BENCH ?=
+# The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others
+BENCH_PARTS ?= front.py elements/choice.py elements/sharp.py run.py calculix.py effects.py
+BENCH_FOLDER ?= build/bench
 
-.PHONY: bench bench-front bench-knobs bench-full bench-page bench-calculix
+.PHONY: bench bench-front bench-full bench-page
 
-build/bench/triad: share/bench/triad.c makefile share/bench.mk
-	@mkdir -p $(@D)
-	$(call say,CC,$<)
-	$(Q)$(CC) -std=c11 -O3 -Wall -Wextra $< -o $@
+# A part that fails does not keep the others from being made
+define make_bench
+@failed=; for part in $(1); do echo "== share/bench/$$part $(2)"; date +%T; \
+  $(PYTHON) -B share/bench/$$part --folder $(BENCH_FOLDER) $$([ $$part != run.py ] || echo $(2)) || failed="$$failed $$part"; done; date +%T; \
+  [ -z "$$failed" ] || { echo "bench: these parts failed:$$failed"; exit 1; }
+endef
 
-bench_run = $(PYTHON) -B share/bench/run.py
+# All pages, into build/bench/pages: 45 minutes at most on two cores
+bench: dependencies
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	$(call make_bench,$(BENCH_PARTS),--size quick)
 
-# At most an hour on two cores
-bench: bench-front bench-knobs
-
-# The accuracy page, and the choice of elements: five minutes
+# The front page alone
 bench-front: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
-	@mkdir -p build/choice build/sharp
-	$(PYTHON) -B share/bench/front.py
-	$(PYTHON) -B share/bench/elements/choice.py --page build/choice/choice.md
-	$(PYTHON) -B share/bench/elements/choice.py --set second --page build/choice/second.md
-	$(PYTHON) -B share/bench/elements/sharp.py --page build/sharp/sharp.md
+	$(call make_bench,front.py,)
 
-# A page a knob, on small problems: ten minutes on two cores
-bench-knobs: dependencies
-	@$(MAKE) --no-print-directory $(PARALLEL) all build/bench/triad
-	@$(bench_run) --size quick $(BENCH)
-
-# The same at full size: three hours
+# The pages of settings for larger meshes, two to three hours
 bench-full: dependencies
-	@$(MAKE) --no-print-directory $(PARALLEL) all build/bench/triad
-	@$(bench_run) --size full $(BENCH)
-
-# The two-block problem beside CalculiX, a quarter of an hour; nothing without ccx
-bench-calculix: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
-	$(PYTHON) -B share/bench/calculix.py --page share/bench/calculix.md
+	$(call make_bench,$(BENCH_PARTS),--size full)
 
+# Takes the pages that were made into share/bench
 bench-page:
-	-cp build/front/README.md build/front/front.csv build/front/front.png share/bench
-	-cp build/choice/choice.md build/choice/second.md build/sharp/sharp.md share/bench/elements
-	-cp build/bench/*.md build/bench/bench.csv build/bench/*.png share/bench/knobs
+	cp -r $(BENCH_FOLDER)/pages/. share/bench

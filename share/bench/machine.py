@@ -1,10 +1,13 @@
-"""Where the bench ran: processor, memory, libraries, and the bandwidth of STREAM's triad."""
+"""Where and when the bench ran: processor, memory, libraries, commit."""
+import datetime
 import os
 import platform
 import re
+import statistics
 import subprocess
 
 from problems import TOP
+from store import SOURCES, source_version
 
 MACROS = {
     "PETSc": ("petscversion.h", ("PETSC_VERSION_MAJOR", "PETSC_VERSION_MINOR", "PETSC_VERSION_SUBMINOR")),
@@ -48,8 +51,18 @@ def describe():
     }
 
 
-def triad(sizes):
-    """(bytes of the working set, byte/s) for every size"""
-    program = os.path.join(TOP, "build", "bench", "triad")
-    lines = subprocess.run([program, *(f"{size:.0f}" for size in sizes)], capture_output=True, text=True, check=True).stdout.splitlines()
-    return [tuple(map(float, line.split())) for line in lines]
+def commit():
+    """Of the sources, and whether they have changed since; elsewhere than in a clone the fingerprint of the sources"""
+    git = lambda *words: subprocess.run(["git", "-C", TOP, *words], capture_output=True, text=True).stdout.strip()  # noqa: E731
+    found = git("log", "-1", "--format=%h")
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", *SOURCES, "share/bench/*.py")
+    return (f"commit {found}" + (" and later changes" if changed else "")) if found else "sources " + source_version()
+
+
+def header(loads):
+    """Rows of the table with which a page says where and when its runs were made; loads: load averages of the machine when they ended"""
+    where = describe()
+    memory = f", {where['memory_bytes'] / 2**30:.0f} GiB" if where["memory_bytes"] else ""
+    load = f"{statistics.median(loads):.1f}; 1.0 is a run alone" if loads else "not measured"
+    return (f"| date | {datetime.date.today()} |", f"| sources | {commit()} |", f"| machine | {where['processor']}, {where['cores']} cores{memory} |",
+            "| libraries | " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + " |", f"| load average of the machine, median | {load} |")

@@ -1,4 +1,4 @@
-"""The figures: error against cost, a study a figure; the front of all studies; baselines; growth; roofline. SVG and PNG."""
+"""The figures: error against cost, a study a figure; baselines; growth."""
 import math
 import os
 
@@ -12,19 +12,17 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 from problems import PROBLEMS  # noqa: E402
 from results import converged, of_panel, select  # noqa: E402
 
-COSTS = {"time": ("seconds", "wall time [s]", 1), "applications": ("applications", "AMG applications", 1), "memory": ("memory", "peak memory [MB]", 1e-6)}
+COSTS = {"time": ("seconds", "user time [s]", 1), "wall": ("wall", "elapsed time [s]", 1), "applications": ("applications", "AMG applications", 1), "memory": ("memory", "peak memory [MB]", 1e-6)}
 STYLES = ("-", "--", ":", "-.", (0, (4, 1, 1, 1, 1, 1)), (0, (6, 3)))
 MARKERS = "osD^vP*X<>hd"
 COLORS = plt.get_cmap("tab10").colors
 SAME = "same mesh "
 FLOOR = 1e-13  # errors below are rounding, and zero has no logarithm
-plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 8, "svg.hashsalt": "bench"})
+plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 8})
 
 
 def save(figure, folder, name):
-    for kind in ("svg", "png"):
-        metadata = {"Date": None} if kind == "svg" else None
-        figure.savefig(os.path.join(folder, f"{name}.{kind}"), dpi=110, metadata=metadata, bbox_inches="tight")
+    figure.savefig(os.path.join(folder, f"{name}.png"), dpi=80, bbox_inches="tight")
     plt.close(figure)
 
 
@@ -131,54 +129,6 @@ def front(points):
     return kept
 
 
-def worst_error(row, quantities):
-    known = [row[f"error {q}"] for q in quantities if row.get(f"error {q}") is not None]
-    return max(known) if known else math.nan
-
-
-def pareto_panel(axes, runs, quantities, names):
-    points = []
-    for row in runs:
-        error = worst_error(row, quantities)
-        if math.isfinite(error):
-            index = names.index(row["study"])
-            points.append((row["seconds"], max(error, FLOOR)))
-            axes.plot(*points[-1], linestyle="none", marker=MARKERS[index % len(MARKERS)], color=COLORS[index % len(COLORS)], markersize=4, alpha=0.8)
-    if points:
-        axes.plot(*zip(*front(points)), color="k", linewidth=1, drawstyle="steps-post", zorder=0)
-    log_axes(axes, "wall time [s]", "relative error")
-
-
-def pareto_figure(rows, folder):
-    """All studies together: what no other setting beats"""
-    runs = [row for row in converged(rows) if row["ranks"] == 1 and row["study"] != "roofline"]
-    names = list(dict.fromkeys(row["study"] for row in runs))
-    panels = []
-    for problem in dict.fromkeys(row["problem"] for row in runs):
-        quantities = PROBLEMS[problem].quantities
-        panels.append((problem, [q for q in quantities if q in ("energy", "contact force")]))
-        if "peak pressure" in quantities:
-            panels.append((problem, ["peak pressure", "contact radius"]))
-    panels = [(p, q) for p, q in panels if any(math.isfinite(worst_error(row, q)) for row in select(runs, problem=p))]
-    if not panels:
-        return False
-    names = [name for name in names if any(math.isfinite(worst_error(row, q)) for p, q in panels for row in select(runs, problem=p, study=name))]
-    columns = min(2, len(panels))
-    lines = -(-len(panels) // columns)
-    figure, grid = plt.subplots(lines, columns, figsize=(4.2 * columns, 3.2 * lines), squeeze=False)
-    for (problem, quantities), axes in zip(panels, grid.flat):
-        pareto_panel(axes, select(runs, problem=problem), quantities, names)
-        axes.set_title(f"{PROBLEMS[problem].title}\n{' or '.join(quantities)}, the larger error", fontsize=9, loc="left")
-    for axes in list(grid.flat)[len(panels) :]:
-        axes.set_visible(False)
-    handles = [Line2D([], [], linestyle="none", marker=MARKERS[i % len(MARKERS)], color=COLORS[i % len(COLORS)], label=name.replace("_", " ")) for i, name in enumerate(names)]
-    figure.suptitle("All studies, all meshes: the line joins what nothing beats", x=0.02, ha="left", fontsize=11)
-    figure.tight_layout()
-    figure.legend(handles=handles + [Line2D([], [], color="k", linewidth=1, label="front")], loc="upper left", bbox_to_anchor=(1.0, 0.95), frameon=False, title="study")
-    save(figure, folder, "pareto")
-    return True
-
-
 def baseline_figure(study, rows, folder):
     """Bars of time; what did not end with an answer is hatched"""
     panels = [(panel, runs) for panel in study.panels if (runs := of_panel(rows, study, panel))]
@@ -192,7 +142,7 @@ def baseline_figure(study, rows, folder):
             axes.barh(row["series"], row["seconds"], color=COLORS[0] if good else "white", edgecolor=COLORS[0], hatch=None if good else "////")
         axes.set_xscale("log")
         axes.set_xlim(left=0.3 * min(row["seconds"] for row in runs))
-        axes.set_xlabel("wall time [s]")
+        axes.set_xlabel("user time [s]")
         axes.set_title(panel.title, fontsize=9, loc="left")
         axes.grid(axis="y", visible=False)
     grid[0][0].invert_yaxis()
@@ -207,7 +157,7 @@ def growth_figure(study, rows, table, folder):
     runs = converged(select(rows, study=study.name))
     if not runs:
         return False
-    kinds = (("seconds", "wall time [s]", lambda row: row["seconds"]), ("applications", "AMG applications", lambda row: row["applications"]), ("memory", "peak memory an unknown [kB]", lambda row: row["memory_an_unknown"] / 1e3))
+    kinds = (("seconds", "user time [s]", lambda row: row["seconds"]), ("applications", "AMG applications", lambda row: row["applications"]), ("memory", "peak memory an unknown [kB]", lambda row: row["memory_an_unknown"] / 1e3))
     figure, grid = plt.subplots(1, 3, figsize=(12, 3.6))
     for axes, (cost, label, value) in zip(grid, kinds):
         for index, entry in enumerate(table):
@@ -226,34 +176,7 @@ def growth_figure(study, rows, table, folder):
     return True
 
 
-def roofline_figure(study, table, triad, folder):
-    """Rates of product and V-cycle beside the triad's"""
-    if not table:
-        return False
-    figure, axes = plt.subplots(figsize=(5.6, 3.4))
-    axes.plot([size / 1e6 for size, _ in triad], [rate / 1e9 for _, rate in triad], color="k", marker=".", linewidth=1, label="triad")
-    for index, (key, label) in enumerate((("product_rate", "product with the condensed matrix"), ("cycle_rate", "V-cycle of BoomerAMG"))):
-        points = [(row["megabytes"], row[key] / 1e9) for row in table]
-        axes.plot(*zip(*points), linestyle="none", marker=MARKERS[index], color=COLORS[index], label=label)
-    log_axes(axes, "working set [MB]", "bandwidth [GB/s]")
-    axes.legend(frameon=True)
-    axes.set_title(study.title, fontsize=10, loc="left")
-    figure.tight_layout()
-    save(figure, folder, study.name)
-    return True
-
-
-def draw(studies, results, folder):
+def draw(studies, rows, growths, folder):
     """All figures; names of those that there was something to draw for"""
-    rows, drawn = results["rows"], []
-    for study in studies:
-        if study.kind == "knob":
-            done = knob_figure(study, rows, folder)
-        elif study.kind == "baselines":
-            done = baseline_figure(study, rows, folder)
-        elif study.kind == "growth":
-            done = growth_figure(study, rows, results["growth"], folder)
-        else:
-            done = roofline_figure(study, results["roofline"], results["triad"], folder)
-        drawn += [study.name] if done else []
-    return drawn + (["pareto"] if pareto_figure(rows, folder) else [])
+    kinds = {"knob": lambda study: knob_figure(study, rows, folder), "baselines": lambda study: baseline_figure(study, rows, folder), "growth": lambda study: growth_figure(study, rows, growths, folder)}
+    return [study.name for study in studies if kinds[study.kind](study)]

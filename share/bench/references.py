@@ -1,14 +1,7 @@
-"""Answers of the problems without an exact one: extrapolated from three meshes."""
+"""Answers of the problems without an exact one: extrapolation, and the values that the front page found, which the other pages use."""
 import json
 import math
 import os
-
-from problems import PROBLEMS
-from store import Case
-
-# --only references finds them and keeps them in FILE, where every bench reads them
-MESHES = {"two_block": ("1", "2", "4", "8"), "beam_sphere_linear": ("0", "1", "2"), "cantilever": ("0", "1", "2", "3")}
-FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "references.json")
 
 
 def richardson(sizes, values):
@@ -25,31 +18,19 @@ def richardson(sizes, values):
     return values[2] - second * c**order / (b**order - c**order), order
 
 
-def reference_cases():
-    """problem: its runs, coarse to fine; on both cores, as their time does not count"""
-    careful = {name: PROBLEMS[name] for name in MESHES}
-    return {name: [Case(name, level, p.careful, p.careful_body, ranks=2, limit=1800) for level in MESHES[name]] for name, p in careful.items()}
+def path(folder):
+    return os.path.join(folder, "references.json")
 
 
-def extrapolate(problem, records):
-    """The reference of every quantity with its order and how far it is from what one mesh less would say"""
-    entry = {"meshes": [record["level"] for record in records], "unknowns": [record["summary"]["dofs"] for record in records], "quantities": {}}
-    sizes = [problem.levels[level].size for level in entry["meshes"]]
-    for quantity in problem.quantities:
-        found = [record["measure"][quantity] for record in records]
-        limit, order = richardson(sizes[-3:], found[-3:])
-        before = richardson(sizes[-4:-1], found[-4:-1])[0] if len(found) > 3 else found[-1]
-        entry["quantities"][quantity] = {"values": found, "order": None if math.isnan(order) else order, "value": limit, "uncertainty": abs(limit - before) / abs(limit)}
-    return entry
+def save(folder, values):
+    """values: problem: quantity: value"""
+    with open(path(folder), "w") as file:
+        json.dump(values, file, indent=1)
 
 
-def load():
-    if not os.path.exists(FILE):
+def load(folder):
+    """Nothing before the front page was made"""
+    if not os.path.exists(path(folder)):
         return {}
-    with open(FILE) as file:
+    with open(path(folder)) as file:
         return json.load(file)
-
-
-def values(entries):
-    """problem: quantity: value"""
-    return {name: {quantity: q["value"] for quantity, q in entry["quantities"].items()} for name, entry in entries.items()}

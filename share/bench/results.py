@@ -1,58 +1,39 @@
 """Rows of the tables: a run's costs and errors, whichever study it belongs to."""
 import csv
-import json
 import math
 
 import growth
-import roofline
 from problems import PROBLEMS
-
-QUANTITIES = ("energy", "contact force", "peak pressure", "contact radius")
 
 
 def relative(value, reference):
     return abs(value / reference - 1) if reference else math.nan
 
 
-def whole_time(summary):
-    """Where -accuracy has led over several meshes, of all of them"""
-    levels = (summary.get("accuracy") or {}).get("levels")
-    return sum(level["time"] for level in levels) if levels else summary["time"]["total"]
-
-
 def costs(record):
     """Time, iterations and memory of a run, whole or not"""
     summary = record["summary"]
+    times = {"seconds": record["seconds"], "wall": record["wall"]}
     if not summary:
-        return {"seconds": record["seconds"]}
+        return times
     steps = summary["steps"]
-    return {
+    return times | {
         "unknowns": summary["dofs"],
-        "seconds": whole_time(summary) if record["status"] == "converged" else record["seconds"],
         "step_seconds": [step["solve_time"] for step in steps if step["converged"]],
         "newton": sum(step["ip_iterations"] for step in steps),
         "pcg": sum(sum(step["ksp_iterations"]) for step in steps),
         "applications": sum(step["amg_applications"] for step in steps),
         "amg_setups": sum(step["amg_setups"] for step in steps),
         "memory": summary["peak_memory_bytes"],
-        "memory_an_unknown": summary["peak_memory_bytes"] / summary["dofs"],
-    } | shares(summary["time"])
-
-
-def shares(time):
-    """Of the AMG, and of everything that is neither AMG nor filter; unknown where another PC was used, which these phases do not see"""
-    amg = time["amg_setup"] + time["amg_apply"]
-    if not amg:
-        return {}
-    own = time["total"] - amg - time["filter_setup"] - time["filter_apply"]
-    return {"amg_share": amg / time["total"], "own_share": own / time["total"]}
+        "memory_an_unknown": summary["peak_memory_bytes"] / max(1, summary["dofs"]),
+    }
 
 
 def errors(record, reference, careful):
     """Of every quantity against the reference and against the careful run on the same mesh, which has the mesh's error too"""
     row = {}
     for quantity, value in (record["measure"] or {}).items():
-        if reference:
+        if reference and reference.get(quantity):
             row[f"error {quantity}"] = relative(value, reference[quantity])
         if careful and careful["measure"]:
             row[f"same mesh {quantity}"] = relative(value, careful["measure"][quantity])
@@ -71,7 +52,7 @@ def make_row(study, panel, series, value, case, store, references):
     row = {"study": study.name, "problem": panel.problem, "mesh": case.level, "series": series.label, "value": value, "ranks": case.ranks, "status": record["status"]}
     row |= costs(record)
     row |= errors(record, PROBLEMS[panel.problem].exact(references), careful)
-    row |= checks(record) | {"repeats": record["repeats"], "elapsed": record["elapsed"], "cpu_seconds": record["cpu_seconds"], "key": record["key"], "command": " ".join(record["command"]), "said": record["said"]}
+    row |= checks(record) | {"repeats": record["repeats"], "load": record["load"], "key": record["key"], "command": " ".join(record["command"]), "said": record["said"]}
     return row
 
 
@@ -114,15 +95,6 @@ def growth_table(rows):
     return table
 
 
-def roofline_table(studies, store, triad):
-    table = []
-    for study in (study for study in studies if study.kind == "roofline"):
-        for series in study.panels[0].series:
-            records = [store.get(case) for _, case in series.points]
-            table += [roofline.analyse(record, series.label, triad) for record in records if record and record["log"]]
-    return table
-
-
 def cell(value):
     if isinstance(value, list):
         return " ".join(map(cell, value))
@@ -135,17 +107,3 @@ def write_csv(path, rows):
         writer = csv.DictWriter(file, columns, restval="")
         writer.writeheader()
         writer.writerows({key: cell(value) for key, value in row.items()} for row in rows)
-
-
-def without_nan(value):
-    """JSON knows neither NaN nor infinity"""
-    if isinstance(value, dict):
-        return {key: without_nan(v) for key, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [without_nan(v) for v in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def write_json(path, results):
-    with open(path, "w") as file:
-        json.dump(without_nan(results), file, indent=1)

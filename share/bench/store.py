@@ -1,28 +1,24 @@
-"""One run of bin/contact and what is kept of it. A run is known by its scene, options, ranks and the version of the sources, so that
-what was interrupted goes on where it stopped, and what has changed is run again."""
-import csv
+"""One run of bin/contact on a problem of the bench, and what is kept of it. A run is known by its scene, options, ranks and the version
+of the sources, so that what was interrupted goes on where it stopped, and what has changed is run again."""
+import functools
 import hashlib
 import json
 import os
 import time
 from dataclasses import dataclass
 
-import logview
 from problems import PROBLEMS, TOP
-from runner import execute, last_words, read_summary
+from runner import execute, last_words, read_summary, user_seconds
 
 CONTACT = os.path.join(TOP, "bin", "contact")
 OPTIONS = os.path.join(TOP, "share", "options")
-TABLE = os.path.join(TOP, "share", "bench", "knobs", "bench.csv")
 SOURCES = ("include", "pc_amgf", "tao_ipfilter", "src", "apps", "share/toolchain.mk")
 REPEATS = 3
-SECONDS, UNKNOWNS, GROWTH = 1.1, 1e4, 1.25  # of a load step with so many unknowns, and its exponent; a first guess where nothing like it has been run
 
 
 @dataclass(frozen=True)
 class Case:
-    """A problem on a mesh with options; work: how many times the default's time it may take, for the estimate; log: also what
-    -log_view and hypre say"""
+    """A problem on a mesh with options, and keys of every body"""
 
     problem: str
     level: str
@@ -30,8 +26,6 @@ class Case:
     body: tuple = ()
     ranks: int = 1
     limit: float = 600.0
-    work: float = 1.0
-    log: bool = False
 
     def scene(self):
         return PROBLEMS[self.problem].scene(self.level, self.body)
@@ -43,17 +37,11 @@ class Case:
     @property
     def key(self):
         """Of what decides the answer; an options file counts by what it holds"""
-        parts = [self.scene(), str(self.ranks), str(self.log)]
+        parts = [self.scene(), str(self.ranks)]
         for argument in self.arguments:
             path = os.path.join(OPTIONS, argument)
             parts.append(open(path).read() if argument.endswith(".opts") else argument)
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
-
-    @property
-    def seconds(self):
-        problem = PROBLEMS[self.problem]
-        step = SECONDS * (problem.levels[self.level].unknowns / UNKNOWNS) ** GROWTH
-        return min(self.limit, 0.2 + self.work * problem.steps * step)
 
 
 def source_files():
@@ -67,18 +55,13 @@ def source_files():
                     yield os.path.join(folder, name)
 
 
+@functools.cache
 def source_version():
     digest = hashlib.sha256()
     for path in source_files():
         with open(path, "rb") as file:
             digest.update(os.path.relpath(path, TOP).encode() + b"\0" + file.read())
     return digest.hexdigest()[:12]
-
-
-def children_time():
-    """Processor time of all runs so far [s]: what a run costs where others use the machine, too"""
-    times = os.times()
-    return times.children_user + times.children_system
 
 
 class Store:
@@ -90,22 +73,9 @@ class Store:
         self.version = source_version()
         for part in ("runs", "scenes", "fields"):
             os.makedirs(os.path.join(folder, part), exist_ok=True)
-        self.earlier = self.read_earlier()
 
     def path(self, case):
         return os.path.join(self.folder, "runs", f"{case.key}-{self.version}.json")
-
-    def read_earlier(self):
-        """key: seconds of a run by any version of the sources, here or where the committed table was made"""
-        earlier = {}
-        if os.path.exists(TABLE):
-            with open(TABLE) as file:
-                earlier = {row["key"]: float(row["elapsed"]) for row in csv.DictReader(file)}
-        for name in os.listdir(os.path.join(self.folder, "runs")):
-            if name.endswith(".json"):
-                with open(os.path.join(self.folder, "runs", name)) as file:
-                    earlier[name.split("-")[0]] = json.load(file)["elapsed"]
-        return earlier
 
     def get(self, case):
         """The record, or None; a run that a shorter limit ended does not count"""
@@ -115,9 +85,6 @@ class Store:
             record = json.load(file)
         return None if record["status"] == "time limit" and record["limit"] < case.limit else record
 
-    def expected(self, case):
-        return self.earlier.get(case.key, case.seconds)
-
     def command(self, case, base):
         scene = os.path.join(self.folder, "scenes", case.key + ".yaml")
         with open(scene, "w") as file:
@@ -125,22 +92,16 @@ class Store:
         arguments = [os.path.join(OPTIONS, a) if a.endswith(".opts") else a for a in case.arguments]
         command = ["mpiexec", "--oversubscribe", "--bind-to", "core", "-n", str(case.ranks)] if case.ranks > 1 else []
         command += [CONTACT, scene, "-quiet", "-summary", base + ".json", *arguments]
-        if PROBLEMS[case.problem].fields:
-            command += ["-output", base]
-        if case.log:
-            command += logview.arguments(base)
-        return command
+        return command + (["-output", base] if PROBLEMS[case.problem].fields else [])
 
     def run(self, case):
         """Runs, repeats what is short, keeps and returns the record"""
         base = os.path.join(self.folder, "fields", case.key)
-        begin = time.time()
         record = self.run_once(case, base)
-        while record["status"] == "converged" and record["summary"]["time"]["total"] < self.short and record["repeats"] < REPEATS:
+        while record["status"] == "converged" and record["seconds"] < self.short and record["repeats"] < REPEATS:
             again = self.run_once(case, base)
             again["repeats"] = record["repeats"] + 1
-            record = min(record, again, key=lambda r: r["summary"]["time"]["total"] if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
-        record["elapsed"] = time.time() - begin
+            record = min(record, again, key=lambda r: r["seconds"] if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
         self.remove_fields(case)
         with open(self.path(case) + ".part", "w") as file:
             json.dump(record, file, indent=1)
@@ -151,15 +112,14 @@ class Store:
         if os.path.exists(base + ".json"):
             os.remove(base + ".json")
         command = self.command(case, base)
-        begin, used = time.time(), children_time()
+        begin, used = time.time(), user_seconds()
         code, said, limited = execute(command, case.limit)
         record = {"problem": case.problem, "level": case.level, "options": list(case.options), "body": [list(b) for b in case.body], "ranks": case.ranks}
         record |= {"command": [os.path.relpath(c, TOP) if c.startswith(TOP) else c for c in command], "version": self.version, "key": case.key, "repeats": 1}
-        record |= {"limit": case.limit, "seconds": time.time() - begin, "cpu_seconds": children_time() - used, "code": code, "said": last_words(said), "summary": read_summary(base), "measure": None, "log": None}
+        record |= {"limit": case.limit, "wall": time.time() - begin, "seconds": user_seconds() - used, "load": os.getloadavg()[0], "code": code, "said": last_words(said), "summary": read_summary(base), "measure": None}
         record["status"] = self.status(record, limited)
         if record["status"] == "converged":
             record["measure"] = PROBLEMS[case.problem].measure(base, record["summary"])
-            record["log"] = logview.read(base, said) if case.log else None
         return record
 
     @staticmethod

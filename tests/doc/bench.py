@@ -1,8 +1,10 @@
 """Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own summaries.
 
-python bench.py FOLDER, of a bench with the study `forcing`
+python bench.py FOLDER, of a bench with the page `material`
 """
+import contextlib
 import csv
+import io
 import json
 import math
 import os
@@ -12,7 +14,7 @@ import sys
 import calculix
 import growth
 import references
-import roofline
+import runs
 from plots import front
 from problems import PROBLEMS, TOP
 from runner import execute, last_words, read_summary
@@ -43,19 +45,9 @@ def check_front():
     say("front", front(points) == [(0.5, 9.0), (1.0, 5.0), (3.0, 1.0)], front(points))
 
 
-def check_roofline():
-    """Products of 1 ms that read 84.4 MB and 2.4 MB; V-cycles that take 10 of them"""
-    events = {"MatMult": {"count": 5, "seconds": 5e-3, "flops": 5 * 2e7}, "PCAMGFAMGApply": {"count": 2, "seconds": 2e-2}, "PCAMGFFltApply": {"count": 4, "seconds": 4e-3}, "PCApply": {"count": 2, "seconds": 2.4e-2}}
-    log = {"events": events, "levels": [{"rows": 1e5, "entries": 1e7}], "complexity": {"grid": 1.5, "operator": 1.5, "memory": 1.6}}
-    row = roofline.analyse({"log": log}, "fbf", [(1e6, 1e12), (1e8, 1e11)])
-    say("roofline: bandwidth of a product", abs(row["product_rate"] / (1e7 * (8 + 4 / 9) + 2.4e6) / 1e3 - 1) < 1e-12, row["product_rate"])
-    seen = (row["triad"], row["cycle_products"], row["application_products"], row["model_products"])
-    say("roofline: costs in products", seen == (1e11, 10.0, 12.0, 12.0), seen)
-
-
 def check_scenes():
     text = PROBLEMS["two_block"].scene("3", (("element", "bbar"),))
-    say("scene: cells and element", "[60, 18, 9]" in text and "[12, 12, 12]" in text and text.count("element: bbar") == 2, text)
+    say("scene: cells and element", "[60, 18, 9]" in text and "[12, 12, 12]" in text and text.count("element: bbar") == 2 and "steps: 1}" in text, text)
     for name, told in ("hertz_sphere", 9.157), ("hertz_cylinder", 0.02158):
         solution = PROBLEMS[name].solution
         force, energy = solution.loaded()
@@ -67,19 +59,34 @@ def check_scenes():
 
 
 def check_table(folder):
-    with open(os.path.join(folder, "bench.csv")) as file:
+    with open(os.path.join(folder, "pages", "knobs", "bench.csv")) as file:
         rows = list(csv.DictReader(file))
-    say("table: the three tolerances on both problems", [row["value"] for row in rows] == 2 * ["adaptive", "1e-6", "1e-10"], rows)
-    say("table: all within 1e-8 of the same mesh solved to the end", all(float(row["same mesh energy"]) < 1e-8 for row in rows), rows)
-    with open(os.path.join(folder, "bench.json")) as file:
-        machine = json.load(file)["machine"]
-    say("the machine is described", all(machine[key] for key in ("processor", "cores", "memory_bytes", "versions")), machine)
-    row = next(row for row in rows if row["value"] == "1e-6")
+    points = [row for row in rows if row["study"] == "quadrature"]
+    say("table: two rules on both problems", [row["value"] for row in points] == 2 * ["2", "3"], rows)
+    row = points[0]
     with open(os.path.join(folder, "runs", next(name for name in os.listdir(os.path.join(folder, "runs")) if name.startswith(row["key"])))) as file:
         summary = json.load(file)["summary"]
     say("table: what the summary says", int(row["applications"]) == sum(s["amg_applications"] for s in summary["steps"]) and int(row["unknowns"]) == summary["dofs"] == 5397, row)
-    hertz = [row for row in rows if row["problem"] == "hertz_sphere"]
+    hertz = [row for row in points if row["problem"] == "hertz_sphere"]
     say("table: the contact force of Hertz, to 6 %, his peak pressure, to 1 %", all(float(row["error contact force"]) < 0.06 and float(row["error peak pressure"]) < 0.01 for row in hertz), rows)
+    with open(os.path.join(folder, "pages", "knobs", "material.md")) as file:
+        text = file.read()
+    say("the page says where and when it was made", all(f"| {key} | " in text for key in ("date", "sources", "machine", "libraries")), text)
+
+
+def check_kept():
+    """A run that its limit ended, or that the program refused, is a record; what has been run with the same scene is not run again"""
+    scene = PROBLEMS["cantilever"].scene("0", (("element", "bbar"),))
+    made = runs.Runs("kept", 60)
+    with contextlib.redirect_stdout(io.StringIO()):
+        first, again = (made.get("cantilever", scene, ("-refine", "0")) for _ in range(2))
+        other = made.get("cantilever", scene.replace("poisson: 0.3", "poisson: 0.2"), ("-refine", "0"))
+        wrong = made.get("wrong", scene.replace("poisson: 0.3", "poisson: 7"))
+        slow = made.get("slow", scene, ("-refine", "2"), 0.05)
+    say("kept: the same record", first == again and first["failed"] == "" and first["unknowns"] == 3075, (first, again))
+    say("kept: another scene under that name is run", other["energy"] != first["energy"], first)
+    say("kept: a refused scene says why", wrong["failed"].startswith("refused: "), None)
+    say("kept: a time limit is told", slow["failed"] == "time limit 0.05 s", None)
 
 
 def check_built_in():
@@ -114,8 +121,8 @@ check_extrapolation()
 check_calculix()
 check_growth()
 check_front()
-check_roofline()
 check_scenes()
 check_built_in()
 check_memory()
+check_kept()
 check_table(sys.argv[1])

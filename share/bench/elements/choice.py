@@ -1,19 +1,18 @@
 #!/usr/bin/env python3
 """Compares the element that auto chooses with all others, on scenes that were not used to find its rule: choice.md, second.md
 
-    share/bench/elements/choice.py [--set first|second] [--only NAME] [--limit SECONDS] [--folder build/choice] [--page FILE]
+    share/bench/elements/choice.py [--only NAME] [--limit SECONDS] [--folder build/bench]
 """
 import argparse
+import math
 import os
-import resource
-import subprocess
 import sys
 
 TOP = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.join(TOP, "share", "bench")]
+import machine  # noqa: E402
 import second  # noqa: E402
-from runner import environment, keep, last_words, read_summary  # noqa: E402
-from store import CONTACT  # noqa: E402
+from runs import Runs  # noqa: E402
 
 ELEMENTS = {"auto": "", "full": "element: full", "bbar": "element: bbar", "incompatible": "element: incompatible", "order 2": "element: full, order: 2", "order 2, bbar": "element: bbar, order: 2"}
 LEVELS = {1: (0, 1), 2: (0,)}  # refinements by order
@@ -110,51 +109,32 @@ ties:
 }
 
 
-SETS = {"first": (SCENES, ""), "second": (second.SCENES, second.FINDING)}  # scenes, and what follows from them
+SETS = {"choice": (SCENES, ""), "second": (second.SCENES, second.WORDS)}  # page: scenes, and what it says of them
 
 
-def value(summary, quantity):
-    last = summary["steps"][-1]
-    return last["energy"] if quantity == "energy" else sum(f**2 for f in last["contact_force"]) ** 0.5
-
-
-def run(title, element, level, folder, limit):
-    """Unknowns, quantity, user seconds; None without an answer"""
-    base = os.path.join(folder, f"{title}_{element}_{level}".replace(" ", "_").replace(",", ""))
-    return keep(base + ".kept", lambda: run_once(title, element, level, base, limit))
-
-
-def run_once(title, element, level, base, limit):
+def run(title, element, level, runs):
+    """Unknowns, quantity, user seconds; in their place why there is no answer"""
     quantity, text = {**SCENES, **second.SCENES}[title]
-    text = text.replace(", E}", f", {ELEMENTS[element]}}}" if ELEMENTS[element] else "}")
-    with open(base + ".yaml", "w") as file:
-        file.write(text + f"refine: {level}\n")
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    command = [CONTACT, base + ".yaml", "-quiet", "-error_estimate", "0", "-contact_updates", "20", "-summary", base + ".json"]
-    try:
-        done = subprocess.run(command, env=environment(), capture_output=True, text=True, timeout=limit, check=False)
-    except subprocess.TimeoutExpired:
-        return None
-    summary = read_summary(base)
-    if done.returncode not in (0, 3) or not summary or not summary["steps"]:
-        print(title, element, level, done.returncode, last_words(done.stderr), flush=True)
-        return None
-    return summary["dofs"], value(summary, quantity), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    text = text.replace(", E}", f", {ELEMENTS[element]}}}" if ELEMENTS[element] else "}") + f"refine: {level}\n"
+    record = runs.get(f"{title}, {element}, {level}", text, ("-contact_updates", "20"))
+    return record["failed"] or (record["unknowns"], record[quantity], record["seconds"])
 
 
-def results(titles, folder, limit):
-    """title: (reference, its uncertainty, {(element, refinement): entry})"""
+def results(titles, runs):
+    """title: (reference, its uncertainty, {(element, refinement): (unknowns, error, seconds) or a sentence})"""
     found = {}
     for title in titles:
-        entries = {}
-        for element in ELEMENTS:
-            for level in LEVELS[2 if "order 2" in element else 1]:
-                entries[element, level] = run(title, element, level, folder, limit)
-        finest = [entry[1] for element in ("order 2", "order 2, bbar") if (entry := run(title, element, REFERENCE, folder, limit))]
-        if finest:
-            mean = sum(finest) / len(finest)
-            found[title] = mean, abs(finest[0] - finest[-1]) / abs(mean), {key: (entry[0], abs(entry[1] / mean - 1), entry[2]) for key, entry in entries.items() if entry}
+        entries = {(element, level): run(title, element, level, runs) for element in ELEMENTS for level in LEVELS[2 if "order 2" in element else 1]}
+        finest = [entry[1] for element in ("order 2", "order 2, bbar") if not isinstance(entry := run(title, element, REFERENCE, runs), str)]
+        mean = sum(finest) / len(finest) if finest else math.nan
+        uncertain = abs(finest[0] - finest[-1]) / abs(mean) if finest else math.nan
+        found[title] = mean, uncertain, {key: entry if isinstance(entry, str) else (entry[0], abs(entry[1] / mean - 1), entry[2]) for key, entry in entries.items()}
     return found
+
+
+def answers(entries):
+    """Those of runs that have one"""
+    return {key: entry for key, entry in entries.items() if not isinstance(entry, str)}
 
 
 def best_of_mesh(entries, level):
@@ -173,10 +153,11 @@ def answer(good):
 
 
 INTRODUCTION = """If a scene names no element, the program chooses one (`element: auto`). This page compares the
-chosen element with all others on scenes that were not used to find the rule of `auto`. It is made
-by `share/bench/elements/choice.py`. Errors are those of the contact force, or of the energy if
-there is no contact. The reference is the mean of `full` and `bbar` of order 2 on the mesh refined
-once. Times are user seconds on one core. Two criteria say whether the choice was good:
+chosen element with all others on scenes that were not used to find the rule of `auto`. Errors are
+those of the contact force, or of the energy if there is no contact. The reference is the mean of
+`full` and `bbar` of order 2 on the mesh refined once; half of their difference is its uncertainty.
+Times are user seconds on one core. `refused`: the element does not exist for the law of the body.
+Two criteria say whether the choice was good:
 
 | column | meaning |
 | --- | --- |
@@ -188,45 +169,88 @@ If `auto` is not on the front, order 2 on a coarser mesh is better. The scene mu
 """
 
 
-def page(found, finding):
+def cell(entry):
+    return entry.split(":")[0] if isinstance(entry, str) else f"{100 * entry[1]:.2g} %, {entry[2]:.2g} s" if entry else ""
+
+
+def page(name, found, words, loads):
     yield "# How good is the element that `auto` chooses?\n"
+    yield "`make bench` made this page. Back to [the front page](../README.md).\n"
+    yield "| | |\n| --- | --- |"
+    yield from machine.header(loads)
+    yield ""
     yield INTRODUCTION
-    if finding:
-        yield finding
+    if words:
+        yield words
+    yield f"![error and time relative to auto]({name}.png)\n"
     yield "Number of scenes in which `auto` meets each criterion:\n"
     yield "| refinement | best of order 1 | on the front | scenes |"
     yield "| --- | --- | --- | --- |"
     for level in LEVELS[1]:
-        both = [(best_of_mesh(entries, level), on_front(entries, level)) for _, _, entries in found.values() if ("auto", level) in entries]
+        both = [(best_of_mesh(known, level), on_front(known, level)) for _, _, entries in found.values() if ("auto", level) in (known := answers(entries))]
         yield f"| {level} | {sum(a for a, _ in both)} | {sum(b for _, b in both)} | {len(both)} |"
     yield "\nError and time of each run:\n"
     yield "| scene | reference uncertain by | refinement | unknowns | " + " | ".join(ELEMENTS) + " | best of order 1 | on the front |"
     yield "| --- | --- | --- | --- |" + " --- |" * (len(ELEMENTS) + 2)
     for title, (_, uncertain, entries) in found.items():
+        known = answers(entries)
         for level in LEVELS[1]:
-            cells = [f"{100 * entry[1]:.2g} %, {entry[2]:.2g} s" if (entry := entries.get((element, level))) else "" for element in ELEMENTS]
-            mine = entries.get(("auto", level))
-            unknowns = f"{mine[0]:,}" if mine else ""
-            answers = (answer(best_of_mesh(entries, level)), answer(on_front(entries, level))) if mine else ("", "")
-            yield f"| {title} | {100 * uncertain:.2g} % | {level} | {unknowns} | " + " | ".join((*cells, *answers)) + " |"
+            cells = [cell(entries.get((element, level))) for element in ELEMENTS]
+            mine = known.get(("auto", level))
+            ours = (answer(best_of_mesh(known, level)), answer(on_front(known, level))) if mine else ("", "")
+            yield f"| {title} | {50 * uncertain:.2g} % | {level} | {f'{mine[0]:,}' if mine else ''} | " + " | ".join((*cells, *ours)) + " |"
+    yield ""
+    yield from ratios(found)
+
+
+def figure(found, path):
+    """Error over that of auto on the same mesh against the same ratio of times"""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt
+
+    fig, axis = plt.subplots(figsize=(6.5, 4))
+    for index, element in enumerate(list(ELEMENTS)[1:]):
+        points = [(known[element, 0][2] / known["auto", 0][2], max(known[element, 0][1], 1e-7) / max(known["auto", 0][1], 1e-7)) for _, _, entries in found.values() if {(element, 0), ("auto", 0)} <= set(known := answers(entries))]
+        if points:
+            axis.loglog(*zip(*points), "os^Dv"[index], color=f"C{index}", label=element, markersize=5, linestyle="none", alpha=0.8)
+    axis.axhline(1, color="k", linewidth=0.8)
+    axis.axvline(1, color="k", linewidth=0.8)
+    axis.set(xlabel="user time relative to auto", ylabel="error relative to auto", title="One point a scene, refinement 0")
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8)
+    fig.tight_layout()
+    fig.savefig(path, dpi=80)
+    plt.close(fig)
+
+
+def ratios(found):
+    """Geometric means over all scenes and meshes"""
+    yield "| compared with `auto` on the same mesh, geometric mean | runs | ratio of errors | ratio of times |"
+    yield "| --- | --- | --- | --- |"
+    for element in list(ELEMENTS)[1:]:
+        pairs = [(known[element, level], known["auto", level]) for _, _, entries in found.values() for level in LEVELS[1] if {(element, level), ("auto", level)} <= set(known := answers(entries))]
+        logs = [[math.log(max(theirs[k], 1e-9) / max(ours[k], 1e-9)) for theirs, ours in pairs] for k in (1, 2)]
+        if pairs:
+            yield f"| `{element}` | {len(pairs)} | " + " | ".join(f"{math.exp(sum(values) / len(values)):.2g}" for values in logs) + " |"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--set", choices=SETS, default="first", help="of scenes")
     parser.add_argument("--only", default="", help="scenes whose title has this")
-    parser.add_argument("--limit", type=float, default=120.0, help="seconds a run")
-    parser.add_argument("--folder", default=os.path.join(TOP, "build", "choice"))
-    parser.add_argument("--page", help="file to write; else the page is printed")
+    parser.add_argument("--limit", type=float, default=60.0, help="seconds a run")
+    parser.add_argument("--folder", type=os.path.abspath, default=os.path.join(TOP, "build", "bench"))
     arguments = parser.parse_args()
-    os.makedirs(arguments.folder, exist_ok=True)
-    scenes, finding = SETS[arguments.set]
-    text = "\n".join(page(results([title for title in scenes if arguments.only in title], arguments.folder, arguments.limit), finding)) + "\n"
-    if arguments.page:
-        with open(arguments.page, "w") as file:
-            file.write(text)
-    else:
-        print(text, end="")
+    folder = os.path.join(arguments.folder, "pages", "elements")
+    os.makedirs(folder, exist_ok=True)
+    for name, (scenes, words) in SETS.items():
+        runs = Runs(os.path.join(arguments.folder, "kept", name), arguments.limit)
+        found = results([title for title in scenes if arguments.only in title], runs)
+        if found:
+            figure(found, os.path.join(folder, name + ".png"))
+            with open(os.path.join(folder, name + ".md"), "w") as file:
+                file.write("\n".join(page(name, found, words, runs.loads)) + "\n")
 
 
 if __name__ == "__main__":

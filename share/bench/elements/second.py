@@ -1,16 +1,7 @@
-"""A second set of scenes that were not used to find the rule of auto: choice.py --set second"""
+"""A second set of scenes that were not used to find the rule of auto: choice.py makes second.md of them"""
 
-FINDING = """`auto` is not the best element for two kinds of bodies. Bodies of finite strain with a Poisson's
-ratio of at most 0.4 get `full`; request `bbar` for them. Metals that yield in bending got `bbar` in
-these runs. At small strain `auto` has chosen `incompatible` for them since.
-
-| compared with `auto` of these runs | ratio of errors | ratio of times |
-| --- | --- | --- |
-| `bbar`, finite strain, seven of eight runs | 0.4 to 0.8 | |
-| `bbar`, finite strain, the other run | 2.2 | |
-| `incompatible`, plastic bending | 0.03 | 1.6 |
-| `incompatible`, [imprint](choice.md), refinement 0 | 1.0 | 1.5 |
-| `incompatible`, [imprint](choice.md), refinement 1 | 1.2 | 5 |
+WORDS = """`auto` does not choose the best element for bodies of finite strain with a Poisson's ratio of at most
+0.4: they get `full`. Request `bbar` for them.
 """
 LAW = "material: neohookean, young: 1000, poisson: %s, E}"
 # A strip and a rigid roller that is pressed into it. To be filled in: the strip's material, the depth [length]
