@@ -327,6 +327,16 @@ def not_run(records, reference):
                 yield f"- {TITLES[problem]}, mesh {mesh}: not all load steps were run; estimated processor time of all of them: {said}."
 
 
+def commits(records):
+    """The commit of most runs, and the runs of others"""
+    by_commit = {}
+    for name in ordered(records):
+        by_commit.setdefault(records[name]["commit"], []).append(name)
+    (most, _), *others = sorted(by_commit.items(), key=lambda item: -len(item[1]))
+    named = lambda names: "; ".join(f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}" for problem, mesh, way in names)  # noqa: E731
+    return f"All runs are of commit {most}" + "".join(f", except those of commit {commit}: {named(names)}" for commit, names in others) + "."
+
+
 def page(cases, records):
     reference = published()
     with open(EXPLANATIONS) as file:
@@ -335,7 +345,7 @@ def page(cases, records):
     yield "# The published results, reproduced\n"
     yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows our value / the published value. A star marks a deviation of more than 10 %."
     yield "`make published` creates this page, `make published-quick` a page for mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". {datetime.date.today()}, commit {', '.join(sorted({record['commit'] for record in records.values()}))}.\n"
+    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". {datetime.date.today()}. {commits(records)}\n"
     yield "Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which slows memory down. Ratios are those of runs under similar load.\n"
     yield "## Iterations and sizes\n"
     yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
