@@ -4,6 +4,7 @@ import math
 
 import growth
 from problems import PROBLEMS
+from store import MEASURED
 
 
 def relative(value, reference):
@@ -79,7 +80,7 @@ def of_panel(rows, study, panel):
 
 
 def converged(rows):
-    return [row for row in rows if row["status"] == "converged"]
+    return [row for row in rows if row["status"] in MEASURED]
 
 
 def growth_table(rows):

@@ -14,6 +14,7 @@ CONTACT = os.path.join(TOP, "bin", "contact")
 OPTIONS = os.path.join(TOP, "share", "options")
 SOURCES = ("include", "pc_amgf", "tao_ipfilter", "src", "apps", "share/toolchain.mk")
 REPEATS = 3
+MEASURED = ("converged", "inconsistent gap")  # how runs with an answer end
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ class Store:
         """Runs, repeats what is short, keeps and returns the record"""
         base = os.path.join(self.folder, "fields", case.key)
         record = self.run_once(case, base)
-        while record["status"] == "converged" and record["seconds"] < self.short and record["repeats"] < REPEATS:
+        while record["status"] in MEASURED and record["seconds"] < self.short and record["repeats"] < REPEATS:
             again = self.run_once(case, base)
             again["repeats"] = record["repeats"] + 1
             record = min(record, again, key=lambda r: r["seconds"] if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
@@ -118,7 +119,7 @@ class Store:
         record |= {"command": [os.path.relpath(c, TOP) if c.startswith(TOP) else c for c in command], "version": self.version, "key": case.key, "repeats": 1}
         record |= {"limit": case.limit, "wall": time.time() - begin, "seconds": user_seconds() - used, "load": os.getloadavg()[0], "code": code, "said": last_words(said), "summary": read_summary(base), "measure": None}
         record["status"] = self.status(record, limited)
-        if record["status"] == "converged":
+        if record["status"] in MEASURED:
             record["measure"] = PROBLEMS[case.problem].measure(base, record["summary"])
         return record
 
@@ -126,6 +127,8 @@ class Store:
     def status(record, limited):
         if record["code"] in (0, 4) and record["summary"] and record["summary"]["converged"]:
             return "converged"
+        if record["code"] == 3 and record["summary"]:
+            return "inconsistent gap"
         if limited:
             return "time limit"
         return "failed" if record["summary"] else "crashed" if record["code"] not in (1, 2) else "refused"

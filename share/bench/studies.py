@@ -133,7 +133,7 @@ def contact_page(size):
 
 def material_page(size):
     two = ("hertz_sphere", "two_block")
-    materials = [("linear", ()), ("neo-Hookean", (), (("material", "neohookean"), ("element", "bbar")))]
+    materials = [("linear", (), (("element", "bbar"),)), ("neo-Hookean", (), (("material", "neohookean"), ("element", "bbar")))]
     yield Study("material", "Material: linear and neo-Hookean", "material", turn(size, two, materials))
     true = ("-load_steps", "12", "-contact_updates", "20")
     yield Study("model", "Load step at finite strain: true energy and quadratic model", "model", turn(size, ("beam_sphere_neo_hookean",), values("-model", "energy", "quadratic"), careful=true))
