@@ -79,7 +79,7 @@ def boomeramg(prefix, threshold, down, up):
 
 THRESHOLD = AMG + "pc_hypre_boomeramg_strong_threshold"
 # option: what contact has built in, so that one run serves all studies; tests/doc/bench.sh holds this against the program
-BUILT_IN = {IP + "tol": "1e-8", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2", "-model": "energy"}
+BUILT_IN = {IP + "tol": "1e-8", IP + "pc_amgf_cycle": "fbf", THRESHOLD: "0.7", "-contact_gap": "mortar", "-contact_quadrature": "5", "-elasticity_quadrature": "2", "-model": "energy"}
 LONG = (IP + "ksp_max_it", "20000")
 INTERIOR = (IP + "subspace", "false")
 BY_AMG = (IP + "pc_amgf_factor", "false")
@@ -152,6 +152,8 @@ def solver_page(size):
     amg = [("built in", ()), ("BoomerAMG's V-cycle", (AMG + "pc_type", "hypre")), ("GAMG", (AMG + "pc_type", "gamg", *AIJ)), ("ML", (AMG + "pc_type", "ml", *AIJ))]
     yield Study("amg", "AMG of the preconditioner", "AMG", turn(size, three, amg, always=BY_AMG), costs=costs)
     yield Study("threshold", "Strength threshold of the AMG", "threshold", turn(size, three, values(THRESHOLD, "0.25", "0.5", "0.7", "0.9"), always=BY_AMG), costs=costs)
+    cycles = turn(size, three[:1], values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), always=INTERIOR)
+    yield Study("cycle", "Order of AMG and filter in the interior point method", "cycle", cycles)
     panels = []
     for problem in three:
         if level := MESHES[size].get(problem):
