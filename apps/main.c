@@ -242,8 +242,10 @@ static PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     sizeof(app->output), &app->write));
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
     &app->gauss, NULL));
-  PetscCall(PetscOptionsBoundedInt("-checkpoint_every", "Load steps between two checkpoints", NULL,
-    app->checkpoint_every, &app->checkpoint_every, NULL, 0));
+  PetscCall(PetscOptionsInt("-checkpoint_every", "Load steps between two checkpoints", NULL, app->checkpoint_every,
+    &app->checkpoint_every, NULL));
+  PetscCheck(app->checkpoint_every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "-checkpoint_every must be at least 0, not %" PetscInt_FMT, app->checkpoint_every);
   PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
     sizeof(app->checkpoint), NULL));
   PetscCall(PetscOptionsString("-restart", "Checkpoint to restart from", NULL, app->restart, app->restart,

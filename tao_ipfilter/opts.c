@@ -102,9 +102,9 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
     &opt->direct_always, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Filtered subspace method instead of the interior point method",
     TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
-  PetscCall(PetscOptionsBoundedInt("-tao_ipfilter_subspace_max",
+  PetscCall(PetscOptionsInt("-tao_ipfilter_subspace_max",
     "Largest number of directions of the filtered subspace method; 0: 80, or 48 with Newton's method", TAOIPFILTER,
-    opt->subspace_max, &opt->subspace_max, NULL, 0));
+    opt->subspace_max, &opt->subspace_max, NULL));
   PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),
     PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT,
     fewest, opt->subspace_max);

@@ -1,5 +1,6 @@
 /* Ends a run before it computes anything if an option is misspelt, or has no value or a wrong one */
 #include "optionsimpl.h"
+#include <stdlib.h>
 
 /*
    Finds the known name nearest to a misspelt one. If that begins with an object's prefix, the options of that object
@@ -74,6 +75,8 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
   if (missing) PetscFunctionReturn(0);
   PetscCall(OptionValueIsGood(kind, value, &good));
   PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", but needs %s", name, value, needs[kind]);
+  PetscCheck(kind != OPTION_COUNT || PetscAbsReal(strtod(value, NULL)) <= PETSC_MAX_INT, comm, PETSC_ERR_USER_INPUT,
+    "-%s has the value \"%s\", which PETSc's integer type cannot hold", name, value);
   PetscCall(OptionCheckChoice(comm, name, value));
   PetscFunctionReturn(0);
 }

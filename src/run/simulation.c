@@ -187,8 +187,10 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
   PetscCall(PetscOptionsBool("-load_warm_start",
     "Start each load step from extrapolated displacements and the pressures of the previous step", "SimulationStep",
     sim->control->warm, &sim->control->warm, NULL));
-  PetscCall(PetscOptionsBoundedInt("-load_max_cuts", "Number of times that a failed load step may be halved",
-    "SimulationStep", sim->control->maxcuts, &sim->control->maxcuts, NULL, 0));
+  PetscCall(PetscOptionsInt("-load_max_cuts", "Number of times that a failed load step may be halved", "SimulationStep",
+    sim->control->maxcuts, &sim->control->maxcuts, NULL));
+  PetscCheck(sim->control->maxcuts >= 0, sim->comm, PETSC_ERR_USER_INPUT,
+    "-load_max_cuts must be at least 0, not %" PetscInt_FMT, sim->control->maxcuts);
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
     sim->run->progress.every, &sim->run->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",

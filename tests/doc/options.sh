@@ -35,6 +35,10 @@ for option in refine output restart summary accuracy model contact_gap_tol tao_i
 done
 try -refine abc
 try -refine 1.5
+try -load_steps 4294967297
+try -checkpoint_every 99999999999999999999
+try -checkpoint_every -1
+try -load_max_cuts -1
 try -tao_ipfilter_tol small
 try -tao_ipfilter_pc_amgf_filter_ranks many
 try -quiet nofile
