@@ -91,10 +91,11 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscCall(VecGetArrayRead(slip, &s));
   PetscCall(VecGetArrayRead(sol->slip, &a));
   for (PetscInt r = 0; r < solved->nlocal; ++r) {
-    const PetscReal *t0 = &solved->tangent[6 * r], *t1 = &at_u->tangent[6 * row[r]];
+    const PetscReal *t0     = &solved->tangent[6 * r], *t1;
     PetscReal        square = 0.0;
 
     if (row[r] < 0) continue;
+    t1 = &at_u->tangent[6 * row[r]];
     for (PetscInt c = 0; c < 3; ++c)
       square += PetscSqr(PetscRealPart(
         s[2 * row[r]] * t1[c] + s[2 * row[r] + 1] * t1[3 + c] - a[2 * r] * t0[c] - a[2 * r + 1] * t0[3 + c]));
