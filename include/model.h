@@ -412,6 +412,15 @@ static inline PetscBool SceneIsDynamic(Scene scene)
   return (PetscBool)(scene->dynamics.time_step > 0.0);
 }
 
+/* Returns whether any motion of a rigid body is free */
+static inline PetscBool SceneFreesMotion(const SceneDisplacement *d)
+{
+  PetscBool frees = PETSC_FALSE;
+
+  for (PetscInt m = 0; m < 6; ++m) frees = (PetscBool)(frees || d->released[m]);
+  return frees;
+}
+
 /* Returns the time step; load step k ends at k times this value. It is 1 in a static analysis. */
 static inline PetscReal SceneTimeStep(Scene scene)
 {

@@ -147,6 +147,7 @@ PETSC_INTERN PetscErrorCode TiesMove(const Constraints *, PetscReal time);
 PETSC_INTERN PetscErrorCode TiesTurn(const Constraints *, PetscReal time, Vec u_last, Vec u, PetscBool *anew);
 PETSC_INTERN PetscErrorCode TiesStraighten(const Constraints *, Vec u, PetscReal *change);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(const Constraints *, Mat *);
+PETSC_INTERN PetscErrorCode TiesMultiply(Mat C, Mat K, Mat *tied);
 PETSC_INTERN PetscErrorCode TiesTangent(const Constraints *, Vec u, Mat);
 PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
 PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);

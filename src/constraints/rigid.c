@@ -16,15 +16,6 @@
    linearized only once too; the error is then at most 6e-4 of the distance from the centre */
 static const PetscReal largest_angle = 45.0, largest_linearized = 2.0; /* [degrees] */
 
-/* Returns whether any motion of a rigid body is free */
-static PetscBool RigidIsReleased(const SceneDisplacement *d)
-{
-  PetscBool released = PETSC_FALSE;
-
-  for (PetscInt m = 0; m < 6; ++m) released = (PetscBool)(released || d->released[m]);
-  return released;
-}
-
 /* Computes component c of the displacement at the position x due to each free motion of the body. Rotations are
    multiplied by the body's size. */
 static void RigidGetRow(const RigidBody *body, const PetscScalar x[3], PetscInt c, PetscReal row[6])
@@ -256,7 +247,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
-    rigid->n += RigidIsReleased(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
+    rigid->n += SceneFreesMotion(&scene->displacements[d]) && MotionFindLeader(scene, d) == d;
   if (!rigid->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
   PetscCall(VecDuplicate(c->bodies.mass, &rigid->elastic));
@@ -266,7 +257,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscCall(VecCopy(c->bodies.places.x, rigid->x));
   rigid->n = 0;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    if (!RigidIsReleased(&scene->displacements[d]) || MotionFindLeader(scene, d) != d) continue;
+    if (!SceneFreesMotion(&scene->displacements[d]) || MotionFindLeader(scene, d) != d) continue;
     PetscCall(RigidCreateBody(c, d, &rigid->bodies[rigid->n]));
     rigid->turns = (PetscBool)(rigid->turns || rigid->bodies[rigid->n++].turns);
   }

@@ -316,21 +316,24 @@ static PetscErrorCode TiesClearRows(const Constraints *c, Vec diagonal, Mat tied
   PetscFunctionReturn(0);
 }
 
-/* Computes tied = C^T K C and allocates all diagonal entries, because the product has none in dependent rows. inert:
-   whether rigid bodies have entries in K */
-static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagonal, Mat *tied)
+/* Collective. Computes tied = C^T K C and allocates all diagonal entries, because the product has none in dependent
+   rows */
+PetscErrorCode TiesMultiply(Mat C, Mat K, Mat *tied)
 {
   PetscBool aij;
-  Mat       places, K = ties->K;
+  Vec       layout;
+  Mat       places, A = K;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &aij, MATSEQAIJ, MATMPIAIJ, ""));
-  if (!aij) PetscCall(MatConvert(ties->K, MATAIJ, MAT_INITIAL_MATRIX, &K));
-  PetscCall(MatPtAP(K, ties->elastic && !inert ? ties->elastic : ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
-  if (!aij) PetscCall(MatDestroy(&K));
-  PetscCall(TiesCreateDiagonal(diagonal, 0.0, &places));
+  if (!aij) PetscCall(MatConvert(K, MATAIJ, MAT_INITIAL_MATRIX, &A));
+  PetscCall(MatPtAP(A, C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, tied));
+  if (!aij) PetscCall(MatDestroy(&A));
+  PetscCall(MatCreateVecs(*tied, &layout, NULL));
+  PetscCall(TiesCreateDiagonal(layout, 0.0, &places));
   PetscCall(MatAXPY(*tied, 1.0, places, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&places));
+  PetscCall(VecDestroy(&layout));
   PetscFunctionReturn(0);
 }
 
@@ -338,9 +341,10 @@ static PetscErrorCode TiesMultiply(const Ties *ties, PetscBool inert, Vec diagon
    it is C^T K C with a diagonal in these rows. */
 PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
 {
-  Ties *ties = c->ties;
-  Vec   diagonal;
-  Mat   tied;
+  Ties           *ties  = c->ties;
+  const PetscBool rigid = (PetscBool)(SceneIsDynamic(c->bodies.scene) || !ties->elastic); /* rows of rigid bodies */
+  Vec             diagonal;
+  Mat             tied;
 
   PetscFunctionBegin;
   if (!ties->C) {
@@ -352,7 +356,7 @@ PetscErrorCode TiesTangent(const Constraints *c, Vec u, Mat K)
   if (*c->follows) PetscCall(MatAXPY(ties->K, -1.0, *c->follows, SAME_NONZERO_PATTERN));
   PetscCall(VecDuplicate(u, &diagonal));
   PetscCall(MatGetDiagonal(ties->K, diagonal));
-  PetscCall(TiesMultiply(ties, SceneIsDynamic(c->bodies.scene), diagonal, &tied));
+  PetscCall(TiesMultiply(rigid ? ties->C : ties->elastic, ties->K, &tied));
   PetscCall(CouplingsAddStiffness(c->springs, ties->C, tied));
   if (c->rigid->R) PetscCall(RigidAddStiffness(c, ties->C, diagonal, tied));
   PetscCall(TiesClearRows(c, diagonal, tied));

@@ -39,18 +39,13 @@ static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
    mass */
 static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat *A)
 {
-  Mat          all;
   Vec          diagonal;
   PetscScalar *m;
   PetscInt     n;
 
   PetscFunctionBegin;
-  if (c->ties->C) {
-    PetscCall(MatConvert(d->mass, MATAIJ, MAT_INITIAL_MATRIX, &all));
-    PetscCall(MatPtAP(all, c->ties->C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, A));
-    PetscCall(MatDestroy(&all));
-    PetscCall(MatShift(*A, 0.0)); /* This allocates every diagonal entry. */
-  } else PetscCall(MatDuplicate(d->mass, MAT_COPY_VALUES, A));
+  if (c->ties->C) PetscCall(TiesMultiply(c->ties->C, d->mass, A));
+  else PetscCall(MatDuplicate(d->mass, MAT_COPY_VALUES, A));
   PetscCall(MatZeroRowsColumns(*A, c->prescribed->n, c->prescribed->rows, 1.0, NULL, NULL));
   PetscCall(MatCreateVecs(*A, &diagonal, NULL));
   PetscCall(MatGetDiagonal(*A, diagonal));

@@ -87,6 +87,23 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
+/* Warns that rebounds between two rigid bodies are not those of real bodies: contact is closed at the end of a time
+   step, so that the velocity after it depends on where in the step the bodies meet */
+static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *pair)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  if (!SceneIsDynamic(scene) || SceneFaceBody(scene, pair->mortar)->material.type != MATERIAL_RIGID ||
+      SceneFaceBody(scene, pair->nonmortar)->material.type != MATERIAL_RIGID)
+    PetscFunctionReturn(0);
+  PetscCall(ReportWarn(sim->comm, &sim->report,
+    "contact pair \"%s\" is between two rigid bodies, whose rebound depends on the time steps; their energy does not "
+    "grow: give one of the two bodies an elastic material if the rebound matters",
+    pair->name));
+  PetscFunctionReturn(0);
+}
+
 /*
    Warns of initial overlaps that the scene has not declared or declares differently, and of friction that cannot act.
    lin: linearization at zero displacement.
@@ -103,6 +120,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);
 
+    PetscCall(StartWarnOfRigid(sim, pair));
     PetscCall(StartWarnOfFrictionless(sim, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0)

@@ -188,8 +188,7 @@ static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement 
   PetscMPIInt rank;
 
   PetscFunctionBegin;
-  *released = PETSC_FALSE;
-  for (PetscInt m = 0; m < 6; ++m) *released = (PetscBool)(*released || displacement->released[m]);
+  *released = SceneFreesMotion(displacement);
   PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
   for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
     if (displacement->released[m]) continue;

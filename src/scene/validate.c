@@ -47,13 +47,11 @@ static PetscErrorCode SceneValidateBodies(MPI_Comm comm, const char file[], Scen
 */
 static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, const char file[], Scene scene, const SceneDisplacement *d)
 {
-  PetscBool   released = PETSC_FALSE;
   const char *face;
   PetscInt    b;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < 6; ++i) released = (PetscBool)(released || d->released[i]);
-  if (!SceneIsDynamic(scene) || !released) PetscFunctionReturn(0);
+  if (!SceneIsDynamic(scene) || !SceneFreesMotion(d)) PetscFunctionReturn(0);
   b = SceneFindBody(scene, d->face, &face);
   SceneRequire(!SceneBodyIsSurface(&scene->bodies[b]) || scene->bodies[b].own[SURFACE_MASS] > 0,
     "%s: displacement \"%s\" leaves motions of the body \"%s\" free, which is a rigid surface and needs the key mass "

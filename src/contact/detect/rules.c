@@ -46,15 +46,28 @@ static PetscBool RuleJoins(const char one[], const char two[], const char first[
                      (RuleIsOfBody(one, second) && RuleIsOfBody(two, first)));
 }
 
-/* Finds the rule for two surfaces. Two rigid bodies have no rule, nor have bodies for which the scene lists a contact
-   pair or a tie. A rule that names both bodies goes before a rule for all bodies. */
+/* Returns whether a body is rigid and has no free motions */
+static PetscBool RuleIsDriven(Scene scene, const SceneBody *body)
+{
+  if (body->material.type != MATERIAL_RIGID) return PETSC_FALSE;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    const SceneDisplacement *motion = &scene->displacements[d];
+
+    if (SceneFreesMotion(motion) && SceneFaceBody(scene, motion->face) == body) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* Finds the rule for two surfaces. Two driven rigid bodies have no rule, nor have two rigid surfaces, nor bodies for
+   which the scene lists a contact pair or a tie. A rule that names both bodies goes before a rule for all bodies. */
 const SceneContactPair *DetectFindRule(const DetectModel *model, Scene scene, PetscInt surface, PetscInt other)
 {
   const MeshSurfaces     *s     = &model->surfaces;
   const SceneBody        *first = &scene->bodies[s->body[surface]], *second = &scene->bodies[s->body[other]];
   const SceneContactPair *any = NULL;
 
-  if (first->material.type == MATERIAL_RIGID && second->material.type == MATERIAL_RIGID) return NULL;
+  if (RuleIsDriven(scene, first) && RuleIsDriven(scene, second)) return NULL;
+  if (SceneBodyIsSurface(first) && SceneBodyIsSurface(second)) return NULL;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     if (RuleJoins(scene->pairs[p].mortar, scene->pairs[p].nonmortar, first->name, second->name)) return NULL;
   }

@@ -50,18 +50,30 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const Scen
   PetscFunctionReturn(0);
 }
 
+/* Checks that there is something to compute: an elastic body, or a free motion of a rigid one. */
+static PetscErrorCode SceneValidateUnknowns(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscBool some = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    some = (PetscBool)(some || scene->bodies[b].material.type != MATERIAL_RIGID);
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    some = (PetscBool)(some || SceneFreesMotion(&scene->displacements[d]));
+  PetscCheck(some, comm, PETSC_ERR_USER_INPUT,
+    "%s: every body is rigid, and no motion of any of them is free: there is nothing to compute", file);
+  PetscFunctionReturn(0);
+}
+
 /* Checks that every rigid body is moved as a whole, and that no other displacement applies to its faces. */
 PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
 {
-  PetscInt nrigid = 0;
-
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body  = &scene->bodies[b];
     PetscBool        moved = PETSC_FALSE;
 
     if (body->material.type != MATERIAL_RIGID) continue;
-    ++nrigid;
     for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
       const char *face = NULL;
 
@@ -77,7 +89,6 @@ PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
       "value: [0, 0, 0]}",
       file, body->name, body->name, body->name);
   }
-  PetscCheck(nrigid < scene->nbodies, comm, PETSC_ERR_USER_INPUT,
-    "%s: every body is rigid: there is nothing to compute", file);
+  PetscCall(SceneValidateUnknowns(comm, file, scene));
   PetscFunctionReturn(0);
 }

@@ -227,11 +227,13 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
   StepReport *report)
 {
   const PetscReal weight = sim->solved->linearization->slip ? askew_friction : askew;
-  PetscReal       size, arm;
+  const PetscReal rounding = 32.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       size, arm, extent;
   PetscInt       *row;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
   PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, at_u, &row));
   PetscCall(ContactUpdateErrorMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
   PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
@@ -240,7 +242,8 @@ PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSol
   report->update_error =
     PetscMax(PetscMax(report->gap_change, report->slip_change), weight * report->normals_turn * size);
   report->update_error = PetscMax(report->update_error, arm);
-  report->update_error = PetscMax(report->update_error, tied * report->straightened);
+  if (report->straightened > rounding * extent)
+    report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }
 
