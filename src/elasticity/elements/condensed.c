@@ -106,20 +106,22 @@ static void CondensedBackward(const Condensed *c, PetscReal x[MODES])
 }
 
 /*
-   Finds a by Newton's method with a line search on the energy. It ends when a step is predicted to reduce the energy by
-   less than rounding errors.
+   Finds a by Newton's method with a line search on the energy. It ends with a step that is predicted to reduce the
+   energy by less than rounding errors. This step is taken, too: without it small changes of U would leave `a` as it is,
+   and the forces of the cell would change as if it had no modes.
 */
 static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {
   const PetscReal negligible = 1e-26, fraction = 1e-4;
   BodyMaterial    exact = *m;
+  PetscBool       last  = PETSC_FALSE;
 
   exact.moduli.secant = 0;
   CondensedSetPoints(basis, X, U, c);
   for (int k = 0; k < MODES; ++k) c->a[k] = 0;
   CondensedMove(c);
-  for (int it = 0; it < 50; ++it) {
+  for (int it = 0; it < 50 && !last; ++it) {
     PetscReal step[MODES], promised = 0, t = 1, before[MODES];
 
     CondensedEvaluate(&exact, c);
@@ -129,12 +131,12 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
     }
     CondensedForward(c, step);
     for (int k = 0; k < MODES; ++k) promised += step[k] * step[k];
-    if (!(promised > negligible * c->energy)) break;
     CondensedBackward(c, step);
+    last = (PetscBool)!(promised > negligible * c->energy);
     for (;; t *= 0.5) {
       for (int k = 0; k < MODES; ++k) c->a[k] = before[k] + t * step[k];
       CondensedMove(c);
-      if (promised < PETSC_SQRT_MACHINE_EPSILON * c->energy || t < 1e-6) break;
+      if (last || promised < PETSC_SQRT_MACHINE_EPSILON * c->energy || t < 1e-6) break;
       if (CondensedSum(m, c) <= c->energy - fraction * t * promised) break;
     }
   }
