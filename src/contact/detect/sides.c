@@ -29,11 +29,10 @@ PetscInt DetectNonmortar(const DetectModel *model, Scene scene, const DetectPair
   PetscInt         side;
 
   for (side = 0; side < 2; ++side) body[side] = &scene->bodies[model->surfaces.body[pair->surface[side]]];
-  *why = "the other body is a rigid surface";
+  *why = "the other body is rigid";
   for (side = 0; side < 2; ++side) {
     if (SceneBodyIsSurface(body[1 - side])) return side;
   }
-  *why = "the other body is rigid";
   for (side = 0; side < 2; ++side) {
     if (body[1 - side]->material.type == MATERIAL_RIGID && body[side]->material.type != MATERIAL_RIGID) return side;
   }

@@ -132,7 +132,7 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
     CondensedForward(c, step);
     for (int k = 0; k < MODES; ++k) promised += step[k] * step[k];
     CondensedBackward(c, step);
-    last = (PetscBool)!(promised > negligible * c->energy);
+    last = (PetscBool) !(promised > negligible * c->energy);
     for (;; t *= 0.5) {
       for (int k = 0; k < MODES; ++k) c->a[k] = before[k] + t * step[k];
       CondensedMove(c);

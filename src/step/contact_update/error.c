@@ -226,7 +226,7 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const
 PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
   StepReport *report)
 {
-  const PetscReal weight = sim->solved->linearization->slip ? askew_friction : askew;
+  const PetscReal weight   = sim->solved->linearization->slip ? askew_friction : askew;
   const PetscReal rounding = 32.0 * PETSC_MACHINE_EPSILON;
   PetscReal       size, arm, extent;
   PetscInt       *row;
