@@ -1,5 +1,6 @@
 """The pages of settings: a figure and tables for each study. All text that depends on the results is made from the rows of the runs."""
 import math
+import os
 
 import machine
 from problems import PROBLEMS
@@ -138,10 +139,10 @@ def growth_rows(rows):
     return table(columns, select(rows, study="growth"))
 
 
-def head(title, rows):
+def head(title, data, rows):
     """What holds for all studies of a page"""
     repeats = "the shortest of three for short runs" if any(row["repeats"] > 1 for row in rows) else "one run each"
-    lines = [f"# {title}\n", "`make bench` made this page. Back to [the front page](../README.md). [Data of all runs](bench.csv).\n", "| | |", "| --- | --- |"]
+    lines = [f"# {title}\n", f"`make bench` made this page. Back to [the front page](../README.md). [Data of all runs]({data}).\n", "| | |", "| --- | --- |"]
     lines += machine.header([row["load"] for row in rows])
     lines += [f"| times | user CPU seconds of whole runs, {repeats} |", "| ranks | one, unless stated otherwise |", "| errors | relative to Hertz's formula, or to the references of the front page |"]
     lines += ["| Newton steps | of the optimizer; with the filtered subspace method its directions |", "| AMG applications | with MUMPS the solves with its factors |"]
@@ -167,4 +168,4 @@ def write(path, title, studies, rows, growths, drawn):
     """A page of several studies"""
     made = [section(study, rows, growths, drawn) for study in studies if select(rows, study=study.name)]
     with open(path, "w") as file:
-        file.write("\n".join([head(title, rows), *made]))
+        file.write("\n".join([head(title, os.path.basename(path).replace(".md", ".csv"), rows), *made]))

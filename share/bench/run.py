@@ -9,7 +9,6 @@ import argparse
 import os
 import signal
 import sys
-import time
 
 import references
 from problems import TOP
@@ -63,7 +62,6 @@ def report(args, store, pages):
 
     folder = os.path.join(args.folder, "pages", "knobs")
     os.makedirs(folder, exist_ok=True)
-    everything = []
     for name, chosen in pages.items():
         rows = results.collect(chosen, store, references.load(args.folder))
         if not rows:
@@ -71,23 +69,20 @@ def report(args, store, pages):
         growths = results.growth_table(rows)
         drawn = plots.draw(chosen, rows, growths, folder)
         page.write(os.path.join(folder, name + ".md"), PAGES[name][0], chosen, rows, growths, drawn)
-        print(f"{len(rows)} rows, {len(drawn)} figures: {os.path.relpath(folder)}/{name}.md")
-        everything += [{"page": name} | row for row in rows]
-    results.write_csv(os.path.join(folder, "bench.csv"), everything)
+        results.write_csv(os.path.join(folder, name + ".csv"), rows)
+        print(f"{len(rows)} rows, {len(drawn)} figures: {os.path.relpath(folder)}/{name}.md", flush=True)
 
 
 def main():
     args = arguments()
     store = Store(args.folder, short={"tiny": 0.0, "quick": 0.5, "full": 2.0}[args.size])
     pages = {name: studies(args.size, name) for name in PAGES if not args.only or name in args.only}
-    cases = [case for chosen in pages.values() for study in chosen for case in study.cases()]
     if args.plan:
-        return show_plan(cases, store)
-    if not args.no_run:
-        begin = time.time()
-        run_all(cases, store)
-        print(f"{time.time() - begin:.0f} s")
-    report(args, store, pages)
+        return show_plan([case for chosen in pages.values() for study in chosen for case in study.cases()], store)
+    for name, chosen in pages.items():
+        if not args.no_run:
+            run_all([case for study in chosen for case in study.cases()], store)
+        report(args, store, {name: chosen})
 
 
 def interrupt(*_):

@@ -59,7 +59,7 @@ def check_scenes():
 
 
 def check_table(folder):
-    with open(os.path.join(folder, "pages", "knobs", "bench.csv")) as file:
+    with open(os.path.join(folder, "pages", "knobs", "material.csv")) as file:
         rows = list(csv.DictReader(file))
     points = [row for row in rows if row["study"] == "quadrature"]
     say("table: two rules on both problems", [row["value"] for row in points] == 2 * ["2", "3"], rows)

@@ -7,7 +7,7 @@ bench() {
 rm -rf bench
 bench material > first.log || echo "exit code $?"
 grep -c 'converged, ' first.log
-for file in material.md bench.csv material.png quadrature.png; do
+for file in material.md material.csv material.png quadrature.png; do
   [ -s bench/pages/knobs/$file ] && echo "$file" || echo "$file is missing"
 done
 bench material --plan | tail -n 1
