@@ -240,9 +240,9 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
 
 /*@C
   ContactSetDisplacements - Sets the prescribed displacements of the bodies' faces, which determine the symmetry planes
-  of smooth surfaces and the directions without friction
+  of smooth surfaces, the directions without friction, and the vertices without a row
 
-  Logically Collective
+  Collective
 
   Input Parameters:
 + contact       - the contact
@@ -264,6 +264,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   contact->ndisplacements = n;
   contact->displacements  = displacements;
   PetscCall(PetscFree(contact->rows.held));
+  PetscCall(ContactHeldRowsReset(contact));
   PetscCall(ContactSmoothReset(contact));
   PetscFunctionReturn(0);
 }

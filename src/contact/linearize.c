@@ -56,6 +56,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
     "The displacement at which contact is linearized is not finite");
   PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscCall(ContactDeform(contact, u));
+  PetscCall(ContactHeldRowsDistribute(contact));
   PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];
@@ -128,6 +129,9 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   patches that keep their shape and rotate with their facets. The forces of J are distributed like those of facets, and
   no force reduces a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to
   rounding. lin->derivative serves to predict the gap.
+
+  A vertex that the same prescribed displacement holds on both faces has no row. The integrals of its row are added to
+  those of its free neighbours.
 
   The rows differ between linearizations. lin->vertex and lin->pair identify them. It is an error if the displacement is
   not finite.

@@ -15,6 +15,8 @@
 
 static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
                                                 face */
+static const PetscReal held_normal = 0.95; /* an axis is the normal of a facet if the component of the unit normal along
+                                              it is larger */
 
 /* The coordinate, along an axis, of vertices of a mortar face at which a displacement is prescribed. All fields are
    real, so that an array of these structs can be sent as an array of reals. */
@@ -144,8 +146,11 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &free, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt i = 0; free && i < 4 * s->nfacets; ++i) {
     PetscBool both, alike;
+    PetscReal normal[3];
 
     if (motion[i] == CONTACT_FREE) continue;
+    /* nothing slips along the normal */
+    if (ContactFacetNormal(&s->reference[12 * (i / 4)], normal) && PetscAbsReal(normal[axis]) > held_normal) continue;
     HeldFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
     if (!alike && !(both && pair->sticks)) continue;
     PetscCall(VecSetValue(held, pair->row[i], 1.0, INSERT_VALUES));

@@ -1,0 +1,37 @@
+"""Leaves with a common clamp at one end, the last one bent at its tip. Their cells do not match.
+
+python3 clamped_leaves.py scenes writes the scenes; python3 clamped_leaves.py judges the runs.
+
+Beam theory: equal leaves bend alike, and each needs a third of the force at the tip. They touch near the tip only. Rows of the nodes in the clamp would measure how differently the two faces are interpolated beside it; their forces were 4 to 100,000 times as large as the others.
+"""
+import sys
+
+from leaves import leaves
+from summaries import load, say
+
+
+def mismatched(gap):
+    return leaves(3, f", gap: {gap}").replace("[0, 0, 0.3], upper: [10, 1, 0.6], cells: [20,", "[0, 0, 0.3], upper: [10, 1, 0.6], cells: [23,")
+
+
+SCENES = {"matching": leaves(3, ", gap: mortar"), "mortar": mismatched("mortar"), "dual": mismatched("dual"), "node": mismatched("node")}
+# a displacement that is prescribed along the normal does not keep nodes from sticking
+SCENES["sticking"] = leaves(3, ", stick: true")
+FORCE = 3 * 1000 * 0.3**3 / 12 / 10**3  # of one leaf whose tip is bent by 1
+
+if sys.argv[1:] == ["scenes"]:
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+    energy = load("matching")["steps"][-1]["energy"]
+    for name in (*list(SCENES)[:-1], "mortar_3"):
+        run = load(name)
+        step = run["steps"][-1]
+        forces = [pair["normal_force"] / FORCE / n for n, pair in enumerate(step["pairs"], 1)]
+        say(f"{name}: solved, in equilibrium, with the energy of matching cells", run["converged"] and step["balance"] < 1e-6 and abs(step["energy"] / energy - 1) < 1e-3, (run["reason"], step["balance"], step["energy"]))
+        say(f"{name}: the normal forces are those of beam theory, to a factor of 1.8", all(1 / 1.8 < force < 1.8 for force in forces), forces)
+    one, three = (load(name)["steps"][-1]["pairs"] for name in ("mortar", "mortar_3"))
+    off = [b["normal_force"] / a["normal_force"] - 1 for a, b in zip(one, three)]
+    say("3 ranks as 1", max(map(abs, off)) < 1e-5, off)
+    say("sticking: no warning of nodes without friction", not load("sticking")["warnings"], load("sticking")["warnings"])
