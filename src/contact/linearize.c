@@ -130,8 +130,8 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   no force reduces a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to
   rounding. lin->derivative serves to predict the gap.
 
-  A vertex that the same prescribed displacement holds on both faces has no row. The integrals of its row are added to
-  those of its free neighbours.
+  If the same prescribed displacement holds both faces at a vertex, and the cells beside it do not match, it has no row.
+  The integrals of its row are added to those of its free neighbours.
 
   The rows differ between linearizations. lin->vertex and lin->pair identify them. It is an error if the displacement is
   not finite.

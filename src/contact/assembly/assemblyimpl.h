@@ -49,10 +49,10 @@ typedef struct {
                       displacement) for an inclined symmetry plane; NULL until ContactFindHeld() has computed them */
   PetscReal *normal;         /* [3 nlocal] averaged unit normals of the deformed nonmortar faces */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
-  Vec        mass;    /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight;  /* mass after the masses of hanging vertices were distributed to the vertices on which they
+  Vec        mass;        /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
+  Vec        weight;      /* mass after the masses of hanging vertices were distributed to the vertices on which they
                         depend [length^2] */
-  Mat        hanging; /* transposed, it distributes the sums of the rows of hanging and held vertices to other rows;
+  Mat        hanging;     /* transposed, it distributes the sums of the rows of hanging and held vertices to other rows;
                          NULL if there are none */
   PetscBool  distributed; /* whether ContactHeldRowsDistribute() has distributed the rows of held vertices */
 } ContactRows;
