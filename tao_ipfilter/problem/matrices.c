@@ -164,8 +164,8 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscCall(MatGetSize(J, NULL, &n));
   PetscCall(MatGetType(J, &type));
   PetscCheck(has || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "TAOIPFILTER reads entries of the Jacobian of the %s constraints; a matrix of type %s has products but no entries, "
-    "which is supported only for up to %d unknowns, not %" PetscInt_FMT ": provide an AIJ matrix",
+    "The Jacobian of the %s constraints, of type %s, supports only products. TAOIPFILTER needs its entries, which it "
+    "computes from products for at most %d unknowns, but there are %" PetscInt_FMT ": provide an AIJ matrix",
     kind, type, IP_COLUMNS_MAX, n);
   PetscFunctionReturn(0);
 }
@@ -205,8 +205,8 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscCall(MatGetSize(tao->hessian, &n, NULL));
   PetscCall(MatGetType(tao->hessian, &type));
   PetscCheck(has || !needed || n <= IP_COLUMNS_MAX, comm, PETSC_ERR_SUP,
-    "A Hessian of type %s has products but no entries, and %s reads entries only for up to %d unknowns, not "
-    "%" PetscInt_FMT ": give it as AIJ%s",
+    "The Hessian, of type %s, supports only products. Its entries, which %s needs, are computed from products for at "
+    "most %d unknowns, but there are %" PetscInt_FMT ": provide an AIJ matrix%s",
     type, reader, IP_COLUMNS_MAX, n, instead);
   *changed           = (PetscBool)(ip->hess->products != (PetscBool)(!has && !needed));
   ip->hess->products = (PetscBool)(!has && !needed);

@@ -144,7 +144,7 @@ PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, V
   }
   PetscCall(PetscFree2(volume, moved));
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "body \"%s\" slides or turns away: contact moves it on in each contact update, and only weak springs hold it; add "
+    "body \"%s\" slides or turns away: each contact update moves it further, and only weak springs hold it; add "
     "a support, friction, or stiffer springs than weak_springs: %g",
     scene->bodies[farthest].name, (double)scene->weak_springs));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
