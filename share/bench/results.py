@@ -4,7 +4,6 @@ import math
 
 import growth
 from problems import PROBLEMS
-from store import MEASURED
 
 
 def relative(value, reference):
@@ -80,7 +79,7 @@ def of_panel(rows, study, panel):
 
 
 def converged(rows):
-    return [row for row in rows if row["status"] in MEASURED]
+    return [row for row in rows if row["status"] == "converged"]
 
 
 def growth_table(rows):

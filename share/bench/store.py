@@ -14,7 +14,6 @@ CONTACT = os.path.join(TOP, "bin", "contact")
 OPTIONS = os.path.join(TOP, "share", "options")
 SOURCES = ("include", "pc_amgf", "tao_ipfilter", "src", "apps", "share/toolchain.mk")
 REPEATS = 3
-MEASURED = ("converged", "inconsistent gap")  # how runs with an answer end
 
 
 @dataclass(frozen=True)
@@ -99,7 +98,7 @@ class Store:
         """Runs, repeats what is short, keeps and returns the record"""
         base = os.path.join(self.folder, "fields", case.key)
         record = self.run_once(case, base)
-        while record["status"] in MEASURED and record["seconds"] < self.short and record["repeats"] < REPEATS:
+        while record["status"] == "converged" and record["seconds"] < self.short and record["repeats"] < REPEATS:
             again = self.run_once(case, base)
             again["repeats"] = record["repeats"] + 1
             record = min(record, again, key=lambda r: r["seconds"] if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
@@ -119,7 +118,7 @@ class Store:
         record |= {"command": [os.path.relpath(c, TOP) if c.startswith(TOP) else c for c in command], "version": self.version, "key": case.key, "repeats": 1}
         record |= {"limit": case.limit, "wall": time.time() - begin, "seconds": user_seconds() - used, "load": os.getloadavg()[0], "code": code, "said": last_words(said), "summary": read_summary(base), "measure": None}
         record["status"] = self.status(record, limited)
-        if record["status"] in MEASURED:
+        if record["status"] == "converged":
             record["measure"] = PROBLEMS[case.problem].measure(base, record["summary"])
         return record
 
