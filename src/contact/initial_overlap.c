@@ -84,24 +84,36 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
   PetscFunctionReturn(0);
 }
 
-/* Collective. Selects the deepest row whose vertex or point is inside the other body, not only behind its face.
-   deepest->depth stays 0 if there is none. */
+/*
+   Collective. Selects the deepest row at which the bodies overlap. deepest->depth stays 0 if there is none. They overlap
+   if the point behind the vertex, at the search depth, is inside the mortar body; or if the point of the mortar face is
+   inside the nonmortar body, and the mortar body is in front of it. The gap alone does not show an overlap: it is a mean,
+   which also counts facets on the far side of round bodies that touch.
+*/
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
 {
-  PetscReal *angle;
+  const PetscReal inside = 0.9 * 4.0 * PETSC_PI, ahead = 0.1;
+  PetscReal      *angle;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(2 * n, &angle));
+  PetscCall(PetscMalloc1(3 * n, &angle));
   for (PetscInt k = 0; k < n; ++k) {
-    const ContactPairData *pair = &contact->pairs[(PetscInt)deep[k].pair];
+    const ContactPairData   *pair = &contact->pairs[(PetscInt)deep[k].pair];
+    const InitialOverlapRow *row  = &deep[k];
+    PetscReal                behind[3], front[3];
 
-    angle[2 * k]     = ContactBoundarySolidAngle(boundary, pair->mortar.body, deep[k].x);
-    angle[2 * k + 1] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, deep[k].y);
+    for (PetscInt c = 0; c < 3; ++c) {
+      behind[c] = row->x[c] + pair->depth / row->depth * (row->y[c] - row->x[c]);
+      front[c]  = row->y[c] + ahead * (row->x[c] - row->y[c]);
+    }
+    angle[3 * k]     = ContactBoundarySolidAngle(boundary, pair->mortar.body, behind);
+    angle[3 * k + 1] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, row->y);
+    angle[3 * k + 2] = ContactBoundarySolidAngle(boundary, pair->mortar.body, front);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 2 * n, MPIU_REAL, MPIU_SUM, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 3 * n, MPIU_REAL, MPIU_SUM, contact->comm));
   for (PetscInt k = 0; k < n; ++k) {
-    if (PetscMax(angle[2 * k], angle[2 * k + 1]) > 0.9 * 4.0 * PETSC_PI && deep[k].depth > deepest->depth)
+    if (PetscMax(angle[3 * k], PetscMin(angle[3 * k + 1], angle[3 * k + 2])) > inside && deep[k].depth > deepest->depth)
       *deepest = deep[k];
   }
   PetscCall(PetscFree(angle));
