@@ -85,10 +85,10 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
 }
 
 /*
-   Collective. Selects the deepest row at which the bodies overlap. deepest->depth stays 0 if there is none. They overlap
-   if the point behind the vertex, at the search depth, is inside the mortar body; or if the point of the mortar face is
-   inside the nonmortar body, and the mortar body is in front of it. The gap alone does not show an overlap: it is a mean,
-   which also counts facets on the far side of round bodies that touch.
+   Collective. Selects the deepest row at which the bodies overlap. deepest->depth stays 0 if there is none. They
+   overlap if the point behind the vertex, at the search depth, is inside the mortar body; or if the point of the mortar
+   face is inside the nonmortar body, and the mortar body is in front of it. The gap alone does not show an overlap: it
+   is a mean that also counts facets on the far side of round bodies that touch.
 */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
