@@ -244,6 +244,35 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
   PetscFunctionReturn(0);
 }
 
+/*
+   Adds restraints of the relative motion of two bodies along the normals of the facets of a curved face, at their
+   centres. A round body can then rotate about its axis, since the normals at the centres meet the axis.
+*/
+static PetscErrorCode SupportAddCentres(Support *support, IS facets, PetscInt total, PetscInt body, PetscInt other)
+{
+  const PetscInt *f;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(facets, &n));
+  PetscCall(ISGetIndices(facets, &f));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt  vertices[4];
+    PetscReal x[4][3], normal[3], centre[3];
+
+    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
+    MeshComputeFacetArea(x, normal);
+    VectorScaleToUnit(normal);
+    for (PetscInt d = 0; d < 3; ++d) centre[d] = 0.25 * (x[0][d] + x[1][d] + x[2][d] + x[3][d]);
+    SupportAddMotion(support, body, normal, centre, 1);
+    SupportAddMotion(support, other, normal, centre, -1);
+    PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+  }
+  PetscCall(ISRestoreIndices(facets, &f));
+  PetscFunctionReturn(0);
+}
+
 /* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
    or along that of a plane mortar face */
 static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
@@ -259,7 +288,8 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
   PetscCall(ISDestroy(&facets));
   PetscCall(SupportGetFace(support, pair->nonmortar, &facets, &nonmortar, &total));
   SupportBeginLink(support, nonmortar, mortar);
-  PetscCall(SupportAddFacets(support, facets, total, nonmortar, mortar, NULL, plane ? flat : NULL));
+  if (scene->weak_springs && !plane) PetscCall(SupportAddCentres(support, facets, total, nonmortar, mortar));
+  else PetscCall(SupportAddFacets(support, facets, total, nonmortar, mortar, NULL, plane ? flat : NULL));
   PetscCall(ISDestroy(&facets));
   PetscFunctionReturn(0);
 }

@@ -10,7 +10,21 @@ PROBES = "probes:\n  - corner: {point: [1, 2, 3]}\n  - foot: {point: [1, 2, 0]}\
 SIX = "".join("  - p%s%s: {face: bar.%s%s, value: 0.5}\n" % (axis, end, axis, end) for axis in "xyz" for end in ("min", "max"))
 BLOCK = "  - %s: {lower: [%g, %g, %g], upper: [%g, %g, %g], cells: [%d, %d, 2], young: 1e5, poisson: 0.3}\n"
 
+# A cone in a rigid bore without friction. Nothing but weak springs holds it against a rotation about its axis.
+PLUG = """bodies:
+  - plug: {shape: cone, axis: z, radii: [1, 1.2], extent: [0, 2], cells: [3, 3, 6], young: 1000, poisson: 0.3}
+  - bore: {shape: rigid_revolved, center: [0, 0, 0], direction: [0, 0, 1], points: [1.4, 4, 0.95, -0.5]}
+displacements:
+  - seat: {body: bore, value: [0, 0, 0]}
+  - push: {face: plug.lmax, value: [free, free, -0.1]}
+contact:
+  - fit: {mortar: bore.surface, nonmortar: plug.surface}
+load: {factors: [0.25, 0.5]}
+weak_springs: true
+"""
+
 SCENES = {
+    "plug": PLUG,
     "pull": BAR + "symmetry: [bar.xmin, bar.ymin, bar.zmin]\ntractions:\n  - up: {face: bar.zmax, value: [0, 0, 0.1]}\nforces:\n  - more: {face: bar.zmax, value: [0, 0, 0.4]}\n" + PROBES,
     "twist": BAR.replace("young: 10", "young: 1e7")  # moments are those of the deformed places
     + "displacements:\n  - wall: {face: bar.zmin, value: [0, 0, 0]}\nforces:\n  - top: {face: bar.zmax, value: [0.1, 0.2, -0.3], moment: [0.02, -0.01, 0.03]}\n  - turn: {face: bar.zmax, moment: [0, 0.01, 0.02]}\ntractions:\n  - side: {face: bar.xmax, value: [0, 0.01, 0]}\n",
@@ -87,6 +101,10 @@ def judge_bars(title, end):
         say(title + name + " between two blocks: in series, and what it carries", series and near(bodies["top"], [0, 0, 0.6], 0.6) and near(bodies["low"], [0, 0, -0.6], 0.6), (tip, bodies))
     reactions = {face["name"]: face["reaction"] for face in step["edges"]["faces"]}
     say(title + "on two edges: half of the weight on each", near(reactions["bar.@left"], [0, 0, 3], 3) and near(reactions["bar.@right"], [0, 0, 3], 3) and step["edges"]["balance"] < 1e-10, reactions)
+    pair = step["plug"]["pairs"][0]
+    sine = 0.1 / np.hypot(0.1, 1)
+    say(title + "plug: the pressure carries the force", near(pair["force"], [0, 0, pair["normal_force"] * sine], pair["normal_force"]), pair)
+    say(title + "plug: does not rotate, so that its energy is the work", abs(step["plug"]["energy"] - step["plug"]["work"]) < 1e-6 * step["plug"]["work"], (step["plug"]["energy"], step["plug"]["work"]))
     forces = {pair["name"]: pair["force"] for pair in step["soft"]["pairs"]}
     say(title + "soft stack: each pair's force", near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
     say(title + "soft stack: weak springs carry less than 1e-6 of the load", 0 < step["soft"]["weak_spring_force"] < 4e-6, step["soft"]["weak_spring_force"])

@@ -1,7 +1,7 @@
 # Tractions and forces on faces, springs and weak springs against closed forms and statics, on one rank and on three.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/supports.py" write
-for scene in pull twist bed float pins edges stack soft pad pads; do
+for scene in pull twist bed float pins edges stack soft pad pads plug; do
   "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 || echo "$scene, three ranks: exit code $?"
 done
