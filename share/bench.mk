@@ -1,7 +1,8 @@
 # What accuracy costs in time: runs, tables, figures and pages. An interrupted bench goes on where it stopped
 
-# The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others
-BENCH_PARTS ?= front.py elements/choice.py elements/sharp.py run.py calculix.py effects.py
+# The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others, and lists
+# them at the end
+BENCH_PARTS ?= front.py elements/choice.py elements/sharp.py run.py calculix.py effects.py front.py
 BENCH_FOLDER ?= build/bench
 
 .PHONY: bench bench-front bench-full bench-page

@@ -142,7 +142,7 @@ def growth_rows(rows):
 def head(title, data, rows):
     """What holds for all studies of a page"""
     repeats = "the shortest of three for short runs" if any(row["repeats"] > 1 for row in rows) else "one run each"
-    lines = [f"# {title}\n", f"`make bench` made this page. Back to [the front page](../README.md), [data of all runs]({data}).\n", "| | |", "| --- | --- |"]
+    lines = [f"# {title}\n", f"`make bench` made this page. Back to [the front page](../README.md).\n[Data of all runs]({data}).\n", "| | |", "| --- | --- |"]
     lines += machine.header([row["load"] for row in rows])
     lines += [f"| times | user CPU seconds of whole runs, {repeats} |", "| ranks | one, unless stated otherwise |", "| errors | relative to Hertz's formula, or to the references of the front page |"]
     lines += ["| Newton steps | of the optimizer; with the filtered subspace method its directions |", "| AMG applications | with MUMPS the solves with its factors |"]

@@ -121,7 +121,8 @@ def mesh_page(size):
 def contact_page(size):
     true = ("-contact_updates", "20", IP + "tol", "1e-9")
     three = ("hertz_sphere", "beam_sphere_linear", "beam_sphere_neo_hookean")
-    yield Study("updates", "Contact updates per load step", "contact updates", turn(size, three, [(n, ("-contact_updates", n)) for n in ("1", "2", "3", "5", "20")], careful=true))
+    yield Study("updates", "Contact updates per load step", "contact updates", turn(size, three, [(n, ("-contact_updates", n)) for n in ("1", "2", "3", "5", "20")], careful=true),
+                text="With 1 the gap is not checked. With more a run fails if the gap is not consistent after so many\nupdates. The default is 20.")
     steps = [(n, ("-load_steps", n, "-contact_updates", "20")) for n in ("1", "2", "4", "8")]
     yield Study("load_steps", "Load steps", "load steps", turn(size, three[1:], steps, careful=("-load_steps", "16", *true)))
     two = ("hertz_sphere", "two_block")
