@@ -90,6 +90,31 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 }
 
 /*
+   Warns, after the last load step, of a pair without force whose penetration is most of the motion, although it may be
+   an error of the curved faces: with motions so small the mesh decides whether there is contact. run: has load steps.
+*/
+static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
+{
+  const RunReport        *run    = &sim->report;
+  const StepReport       *report = &run->steps[run->nsteps - 1];
+  const SceneContactPair *pair   = &sim->scene->pairs[p];
+  const PetscReal         motion = PenetrationMotion(run), most = 0.5;
+  const PairReport       *its;
+
+  PetscFunctionBegin;
+  if (p >= report->npairs || pair->self || PenetrationIsMeant(pair, report)) PetscFunctionReturn(0);
+  its = &report->pairs[p];
+  if (its->normal_force != 0.0 || its->penetration <= most * motion || its->penetration > its->penetration_rounding)
+    PetscFunctionReturn(0);
+  PetscCall(ReportWarn(sim->comm, &sim->report,
+    "contact pair \"%s\" carries no force, although a vertex of %s or %s penetrates the other body by %.3g, %.3g %% of "
+    "the largest displacement; the error of the curved faces there may be as large: refine them if the bodies are to "
+    "touch",
+    pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion)));
+  PetscFunctionReturn(0);
+}
+
+/*
    Warns of penetration after the last load step, pair by pair. Load steps in which the scene leaves an overlap are
    ignored.
 */
@@ -116,6 +141,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
       step  = report->step;
       open  = (PetscBool)(report->pairs[p].normal_force == 0.0);
     }
+    if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(sim, p));
     if (depth <= PENETRATION_SHARE * motion) continue;
     if (pair->self)
       PetscCall(ReportWarn(sim->comm, &sim->report,
