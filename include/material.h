@@ -72,7 +72,7 @@ typedef struct {
 typedef struct {
   PetscReal                lambda, mu;    /* Lame parameters */
   PetscReal                bulk;          /* kappa = lambda + 2 mu/3 */
-  PetscReal                share;         /* Mooney-Rivlin: c01/(c10 + c01) */
+  PetscReal                c01_fraction;  /* Mooney-Rivlin: c01/(c10 + c01) */
   PetscReal                stiffness[36]; /* orthotropic: 6 x 6 stiffness for the strains xx yy zz 2xy 2yz 2zx */
   PetscReal                own[MATERIAL_OWN];
   const MaterialHardening *hardening; /* j2, j2_finite: points into the Material, which must not be moved */

@@ -74,7 +74,7 @@ PETSC_EXTERN PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *);
 /* Checks that the faces that a scene names have facets, and that every body is held by displacements, springs, ties or
    contact pairs */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
-PETSC_EXTERN PetscErrorCode MeshGetUnheld(DM, Scene, PetscBool unheld[]);
+PETSC_EXTERN PetscErrorCode MeshGetUnsupported(DM, Scene, PetscBool unsupported[]);
 /* Gets the facets of a named face on this rank as local DMPlex points, sorted. Each facet is on exactly one rank. */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Gets the vertices of a face on this rank (DMPlex points), including those whose facets other ranks own */

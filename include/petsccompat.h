@@ -56,10 +56,6 @@ typedef PetscErrorCodeFn AMGFOperation;
 #if PETSC_VERSION_LT(3, 21, 0)
   #define TaoMonitorSet(tao, monitor, context, destroy) TaoSetMonitor(tao, monitor, context, destroy)
 #endif
-#if PETSC_VERSION_LT(3, 22, 0)
-  #define PetscOptionsCreateViewer(comm, options, prefix, name, viewer, format, set) \
-    PetscOptionsGetViewer(comm, options, prefix, name, viewer, format, set)
-#endif
 #if PETSC_VERSION_LT(3, 23, 0)
 typedef size_t PetscSegBufferCount;
 #else

@@ -125,11 +125,11 @@ PetscErrorCode PCCreate_AMGF(PC pc)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&amgf));
-  pc->data           = amgf;
-  amgf->cycle        = PC_AMGF_FBF;
-  amgf->active       = PETSC_TRUE;
-  amgf->lag.every    = AMGF_LAG_UNSET;
-  amgf->factor.share = 0.4;
+  pc->data              = amgf;
+  amgf->cycle           = PC_AMGF_FBF;
+  amgf->active          = PETSC_TRUE;
+  amgf->lag.every       = AMGF_LAG_UNSET;
+  amgf->factor.fraction = 0.4;
   PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amgf->amg));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)amgf->amg, (PetscObject)pc, 1));
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)pc), &amgf->filter));

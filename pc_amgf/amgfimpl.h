@@ -49,9 +49,9 @@ typedef struct {
 /* A Cholesky factorization of the operator, which is used instead of the AMG as the preconditioner B */
 typedef struct {
   PCAMGFFactorUse use;
-  PetscBool       on;     /* whether B is the factorization instead of the AMG */
-  PetscBool       failed; /* the last factorization failed */
-  PetscReal       share;  /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
+  PetscBool       on;       /* whether B is the factorization instead of the AMG */
+  PetscBool       failed;   /* the last factorization failed */
+  PetscReal       fraction; /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
                              memory */
   Mat             F;
   PetscBool       own;                    /* F are factors of cholesky/, not of MUMPS */

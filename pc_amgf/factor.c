@@ -206,19 +206,19 @@ static PetscErrorCode FactorCompare(PC pc, PetscReal applications, PetscReal sol
   PC_AMGF    *amgf  = (PC_AMGF *)pc->data;
   AMGFFactor *f     = &amgf->factor;
   AMGFCosts   costs = {0.0, 0.0, 0.0, 0.0};
-  PetscReal   factor, amg, room;
+  PetscReal   factor, amg, available;
 
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetMemory_Private(PetscObjectComm((PetscObject)pc), &room));
-  room *= f->share;
+  PetscCall(PCAMGFGetMemory_Private(PetscObjectComm((PetscObject)pc), &available));
+  available *= f->fraction;
   PetscCall(FactorEstimate(pc, amgf->lag.built, &costs));
   factor   = costs.factor + solves * costs.solve;
   amg      = costs.setup + applications * costs.apply;
-  *cheaper = (PetscBool)(f->memory < room && factor < amg);
-  if (f->memory >= room)
+  *cheaper = (PetscBool)(f->memory < available && factor < amg);
+  if (f->memory >= available)
     PetscCall(
       PetscSNPrintf(f->why, sizeof(f->why), "a factorization would take %.0f MB, more than %g of the machine's memory",
-        (double)(f->memory / 1e6), (double)f->share));
+        (double)(f->memory / 1e6), (double)f->fraction));
   else
     PetscCall(PetscSNPrintf(f->why, sizeof(f->why), "estimated %.2g s instead of %.2g s with %s",
       (double)(*cheaper ? factor : amg), (double)(*cheaper ? amg : factor), *cheaper ? "AMG" : "a factorization"));

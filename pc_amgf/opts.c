@@ -60,9 +60,9 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
     PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
   if (flg) PetscCall(PCAMGFSetFactor(pc, use));
   PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "For auto: largest share of the machine's memory for the factors",
-    "PCAMGFSetFactor", amgf->factor.share, &amgf->factor.share, NULL));
-  PetscCheck(amgf->factor.share >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.share);
+    "PCAMGFSetFactor", amgf->factor.fraction, &amgf->factor.fraction, NULL));
+  PetscCheck(amgf->factor.fraction >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.fraction);
   PetscOptionsHeadEnd();
   PetscFunctionReturn(0);
 }

@@ -27,9 +27,7 @@
 #include "tao_ipfilter/driver/driverimpl.h"
 
 /* opts.c */
-PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[],
-                                                                      *const IPForcings[], *const IPSubspaceUses[],
-                                                                                             *const IPEqualityMethods[];
+PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 

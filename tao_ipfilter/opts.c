@@ -2,13 +2,14 @@
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/solver/options.h"
 
-const char *const IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
-const char *const IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
-const char *const IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
-const char *const IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
-const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_", NULL};
-const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
-static const char *const IPScalings[] = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
+const char *const        IPStarts[]          = {"cold", "predict", "warm", "IPStart", "IP_START_", NULL};
+const char *const        IPBarrierRules[]    = {"monotone", "mehrotra", "IPBarrierRule", "IP_BARRIER_", NULL};
+const char *const        IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasure", "IP_KKT_", NULL};
+const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
+static const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_",
+  NULL};
+static const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
+static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /*
    A real-valued option and its default. The name includes -tao_ipfilter_; offset: position of the value in IPOptions

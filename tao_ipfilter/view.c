@@ -23,11 +23,36 @@ static PetscErrorCode ViewConstraints(Tao tao, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Prints how the linear systems were solved: applications of preconditioners, fallbacks, shifts of the Hessian */
+static PetscErrorCode ViewLinearSolves(const TAO_IPFILTER *ip, PetscViewer viewer)
+{
+  const TaoIPFilterFallbacks *f = &ip->rec->fallbacks;
+
+  PetscFunctionBegin;
+  if (ip->rec->nreduced)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "filtered subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT
+      ", active sets %" PetscInt_FMT "\n",
+      f->subspaces ? ", then interior point" : "", ip->rec->napplications, ip->rec->nreduced, ip->rec->npivots));
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of these with the filter %" PetscInt_FMT "\n",
+      ip->rec->nsystems, ip->rec->nfiltered));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT
+    ", larger filter %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n",
+    (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec->nrestored));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT
+    "\n",
+    ip->rec->nregularized, (double)ip->rec->delta_largest, ip->rec->nretried));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
 {
-  TAO_IPFILTER               *ip = (TAO_IPFILTER *)tao->data;
-  const TaoIPFilterFallbacks *f  = &ip->rec->fallbacks;
-  PetscBool                   ascii;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscBool     ascii;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
@@ -53,24 +78,7 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
   if (ip->qn->B)
     PetscCall(
       PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn->npairs));
-  if (ip->rec->nreduced)
-    PetscCall(PetscViewerASCIIPrintf(viewer,
-      "filtered subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT
-      ", active sets %" PetscInt_FMT "\n",
-      ip->rec->fallbacks.subspaces ? ", then interior point" : "", ip->rec->napplications, ip->rec->nreduced,
-      ip->rec->npivots));
-  PetscCall(
-    PetscViewerASCIIPrintf(viewer, "condensed systems %" PetscInt_FMT ", of these with the filter %" PetscInt_FMT "\n",
-      ip->rec->nsystems, ip->rec->nfiltered));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "linear solves: largest backward error %g; refined %" PetscInt_FMT ", AMG rebuilt %" PetscInt_FMT
-    ", larger filter %" PetscInt_FMT ", whole matrix by MUMPS %" PetscInt_FMT ", failed %" PetscInt_FMT "\n",
-    (double)f->backward_error, f->refinements, f->amg_rebuilds, f->filters, f->direct, f->failures));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "feasibility restorations %" PetscInt_FMT "\n", ip->rec->nrestored));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "steps with a shifted Hessian %" PetscInt_FMT ", largest shift %g, systems solved to find the shifts %" PetscInt_FMT
-    "\n",
-    ip->rec->nregularized, (double)ip->rec->delta_largest, ip->rec->nretried));
+  PetscCall(ViewLinearSolves(ip, viewer));
   if (ip->rec->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->rec->reason));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);

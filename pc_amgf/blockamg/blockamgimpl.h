@@ -114,7 +114,6 @@ PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghost
   const BlockLevel *, BlockHalo *);
 PETSC_INTERN PetscErrorCode BlockHaloFetch_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockLevel *, float x[]);
-PETSC_INTERN PetscErrorCode BlockHaloDestroy_Private(BlockHalo *);
 /* level.c */
 PETSC_INTERN PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *, const BlockRows *, PetscInt bs, double scale);
 PETSC_INTERN PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *);
@@ -138,7 +137,6 @@ PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, 
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* cycle.c */
-PETSC_INTERN PetscErrorCode BlockCycle_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);

@@ -89,8 +89,8 @@ static const BlockLevel *CycleNext(const BlockHierarchy *h, int i)
   return h->dense.N ? &h->bottom : NULL;
 }
 
-/* BlockCycle_Private - applies one V-cycle: computes x of the finest level from its b */
-PetscErrorCode BlockCycle_Private(BlockHierarchy *h)
+/* BlockCycle - applies one V-cycle: computes x of the finest level from its b */
+static PetscErrorCode BlockCycle(BlockHierarchy *h)
 {
   PetscFunctionBegin;
   for (int i = 0; i < h->nlevels; i++) PetscCall(CycleDown(&h->levels[i], CycleNext(h, i)));
@@ -149,7 +149,7 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   inverse = 1.0 / scale;
   mode    = CycleFlushTiny();
   for (int u = 0; u < fine->n; u++) fine->b[fine->position[u]] = (float)(inverse * PetscRealPart(from[u]));
-  PetscCall(BlockCycle_Private(h));
+  PetscCall(BlockCycle(h));
   CycleRestoreTiny(mode);
   scale /= h->scale;
   for (int u = 0; u < fine->n; u++) to[u] = scale * fine->x[fine->position[u]];

@@ -66,10 +66,3 @@ PetscErrorCode BlockHaloAdd_Private(const BlockHalo *halo, const BlockLevel *lev
   PetscCall(PetscSFReduceEnd(halo->sf, MPI_FLOAT, x + 4 * (size_t)level->nb, x, MPI_SUM));
   PetscFunctionReturn(0);
 }
-
-PetscErrorCode BlockHaloDestroy_Private(BlockHalo *halo)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSFDestroy(&halo->sf));
-  PetscFunctionReturn(0);
-}

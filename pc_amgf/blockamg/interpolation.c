@@ -52,6 +52,6 @@ PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *P)
   PetscCall(PetscFree(P->ptr));
   PetscCall(PetscFree(P->col));
   PetscCall(PetscFree(P->val));
-  PetscCall(BlockHaloDestroy_Private(&P->halo));
+  PetscCall(PetscSFDestroy(&P->halo.sf));
   PetscFunctionReturn(0);
 }

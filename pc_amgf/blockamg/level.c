@@ -6,7 +6,7 @@
 
 /* Blocks of L in the block rows processed so far; room: number of allocated blocks */
 typedef struct {
-  int    n, room;
+  int    n, capacity;
   int   *col;
   float *val;
 } LevelBlocks;
@@ -14,10 +14,10 @@ typedef struct {
 static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
 {
   PetscFunctionBegin;
-  if (blocks->n + more <= blocks->room) PetscFunctionReturn(0);
-  blocks->room = blocks->n + more + blocks->n / 4;
-  PetscCall(PetscRealloc((size_t)blocks->room * sizeof(*blocks->col), &blocks->col));
-  PetscCall(PetscRealloc(((size_t)blocks->room * size + 4) * sizeof(*blocks->val), &blocks->val));
+  if (blocks->n + more <= blocks->capacity) PetscFunctionReturn(0);
+  blocks->capacity = blocks->n + more + blocks->n / 4;
+  PetscCall(PetscRealloc((size_t)blocks->capacity * sizeof(*blocks->col), &blocks->col));
+  PetscCall(PetscRealloc(((size_t)blocks->capacity * size + 4) * sizeof(*blocks->val), &blocks->val));
   PetscFunctionReturn(0);
 }
 
@@ -283,7 +283,7 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->border.col));
   PetscCall(PetscFree(level->border.val));
   PetscCall(PetscFree(level->border.shift));
-  PetscCall(BlockHaloDestroy_Private(&level->halo));
+  PetscCall(PetscSFDestroy(&level->halo.sf));
   PetscCall(BlockInterpolationDestroy_Private(&level->P));
   PetscCall(PetscFree(level->x));
   PetscCall(PetscFree(level->b));

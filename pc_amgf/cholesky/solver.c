@@ -10,16 +10,16 @@
 typedef struct {
   Cholesky   c;
   PetscReal *x, *work; /* right-hand sides in the order of L; work array of the substitutions */
-  PetscInt   room;     /* number of right-hand sides for which there is room */
+  PetscInt   capacity; /* number of right-hand sides for which there is room */
 } CholeskyFactors;
 
 static PetscErrorCode FactorsMakeRoom(CholeskyFactors *f, PetscInt k)
 {
   PetscFunctionBegin;
-  if (k <= f->room) PetscFunctionReturn(0);
+  if (k <= f->capacity) PetscFunctionReturn(0);
   PetscCall(PetscFree2(f->x, f->work));
   PetscCall(PetscMalloc2((size_t)f->c.n * (size_t)k, &f->x, (size_t)f->c.tallest * (size_t)k, &f->work));
-  f->room = k;
+  f->capacity = k;
   PetscFunctionReturn(0);
 }
 
@@ -103,7 +103,7 @@ static PetscErrorCode MatCholeskyFactorSymbolic_AMGF(Mat F, Mat A, IS order, con
   (void)order; /* the factorization chooses its own order */
   (void)info;
   PetscCall(PetscFree2(f->x, f->work));
-  f->room = 0;
+  f->capacity = 0;
   PetscCall(CholeskySymbolic(A, &f->c));
   f->c.single                   = single;
   F->ops->choleskyfactornumeric = MatCholeskyFactorNumeric_AMGF;

@@ -51,6 +51,7 @@ typedef struct {
 
 PETSC_INTERN PetscErrorCode PrescribedCreate(DM, Scene, const VertexPlaces *, Prescribed *);
 PETSC_INTERN PetscErrorCode PrescribedApply(const Prescribed *, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode RowsSet(PetscInt n, const PetscInt rows[], PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode PrescribedSet(const Prescribed *, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode PrescribedSum(const Prescribed *, Vec, PetscReal sum[3]);
 PETSC_INTERN PetscErrorCode PrescribedDestroy(Prescribed *);
@@ -82,10 +83,10 @@ typedef struct {
   PetscBool  turns; /* whether any body has finite free rotations */
   Vec        x; /* positions about which the bodies are linearized; undeformed positions for elastic bodies [length] */
   Mat        R; /* displacements of dependent rows as functions of the carrying rows; NULL if no motion is free */
-  Vec        elastic; /* 0 in the rows of these bodies, else 1 */
-  Vec        given;   /* displacements of these bodies' rows due to prescribed motions, with 0 in rows that are
+  Vec        elastic;   /* 0 in the rows of these bodies, else 1 */
+  Vec        given;     /* displacements of these bodies' rows due to prescribed motions, with 0 in rows that are
                        prescribed themselves [length] */
-  Vec        held;    /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
+  Vec        restraint; /* stiffness of the carrying rows for the proximal term (proximal.c), else 0 [force/length] */
 } RigidBodies;
 
 /* ties.c: displacements of dependent rows as functions of the others. C is NULL if there are no dependent rows. */
@@ -143,7 +144,6 @@ PETSC_INTERN PetscErrorCode JointsCreate(const Constraints *, const PetscBool pr
 
 /* ties.c: all dependent displacements together */
 PETSC_INTERN PetscErrorCode TiesCreate(const Constraints *);
-PETSC_INTERN PetscErrorCode TiesMove(const Constraints *, PetscReal time);
 PETSC_INTERN PetscErrorCode TiesTurn(const Constraints *, PetscReal time, Vec u_last, Vec u, PetscBool *anew);
 PETSC_INTERN PetscErrorCode TiesStraighten(const Constraints *, Vec u, PetscReal *change);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(const Constraints *, Mat *);

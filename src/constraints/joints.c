@@ -39,29 +39,29 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
 /* Collective. It is an error if a node to which others are tied is itself tied. */
 static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const PetscInt tied[])
 {
-  Vec                is_tied, held;
+  Vec                is_tied, fixed;
   PetscScalar       *a;
   const PetscScalar *h;
   PetscInt           n, chained = -1;
 
   PetscFunctionBegin;
-  PetscCall(MatCreateVecs(all, &is_tied, &held));
+  PetscCall(MatCreateVecs(all, &is_tied, &fixed));
   PetscCall(VecGetLocalSize(is_tied, &n));
   PetscCall(VecGetArray(is_tied, &a));
   for (PetscInt i = 0; i < n; ++i) a[i] = tied[i] >= 0 ? 1.0 : 0.0;
   PetscCall(VecRestoreArray(is_tied, &a));
-  PetscCall(MatMult(all, is_tied, held));
-  PetscCall(VecGetArrayRead(held, &h));
+  PetscCall(MatMult(all, is_tied, fixed));
+  PetscCall(VecGetArrayRead(fixed, &h));
   for (PetscInt i = 0; i < n; ++i) {
     if (PetscAbsScalar(h[i]) > 1e-12) chained = tied[i];
   }
-  PetscCall(VecRestoreArrayRead(held, &h));
+  PetscCall(VecRestoreArrayRead(fixed, &h));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
   PetscCheck(chained < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
     "tie \"%s\": vertices of its mortar face %s are tied themselves: swap mortar and nonmortar of one of the ties",
     c->bodies.scene->ties[PetscMax(chained, 0)].name, c->bodies.scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
-  PetscCall(VecDestroy(&held));
+  PetscCall(VecDestroy(&fixed));
   PetscFunctionReturn(0);
 }
 

@@ -152,8 +152,8 @@ PetscErrorCode PrescribedApply(const Prescribed *p, PetscReal time, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Sets all prescribed rows of v to one value */
-PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
+/* Sets the given rows of v, which this rank owns, to one value */
+PetscErrorCode RowsSet(PetscInt n, const PetscInt rows[], PetscReal value, Vec v)
 {
   PetscScalar *a;
   PetscInt     rstart;
@@ -161,8 +161,16 @@ PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
   PetscCall(VecGetArray(v, &a));
-  for (PetscInt k = 0; k < p->n; ++k) a[p->rows[k] - rstart] = value;
+  for (PetscInt k = 0; k < n; ++k) a[rows[k] - rstart] = value;
   PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Sets all prescribed rows of v to one value */
+PetscErrorCode PrescribedSet(const Prescribed *p, PetscReal value, Vec v)
+{
+  PetscFunctionBegin;
+  PetscCall(RowsSet(p->n, p->rows, value, v));
   PetscFunctionReturn(0);
 }
 

@@ -115,10 +115,10 @@ static PetscErrorCode RigidSetRows(const Constraints *c, const RigidBody *body, 
     follows[local] = PETSC_TRUE;
     RigidGetRow(body, &x[nodes[i / 3] - rstart], i % 3, motion);
     for (PetscInt k = 0; k < body->n; ++k) {
-      PetscReal share = 0.0;
+      PetscReal entry = 0.0;
 
-      for (PetscInt m = 0; m < body->n; ++m) share += motion[m] * body->inverse[m][k];
-      if (PetscAbsReal(share) > 1e-14) PetscCall(MatSetValue(c->rigid->R, row, body->row[k], share, INSERT_VALUES));
+      for (PetscInt m = 0; m < body->n; ++m) entry += motion[m] * body->inverse[m][k];
+      if (PetscAbsReal(entry) > 1e-14) PetscCall(MatSetValue(c->rigid->R, row, body->row[k], entry, INSERT_VALUES));
     }
   }
   PetscFunctionReturn(0);
@@ -252,7 +252,7 @@ PetscErrorCode RigidCreate(const Constraints *c, const PetscBool prescribed[], P
   PetscCall(PetscMalloc1(rigid->n, &rigid->bodies));
   PetscCall(VecDuplicate(c->bodies.mass, &rigid->elastic));
   PetscCall(VecDuplicate(c->bodies.mass, &rigid->given));
-  PetscCall(VecDuplicate(c->bodies.mass, &rigid->held));
+  PetscCall(VecDuplicate(c->bodies.mass, &rigid->restraint));
   PetscCall(VecDuplicate(c->bodies.places.x, &rigid->x));
   PetscCall(VecCopy(c->bodies.places.x, rigid->x));
   rigid->n = 0;
@@ -507,34 +507,34 @@ static PetscErrorCode RigidAddSprings(const Constraints *c, Mat C, Mat stiffness
 */
 PetscErrorCode RigidAddStiffness(const Constraints *c, Mat C, Vec diagonal, Mat stiffness)
 {
-  const PetscReal    share = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* relative to the diagonal entry of an
+  const PetscReal    fraction = SceneIsDynamic(c->bodies.scene) ? 0.0 : 1e-3; /* relative to the diagonal entry of an
                                                                               elastic body of this size */
-  const PetscReal    none  = 1e-6; /* If the stiffness is above this fraction of the diagonal entry, elastic bodies
+  const PetscReal    none     = 1e-6; /* If the stiffness is above this fraction of the diagonal entry, elastic bodies
                                       that are tied to the rigid body resist the motion. */
   const PetscScalar *d;
-  PetscScalar       *held;
+  PetscScalar       *restraint;
   PetscInt           first, end;
 
   PetscFunctionBegin;
   PetscCall(RigidAddSprings(c, C, stiffness));
-  PetscCall(MatGetDiagonal(stiffness, c->rigid->held));
+  PetscCall(MatGetDiagonal(stiffness, c->rigid->restraint));
   PetscCall(VecGetOwnershipRange(diagonal, &first, &end));
   PetscCall(VecGetArrayRead(diagonal, &d));
-  PetscCall(VecGetArray(c->rigid->held, &held));
+  PetscCall(VecGetArray(c->rigid->restraint, &restraint));
   for (PetscInt b = 0; b < c->rigid->n; ++b) {
     const RigidBody *body = &c->rigid->bodies[b];
 
     for (PetscInt k = 0; k < body->n; ++k) {
       const PetscInt i = body->row[k] - first;
 
-      if (body->row[k] >= first && body->row[k] < end && PetscRealPart(held[i]) <= none * PetscRealPart(d[i]))
-        held[i] = -share * d[i];
+      if (body->row[k] >= first && body->row[k] < end && PetscRealPart(restraint[i]) <= none * PetscRealPart(d[i]))
+        restraint[i] = -fraction * d[i];
     }
   }
-  for (PetscInt i = 0; i < end - first; ++i) held[i] = PetscMax(-PetscRealPart(held[i]), 0.0);
-  PetscCall(VecRestoreArray(c->rigid->held, &held));
+  for (PetscInt i = 0; i < end - first; ++i) restraint[i] = PetscMax(-PetscRealPart(restraint[i]), 0.0);
+  PetscCall(VecRestoreArray(c->rigid->restraint, &restraint));
   PetscCall(VecRestoreArrayRead(diagonal, &d));
-  PetscCall(MatDiagonalSet(stiffness, c->rigid->held, ADD_VALUES));
+  PetscCall(MatDiagonalSet(stiffness, c->rigid->restraint, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
@@ -574,7 +574,7 @@ PetscErrorCode RigidDestroy(RigidBodies *rigid)
   PetscCall(VecDestroy(&rigid->elastic));
   PetscCall(VecDestroy(&rigid->given));
   PetscCall(VecDestroy(&rigid->x));
-  PetscCall(VecDestroy(&rigid->held));
+  PetscCall(VecDestroy(&rigid->restraint));
   PetscCall(PetscFree(rigid->bodies));
   PetscFunctionReturn(0);
 }

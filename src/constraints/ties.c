@@ -175,7 +175,7 @@ PetscErrorCode TiesCreate(const Constraints *c)
 }
 
 /* Updates o to the prescribed motions at a time */
-PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
+static PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
 {
   Ties *ties = c->ties;
 
@@ -278,14 +278,8 @@ PetscErrorCode TiesGetForces(const Constraints *c, Vec force, Vec *ties, Vec *ri
 /* Sets the dependent rows of v to one value */
 PetscErrorCode TiesSet(const Ties *ties, PetscReal value, Vec v)
 {
-  PetscScalar *a;
-  PetscInt     rstart;
-
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(v, &rstart, NULL));
-  PetscCall(VecGetArray(v, &a));
-  for (PetscInt k = 0; k < ties->n; ++k) a[ties->rows[k] - rstart] = value;
-  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(RowsSet(ties->n, ties->rows, value, v));
   PetscFunctionReturn(0);
 }
 

@@ -263,7 +263,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   PetscFunctionBegin;
   contact->ndisplacements = n;
   contact->displacements  = displacements;
-  PetscCall(PetscFree(contact->rows.held));
+  PetscCall(PetscFree(contact->rows.no_slip));
   PetscCall(ContactHeldRowsReset(contact));
   PetscCall(ContactSmoothReset(contact));
   PetscFunctionReturn(0);

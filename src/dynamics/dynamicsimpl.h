@@ -1,6 +1,6 @@
 /*
    Inertia. In a time step this term is added to the energy of the bodies:
-     c/2 (u - centre)^T M (u - centre) + (rest + turn + excess)^T u + viscosity E(u - viscous)
+     c/2 (u - centre)^T M (u - centre) + (residual + turn + excess)^T u + viscosity E(u - viscous)
      + rate/2 (u - viscous)^T D (u - viscous)
    E is the elastic energy, D the matrix of dampers. The gradient of the term is the sum of the inertia and damping
    forces. Each file uses only the files listed before it.
@@ -11,23 +11,23 @@
 #include "src/constraints/constraintsimpl.h"
 
 typedef struct {
-  Mat       mass;                   /* mass matrix [force time^2/length]; NULL in a static analysis */
-  Vec       velocity, acceleration; /* at the last state [length/time], [length/time^2] */
-  Vec       auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
-  Vec       inert;                  /* 1 in rows with mass whose displacement is not prescribed, else 0 */
-  Vec       rest;   /* impact scheme: internal plus damping minus dead forces at the last state [force]; NULL for other
+  Mat mass;                   /* mass matrix [force time^2/length]; NULL in a static analysis */
+  Vec velocity, acceleration; /* at the last state [length/time], [length/time^2] */
+  Vec auxiliary;              /* acceleration of generalized-alpha [length/time^2] */
+  Vec inert;                  /* 1 in rows with mass whose displacement is not prescribed, else 0 */
+  Vec residual; /* impact scheme: internal plus damping minus dead forces at the last state [force]; NULL for other
                      schemes */
-  Vec       turn;   /* impact scheme: forces of turn.c [force]; NULL if no rigid body has finite free rotations */
-  Vec       excess; /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
+  Vec turn;     /* impact scheme: forces of turn.c [force]; NULL if no rigid body has finite free rotations */
+  Vec excess;   /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
                        bodies have a quadratic energy */
-  PetscReal inertia;     /* c in the current time step [1/time^2] */
-  Vec       centre;      /* centre of the current time step [length] */
-  PetscReal viscosity;   /* factor of the elastic energy of u - viscous in the current time step, for damping in
+  PetscReal  inertia;    /* c in the current time step [1/time^2] */
+  Vec        centre;     /* centre of the current time step [length] */
+  PetscReal  viscosity;  /* factor of the elastic energy of u - viscous in the current time step, for damping in
                           proportion to stiffness; 0 without such damping */
-  Vec       viscous;     /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
+  Vec        viscous;    /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
                             such damping */
-  Springs  *springs;     /* springs and dampers; their `rate` is set here; owned by the caller */
+  Springs   *springs;    /* springs and dampers; their `rate` is set here; owned by the caller */
   Elasticity elasticity; /* owned by the caller */
   PetscReal  kinetic;    /* kinetic energy at time 0 [force length] */
   PetscReal  damped;     /* energy that damping has dissipated [force length] */

@@ -113,7 +113,7 @@ static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *ener
 /* Adds the term of this time step at u to the energy, and its gradient to `force`, which may be NULL */
 PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
-  const Vec constant[] = {d->rest, d->turn, d->excess};
+  const Vec constant[] = {d->residual, d->turn, d->excess};
 
   PetscFunctionBegin;
   if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
@@ -221,13 +221,13 @@ PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec befor
   PetscCall(SchemeNewmark(scene, dt, before, u, d, a, v));
   PetscCall(SchemeFollow(d, dt, before, u, v));
   PetscCall(SchemeFollow(d, dt, d->velocity, v, a));
-  if (d->rest) PetscCall(VecZeroEntries(a));
+  if (d->residual) PetscCall(VecZeroEntries(a));
   else {
     PetscCall(VecScale(d->acceleration, -s.af / (1.0 - s.af)));
     PetscCall(VecAXPY(d->acceleration, (1.0 - s.am) / (1.0 - s.af), a));
     PetscCall(VecAXPY(d->acceleration, s.am / (1.0 - s.af), d->auxiliary));
   }
-  if (d->rest) PetscCall(SchemeGetRate(dt, d->velocity, v, d->acceleration));
+  if (d->residual) PetscCall(SchemeGetRate(dt, d->velocity, v, d->acceleration));
   else PetscCall(SchemeFollow(d, dt, d->velocity, v, d->acceleration));
   PetscCall(SchemeAddDamping(scene, before, u, v, d));
   PetscCall(VecDestroy(&d->velocity));
@@ -274,10 +274,10 @@ PetscErrorCode SchemeEstimate(const SceneDynamics *scene, PetscReal dt, PetscRea
   PetscCall(SchemeNorm(d, d->velocity, &speed));
   d->fastest = PetscMax(d->fastest, speed);
   PetscCall(SchemeNorm(d, v, &speed));
-  if (d->rest) PetscCall(SchemeGetRate(dt, d->velocity, v, a));
-  PetscCall(VecAXPY(a, -1.0, d->rest ? d->acceleration : d->auxiliary));
+  if (d->residual) PetscCall(SchemeGetRate(dt, d->velocity, v, a));
+  PetscCall(VecAXPY(a, -1.0, d->residual ? d->acceleration : d->auxiliary));
   PetscCall(SchemeNorm(d, a, &change));
-  if (d->rest) change *= 2.0 * dt / (dt + before);
+  if (d->residual) change *= 2.0 * dt / (dt + before);
   *error = change > 0.0 ? factor * dt * change / PetscMax(d->fastest, speed) : 0.0;
   PetscCall(VecDestroy(&v));
   PetscCall(VecDestroy(&a));

@@ -106,20 +106,20 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
   PetscFunctionReturn(0);
 }
 
-/* Sets d->rest to the internal, damping and dead forces at the displacement u. time: in load steps */
+/* Sets d->residual to the internal, damping and dead forces at the displacement u. time: in load steps */
 PetscErrorCode DynamicsSetRest(const Constraints *c, const DeadLoads *loads, PetscReal time, Vec u, Dynamics *d)
 {
   Vec add;
 
   PetscFunctionBegin;
-  if (!d->rest) PetscFunctionReturn(0);
-  PetscCall(ElasticityForce(c->bodies.elasticity, u, d->rest));
+  if (!d->residual) PetscFunctionReturn(0);
+  PetscCall(ElasticityForce(c->bodies.elasticity, u, d->residual));
   PetscCall(DeadLoadsGet(loads, time, &add));
-  if (add) PetscCall(VecAXPY(d->rest, -1.0, add));
+  if (add) PetscCall(VecAXPY(d->residual, -1.0, add));
   PetscCall(VecDestroy(&add));
   PetscCall(VecDuplicate(u, &add));
   PetscCall(SchemeGetDamping(&c->bodies.scene->dynamics, d, d->velocity, add));
-  PetscCall(VecAXPY(d->rest, 1.0, add));
+  PetscCall(VecAXPY(d->residual, 1.0, add));
   PetscCall(VecDestroy(&add));
   PetscFunctionReturn(0);
 }
@@ -143,10 +143,10 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Spri
   d->elasticity = c->bodies.elasticity;
   d->springs    = springs;
   if (scene->damping_stiffness > 0.0 || springs->dampers) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
-  if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->rest));
+  if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->residual));
   PetscCall(StartVelocity(c, d));
   PetscCall(StartAcceleration(c, loads, d));
-  if (d->rest) PetscCall(VecZeroEntries(d->auxiliary));
+  if (d->residual) PetscCall(VecZeroEntries(d->auxiliary));
   PetscCall(VecDuplicate(c->bodies.mass, &u));
   PetscCall(VecZeroEntries(u));
   PetscCall(MassMeasure(c, d, u, &d->kinetic, momentum, spin));
@@ -167,7 +167,7 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->inert));
   PetscCall(VecDestroy(&d->centre));
   PetscCall(VecDestroy(&d->viscous));
-  PetscCall(VecDestroy(&d->rest));
+  PetscCall(VecDestroy(&d->residual));
   PetscCall(VecDestroy(&d->turn));
   PetscCall(VecDestroy(&d->excess));
   PetscFunctionReturn(0);

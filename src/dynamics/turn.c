@@ -118,7 +118,7 @@ PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, D
   Vec            force;
 
   PetscFunctionBegin;
-  if (!d->rest || !c->rigid->turns) PetscFunctionReturn(0);
+  if (!d->residual || !c->rigid->turns) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&d->turn));
   PetscCall(PetscMalloc2(nbodies, &poses, 9 * nbodies, &sums));
   PetscCall(PetscCalloc1(nbodies, &bodies));

@@ -82,9 +82,9 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
     if (e->bodies[e->cellbody[c]].kept && !all) continue;
     ElasticityGetCell(e, c, x, ul, &cell);
     if (!cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, cell.U, K)) {
-      PetscReal rest[3][CELL_MAX_NODES] = {{0}};
+      PetscReal undeformed[3][CELL_MAX_NODES] = {{0}};
 
-      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, rest, K);
+      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, undeformed, K);
     }
     CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);

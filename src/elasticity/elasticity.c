@@ -46,12 +46,12 @@ static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *bo
 static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscInt start)
 {
   PetscSection section;
-  PetscInt     room = 8 * e->ncells;
+  PetscInt     capacity = 8 * e->ncells;
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalSection(e->dm, &section));
   PetscCall(PetscMalloc2(e->ncells + 1, &e->cellstart, e->ncells, &e->cellbody));
-  PetscCall(PetscMalloc1(room, &e->cellnodes));
+  PetscCall(PetscMalloc1(capacity, &e->cellnodes));
   e->cellstart[0] = 0;
   for (PetscInt c = 0; c < e->ncells; ++c) {
     PetscInt n, nodes[MESH_MAX_NODES];
@@ -64,9 +64,9 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
     PetscCall(MeshGetCellNodes(e->dm, start + c, &n, nodes));
     PetscCall(ElasticitySetBasis(e, n, &e->bodies[e->cellbody[c]]));
     e->cellstart[c + 1] = e->cellstart[c] + n;
-    if (e->cellstart[c + 1] > room) {
-      room = 2 * e->cellstart[c + 1];
-      PetscCall(PetscRealloc((size_t)room * sizeof(*e->cellnodes), &e->cellnodes));
+    if (e->cellstart[c + 1] > capacity) {
+      capacity = 2 * e->cellstart[c + 1];
+      PetscCall(PetscRealloc((size_t)capacity * sizeof(*e->cellnodes), &e->cellnodes));
     }
     for (PetscInt a = 0; a < n; ++a) {
       PetscInt offset;
@@ -75,7 +75,7 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
       e->cellnodes[e->cellstart[c] + a] = offset / 3;
     }
   }
-  if (e->cellstart[e->ncells] < room)
+  if (e->cellstart[e->ncells] < capacity)
     PetscCall(PetscRealloc((size_t)e->cellstart[e->ncells] * sizeof(*e->cellnodes), &e->cellnodes));
   PetscFunctionReturn(0);
 }

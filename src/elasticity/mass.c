@@ -16,9 +16,9 @@ static void CellMassLumped(Elasticity e, const CellState *cell, PetscScalar M[])
     if (!e->light || !e->light[cell->nodes[a]]) heavy += mass[a];
   }
   for (PetscInt a = 0; a < n; ++a) {
-    const PetscReal share = heavy == 0 ? 1 : e->light && e->light[cell->nodes[a]] ? 0 : all / heavy;
+    const PetscReal fraction = heavy == 0 ? 1 : e->light && e->light[cell->nodes[a]] ? 0 : all / heavy;
 
-    for (PetscInt i = 3 * a; i < 3 * a + 3; ++i) M[width * i + i] = share * mass[a];
+    for (PetscInt i = 3 * a; i < 3 * a + 3; ++i) M[width * i + i] = fraction * mass[a];
   }
 }
 

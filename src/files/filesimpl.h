@@ -63,7 +63,7 @@ PETSC_INTERN PetscErrorCode DatasetWriteIndices(IS, PetscViewer);
 #if !defined(CONTACT_PYTHON)
   #define CONTACT_PYTHON "python3" /* default; the makefile defines the interpreter that it found */
 #endif
-PETSC_INTERN PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t room);
+PETSC_INTERN PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t size);
 PETSC_INTERN int       ScriptRun(const char *const words[], char sentence[], size_t length);
 
 #endif

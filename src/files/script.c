@@ -13,13 +13,13 @@ extern char **environ;
    Finds a script of share/ relative to the program, in the sources or where `make install` has put it. If it is not
    found, returns false, and `sentence` explains it.
 */
-PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t room)
+PetscBool ScriptFind(const char name[], char script[], size_t length, char sentence[], size_t size)
 {
   static const char *const places[] = {"/../share/amgf/", "/../share/"};
   char                     program[PETSC_MAX_PATH_LEN];
   const ssize_t            n = readlink("/proc/self/exe", program, sizeof(program) - 1);
 
-  (void)snprintf(sentence, room, "share/%s is missing: it must be installed next to the program", name);
+  (void)snprintf(sentence, size, "share/%s is missing: it must be installed next to the program", name);
   if (n <= 0) return PETSC_FALSE;
   program[n] = '\0';
   if (strrchr(program, '/')) *strrchr(program, '/') = '\0';

@@ -71,7 +71,7 @@ static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(bodies->scene->nbodies, &unheld));
-  PetscCall(MeshGetUnheld(bodies->dm, bodies->scene, unheld));
+  PetscCall(MeshGetUnsupported(bodies->dm, bodies->scene, unheld));
   PetscCall(VecDuplicate(bodies->mass, &springs->weak));
   PetscCall(SpringsOfSize(bodies, bodies->scene->weak_springs, springs->weak));
   PetscCall(VecGetLocalSize(springs->weak, &n));

@@ -14,8 +14,8 @@
 /* Gets the moduli of the two neo-Hookean laws, that of F and that of cof F */
 static void MooneyRivlinSplit(const MaterialModuli *m, MaterialModuli *first, MaterialModuli *second)
 {
-  *first  = (MaterialModuli){.mu = m->mu * (1 - m->share), .bulk = m->bulk};
-  *second = (MaterialModuli){.mu = m->mu * m->share};
+  *first  = (MaterialModuli){.mu = m->mu * (1 - m->c01_fraction), .bulk = m->bulk};
+  *second = (MaterialModuli){.mu = m->mu * m->c01_fraction};
 }
 
 /* Computes the tensor cross product C = A x B */
@@ -124,9 +124,9 @@ static PetscErrorCode MaterialModuli_MooneyRivlin(const Material *material, Mate
     PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
     "c10 and c01 must not be negative, nor both zero, and the bulk modulus positive, but they are %g, %g and %g",
     (double)material->c10, (double)material->c01, (double)material->bulk);
-  moduli->mu    = 2 * (material->c10 + material->c01);
-  moduli->share = material->c01 / (material->c10 + material->c01);
-  moduli->bulk  = material->bulk;
+  moduli->mu           = 2 * (material->c10 + material->c01);
+  moduli->c01_fraction = material->c01 / (material->c10 + material->c01);
+  moduli->bulk         = material->bulk;
   PetscFunctionReturn(0);
 }
 

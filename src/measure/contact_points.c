@@ -244,7 +244,7 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
   PairReport *report)
 {
   PetscReal          sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
-  const PetscReal    share = rows->self ? 0.5 : 1.0;
+  const PetscReal    weight = rows->self ? 0.5 : 1.0;
   PetscSection       global;
   const PetscScalar *side;
   PetscInt           rstart;
@@ -261,8 +261,8 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
     largest = PetscMax(largest, point->pressure);
     if (!rows->self && PetscRealPart(side[i - rstart]) > 0.0) continue;
-    if (point->closed) sums[1] += share * point->area;
-    if (point->slips) sums[2] += share * point->area;
+    if (point->closed) sums[1] += weight * point->area;
+    if (point->slips) sums[2] += weight * point->area;
   }
   PetscCall(VecRestoreArrayRead(sides, &side));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, sim->comm));

@@ -15,11 +15,11 @@
 /* The rays whose sum is the nearest point found so far, with n numbers each, and their factors */
 typedef struct {
   PetscInt   n, nrays, nmax;
-  PetscReal *ray, *normal; /* rays; the parts of the rays from the rows' normal forces */
-  PetscReal *amount;       /* factor of each ray [force] */
-  PetscInt   ndone, ncap;  /* number of rays in `across` and `share`; number for which these have space */
-  PetscReal *across;       /* orthogonal rays of unit length */
-  PetscReal *share;        /* of each ray its components along these, k + 1 for ray k */
+  PetscReal *ray, *normal;    /* rays; the parts of the rays from the rows' normal forces */
+  PetscReal *amount;          /* factor of each ray [force] */
+  PetscInt   nfactored, ncap; /* number of rays in `Q` and `R`; number for which these have space */
+  PetscReal *Q;               /* orthogonal rays of unit length */
+  PetscReal *R;               /* of each ray its components along these, k + 1 for ray k */
 } ContactCone;
 
 /* The row that resists a motion most, and its friction; the same on all ranks */
@@ -42,8 +42,8 @@ static PetscErrorCode ConeFree(ContactCone *cone)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
-  PetscCall(PetscFree(cone->across));
-  PetscCall(PetscFree(cone->share));
+  PetscCall(PetscFree(cone->Q));
+  PetscCall(PetscFree(cone->R));
   PetscFunctionReturn(0);
 }
 
@@ -155,9 +155,9 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-static PetscReal *ConeShare(const ContactCone *cone, PetscInt ray)
+static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
 {
-  return cone->share + ray * (ray + 1) / 2;
+  return cone->R + ray * (ray + 1) / 2;
 }
 
 /* Orthogonalizes the rays that were added since the last call */
@@ -169,22 +169,22 @@ static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
   PetscFunctionBegin;
   if (cone->ncap < cone->nrays) {
     cone->ncap = 2 * cone->nrays;
-    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(n * cone->ncap), &cone->across));
-    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(cone->ncap * (cone->ncap + 1) / 2), &cone->share));
+    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(n * cone->ncap), &cone->Q));
+    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(cone->ncap * (cone->ncap + 1) / 2), &cone->R));
   }
-  for (; cone->ndone < cone->nrays; ++cone->ndone) {
-    const PetscInt k = cone->ndone;
-    PetscReal     *q = &cone->across[n * k], *share = ConeShare(cone, k), whole, rest;
+  for (; cone->nfactored < cone->nrays; ++cone->nfactored) {
+    const PetscInt k = cone->nfactored;
+    PetscReal     *q = &cone->Q[n * k], *R = ConeColumn(cone, k), whole, remainder;
 
     PetscCall(PetscArraycpy(q, &cone->ray[n * k], n));
     whole = ConeDot(n, q, q);
     for (PetscInt j = 0; j < k; ++j) {
-      share[j] = ConeDot(n, q, &cone->across[n * j]);
-      for (PetscInt i = 0; i < n; ++i) q[i] -= share[j] * cone->across[n * j + i];
+      R[j] = ConeDot(n, q, &cone->Q[n * j]);
+      for (PetscInt i = 0; i < n; ++i) q[i] -= R[j] * cone->Q[n * j + i];
     }
-    rest     = ConeDot(n, q, q);
-    share[k] = rest > dependent * whole ? PetscSqrtReal(rest) : 0.0;
-    for (PetscInt i = 0; i < n; ++i) q[i] = share[k] > 0.0 ? q[i] / share[k] : 0.0;
+    remainder = ConeDot(n, q, q);
+    R[k]      = remainder > dependent * whole ? PetscSqrtReal(remainder) : 0.0;
+    for (PetscInt i = 0; i < n; ++i) q[i] = R[k] > 0.0 ? q[i] / R[k] : 0.0;
   }
   PetscFunctionReturn(0);
 }
@@ -195,10 +195,10 @@ static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], Petsc
   PetscFunctionBegin;
   PetscCall(ConeOrthogonalize(cone));
   for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
-    const PetscReal own = ConeShare(cone, k)[k];
+    const PetscReal own = ConeColumn(cone, k)[k];
 
-    amount[k] = -ConeDot(cone->n, load, &cone->across[cone->n * k]);
-    for (PetscInt j = k + 1; j < cone->nrays; ++j) amount[k] -= ConeShare(cone, j)[k] * amount[j];
+    amount[k] = -ConeDot(cone->n, load, &cone->Q[cone->n * k]);
+    for (PetscInt j = k + 1; j < cone->nrays; ++j) amount[k] -= ConeColumn(cone, j)[k] * amount[j];
     amount[k] = own > 0.0 ? amount[k] / own : 0.0;
   }
   PetscFunctionReturn(0);
@@ -213,7 +213,7 @@ static void ConeDrop(ContactCone *cone)
   for (PetscInt k = 0; k < cone->nrays; ++k) largest = PetscMax(largest, cone->amount[k]);
   for (PetscInt k = 0; k < cone->nrays; ++k) {
     if (cone->amount[k] <= 1e-14 * largest) {
-      cone->ndone = PetscMin(cone->ndone, kept);
+      cone->nfactored = PetscMin(cone->nfactored, kept);
       continue;
     }
     cone->amount[kept] = cone->amount[k];
@@ -301,7 +301,7 @@ static void ConeSlide(const ContactCone *cone, PetscReal motion[])
   PetscReal     *own = cone->normal;
 
   for (PetscInt k = 0; k < cone->nrays; ++k) {
-    PetscReal *v = &own[n * k], whole = ConeDot(n, v, v), rest;
+    PetscReal *v = &own[n * k], whole = ConeDot(n, v, v), remainder;
 
     for (PetscInt pass = 0; pass < 2; ++pass) {
       for (PetscInt j = 0; j < k; ++j) {
@@ -310,8 +310,8 @@ static void ConeSlide(const ContactCone *cone, PetscReal motion[])
         for (PetscInt i = 0; i < n; ++i) v[i] -= along * own[n * j + i];
       }
     }
-    rest = ConeDot(n, v, v);
-    for (PetscInt i = 0; i < n; ++i) v[i] = rest > 1e-12 * whole ? v[i] / PetscSqrtReal(rest) : 0.0;
+    remainder = ConeDot(n, v, v);
+    for (PetscInt i = 0; i < n; ++i) v[i] = remainder > 1e-12 * whole ? v[i] / PetscSqrtReal(remainder) : 0.0;
   }
   for (PetscInt k = 0; k < cone->nrays; ++k) {
     const PetscReal along = ConeDot(n, motion, &own[n * k]);

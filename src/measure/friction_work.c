@@ -115,15 +115,15 @@ static PetscReal FrictionLateWork(PetscReal before, PetscReal now, const PetscRe
 
 /*
    Returns the part of FrictionLateWork() that counts. An open row slipped until it opened. This is assumed if it moved
-   farther along the face than away from it. The force that it lost must be found in other rows of its pair: share is
+   farther along the face than away from it. The force that it lost must be found in other rows of its pair: ratio is
    the sum of the bounds of the pair over that at the last state.
 */
-static PetscReal FrictionLateShare(PetscReal now, PetscReal gap, const PetscScalar s[2], PetscReal share)
+static PetscReal FrictionLatePart(PetscReal now, PetscReal gap, const PetscScalar s[2], PetscReal ratio)
 {
   const PetscReal square = PetscSqr(PetscRealPart(s[0])) + PetscSqr(PetscRealPart(s[1]));
 
   if (now > 0.0) return 1.0;
-  return gap * gap < square ? PetscMin(share, 1.0) : 0.0;
+  return gap * gap < square ? PetscMin(ratio, 1.0) : 0.0;
 }
 
 /*
@@ -142,7 +142,7 @@ static PetscReal FrictionOpenWork(PetscReal now, const PetscReal old[3], const P
 
 /* Computes the bounds of all rows [force], and for each pair their sum over that at the last state */
 static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal bound[],
-  PetscReal share[])
+  PetscReal ratio[])
 {
   ContactLinearization  lin = sim->solved->linearization;
   const ContactHistory *m   = sim->history;
@@ -167,7 +167,7 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
     sums[2 * (k / m->nowned) + 1] += m->bound[k];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt p = 0; p < m->npairs; ++p) share[p] = sums[2 * p + 1] > 0.0 ? sums[2 * p] / sums[2 * p + 1] : 0.0;
+  for (PetscInt p = 0; p < m->npairs; ++p) ratio[p] = sums[2 * p + 1] > 0.0 ? sums[2 * p] / sums[2 * p + 1] : 0.0;
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
@@ -196,11 +196,11 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   ContactLinearization  lin = sim->solved->linearization;
   const ContactHistory *m   = sim->history;
   const PetscScalar    *f, *s, *g;
-  PetscReal            *share;
+  PetscReal            *ratio;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(m->npairs, &share));
-  PetscCall(FrictionGetBounds(sim, time, sol, bound, share));
+  PetscCall(PetscMalloc1(m->npairs, &ratio));
+  PetscCall(FrictionGetBounds(sim, time, sol, bound, ratio));
   PetscCall(PetscArrayzero(late, m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
@@ -208,7 +208,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   for (PetscInt r = 0; r < lin->nlocal && !SimulationIsDynamic(sim); ++r) {
     const PetscInt   k       = ContactHistoryIndex(m, lin, r);
     const PetscReal *tangent = &lin->tangent[6 * r], *old = &m->settled[3 * k];
-    const PetscReal  counts = FrictionLateShare(bound[k], PetscRealPart(g[r]), &s[2 * r], share[lin->pair[r]]);
+    const PetscReal  counts = FrictionLatePart(bound[k], PetscRealPart(g[r]), &s[2 * r], ratio[lin->pair[r]]);
 
     late[k] = counts * FrictionLateWork(m->bound[k], bound[k], old, tangent, &f[2 * r], &s[2 * r]) +
               (1.0 - counts) * FrictionOpenWork(bound[k], old, tangent, &s[2 * r]);
@@ -217,7 +217,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
   PetscCall(VecRestoreArrayRead(sol->shear, &f));
-  PetscCall(PetscFree(share));
+  PetscCall(PetscFree(ratio));
   PetscFunctionReturn(0);
 }
 

@@ -193,7 +193,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   StepReport *report)
 {
   const Constraints constraints = SimulationConstraints(sim);
-  Vec               force, ties, rigid, contact = NULL, weighted = NULL, dead = load;
+  Vec               force, ties, rigid, contact = NULL, weighted = NULL, applied = load;
   PetscReal         size, residual, rounding, late = 0.0;
   PetscBool         moves; /* whether the bodies only move as a whole, without stress */
 
@@ -208,19 +208,19 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(VecNorm(force, NORM_2, &size));
   moves = (PetscBool)(size <= rounding);
   if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
-  if (inertia) dead = inertia; /* the loads together with the forces of inertia */
-  if (dead) PetscCall(VecAXPY(force, -1.0, dead));
+  if (inertia) applied = inertia; /* the loads together with the forces of inertia */
+  if (applied) PetscCall(VecAXPY(force, -1.0, applied));
   if (sol->pressure) {
     PetscCall(MeasureContact(sim, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
-    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, dead));
+    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, applied));
     if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, dead, ties, rounding, report)); /* needs all forces on faces */
+  PetscCall(ForcesMeasureBodies(sim, u, applied, ties, rounding, report)); /* needs all forces on faces */
   if (SchemeIsImpact(&sim->scene->dynamics)) {
     PetscCall(MeasureShareForces(sim, force, ties, rigid));
     PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));

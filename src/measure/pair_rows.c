@@ -61,7 +61,7 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
     for (PetscInt c = 0; c < 3; ++c) {
       rows->shear[c * rows->n + r] = (f[0] * t[c] + f[1] * t[3 + c]) / PetscRealPart(mass[r]);
       rows->slid[c * rows->n + r] =
-        (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->share[r] / rows->area[r];
+        (s[0] * t[c] + s[1] * t[3 + c]) * PetscRealPart(mass[r]) * rows->covered[r] / rows->area[r];
     }
   }
   PetscFunctionReturn(0);
@@ -81,7 +81,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
           .frictional         = (PetscBool)(sim->solved->linearization->slip && SceneContactPairHasFriction(faces))};
   rows->young = PetscMin(SceneFaceBody(sim->scene, faces->mortar)->material.young,
     SceneFaceBody(sim->scene, faces->nonmortar)->material.young);
-  PetscCall(PetscCalloc7(n, &rows->area, n, &rows->share, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
+  PetscCall(PetscCalloc7(n, &rows->area, n, &rows->covered, 3 * n, &rows->normal, n, &rows->pressure, n, &rows->gap, n,
     &rows->closed, n, &rows->length));
   PetscCall(PetscCalloc3(n, &rows->own, n, &rows->facing, n, &rows->presses));
   PetscCall(PetscMalloc1(3 * n, &force));
@@ -93,7 +93,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
 
     if (!(size > 0.0)) continue;
     rows->area[r]     = VectorNorm(&force[3 * r]);
-    rows->share[r]    = rows->area[r] / size;
+    rows->covered[r]  = rows->area[r] / size;
     rows->pressure[r] = sim->solved->pressure[r];
     rows->length[r] = rows->own[r] = PetscSqrtReal(PetscRealPart(mass[r]));
     rows->gap[r]                   = sim->solved->gap[r] * PetscRealPart(mass[r]) / size;
@@ -112,6 +112,6 @@ PetscErrorCode PairRowsDestroy(PairRows *rows)
   PetscFunctionBegin;
   if (rows->frictional) PetscCall(PetscFree3(rows->slips, rows->shear, rows->slid));
   PetscCall(PetscFree3(rows->own, rows->facing, rows->presses));
-  PetscCall(PetscFree7(rows->area, rows->share, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
+  PetscCall(PetscFree7(rows->area, rows->covered, rows->normal, rows->pressure, rows->gap, rows->closed, rows->length));
   PetscFunctionReturn(0);
 }

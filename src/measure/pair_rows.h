@@ -7,11 +7,11 @@
 /*
    The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, where w_A n_A = mass_A x sum of J_AB over
    the mortar vertices B. w_A is the area that the mortar side covers around A; it is zero in rows of other pairs. Areas
-   are distributed to vertices by lin->cover, whose sum times share_A is w_A, with the normal n_A.
+   are distributed to vertices by lin->cover, whose sum times covered_A is w_A, with the normal n_A.
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *share, *normal; /* w [length^2]; see above; n, 3 numbers per row */
+  PetscReal *area, *covered, *normal; /* w [length^2]; see above; n, 3 numbers per row */
   PetscReal *pressure, *gap, *closed;
   PetscReal *presses;    /* closed before the pressures were smoothed by pair_resolve.c */
   PetscReal  young;      /* Young's modulus of the softer body [force/length^2] */

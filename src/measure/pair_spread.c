@@ -44,7 +44,7 @@ static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal val
   PetscCall(MatGetOwnershipRange(PairCover(lin), &rstart, NULL));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    const PetscReal    factor = PetscRealPart(mass[r]) * rows->share[r] * (value ? value[r] : 1.0);
+    const PetscReal    factor = PetscRealPart(mass[r]) * rows->covered[r] * (value ? value[r] : 1.0);
     const PetscInt    *column;
     const PetscScalar *entry;
     PetscInt           n;
@@ -67,7 +67,7 @@ static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal val
 }
 
 /*
-   Adds to v[to] at the vertices B: factor x sum_A mass_A A_AB . n_A share_A value_A (value NULL: 1). sides: the factor
+   Adds to v[to] at the vertices B: factor x sum_A mass_A A_AB . n_A covered_A value_A (value NULL: 1). sides: the factor
    is multiplied by its first value; NULL: 1
 */
 static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, const PetscReal value[],
@@ -91,7 +91,7 @@ static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, 
     PetscCall(VecGetArrayRead(lin->mass, &mass));
     PetscCall(VecGetArrayWrite(weighted, &y));
     for (PetscInt r = 0; r < rows->n; ++r)
-      y[r] = mass[r] * rows->normal[3 * r + c] * rows->share[r] * (value ? value[r] : 1.0);
+      y[r] = mass[r] * rows->normal[3 * r + c] * rows->covered[r] * (value ? value[r] : 1.0);
     PetscCall(VecRestoreArrayWrite(weighted, &y));
     PetscCall(VecRestoreArrayRead(lin->mass, &mass));
     PetscCall(MatMultTranspose(A, weighted, spread));
@@ -113,7 +113,7 @@ static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, 
 }
 
 /*
-   Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| share_A value_A (value NULL: 1). This
+   Adds to v[to], at the vertices B of both sides, sum_A |mass_A cover_AB . n_A| covered_A value_A (value NULL: 1). This
    is the integral of the rows' field times B's shape function. Over a side these integrals sum to the sum of w_A
    value_A. If both sides are one face, `cover` holds the difference of the two sides' integrals. Their sum is then
    computed as twice the part of the mortar side minus `cover`.
@@ -198,7 +198,7 @@ static PetscErrorCode PairPlaceAlong(const PairRows *rows, PetscInt c, Vec sides
 }
 
 /*
-   Computes value_A = sum over the mortar vertices B of mass_A cover_AB . n_A share_A v[from]_B / w_A, the mean of a
+   Computes value_A = sum over the mortar vertices B of mass_A cover_AB . n_A covered_A v[from]_B / w_A, the mean of a
    mortar field over the row; 0 in rows of other pairs. Collective.
 */
 PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v, PetscInt from, PetscReal value[])
@@ -218,7 +218,7 @@ PetscErrorCode PairGather(Simulation sim, const PairRows *rows, Vec sides, Vec v
     PetscCall(VecGetArrayRead(sum, &s));
     for (PetscInt r = 0; r < rows->n; ++r) {
       if (rows->area[r] > 0.0)
-        value[r] += PetscRealPart(mass[r] * s[r]) * rows->normal[3 * r + c] * rows->share[r] / rows->area[r];
+        value[r] += PetscRealPart(mass[r] * s[r]) * rows->normal[3 * r + c] * rows->covered[r] / rows->area[r];
     }
     PetscCall(VecRestoreArrayRead(sum, &s));
   }

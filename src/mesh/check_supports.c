@@ -408,7 +408,7 @@ static PetscErrorCode SupportSortLinks(const Support *support, PetscInt **start,
 
 /* Finds the bodies that are held by the ground, then bodies that are held by held bodies, and so on. For most
    assemblies the cost is proportional to the number of links. */
-static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
+static PetscErrorCode SupportFindRestrained(const Support *support, PetscBool restrained[])
 {
   PetscInt *start, *links, *queue, n = 0;
   PetscReal(*ground)[36];
@@ -421,18 +421,18 @@ static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
     if (support->links[l].body[1] < 0) SupportAddBlock(support, l, 0, ground[support->links[l].body[0]]);
   }
   for (PetscInt b = 0; b < support->nbodies; ++b) {
-    held[b] = SupportIsFull(ground[b]);
-    if (held[b]) queue[n++] = b;
+    restrained[b] = SupportIsFull(ground[b]);
+    if (restrained[b]) queue[n++] = b;
   }
   for (PetscInt k = 0; k < n; ++k) {
     for (PetscInt i = start[queue[k]]; i < start[queue[k] + 1]; ++i) {
       const SupportLink *link = &support->links[links[i]];
       const PetscInt     end = link->body[0] == queue[k] ? 1 : 0, other = link->body[end];
 
-      if (other < 0 || held[other]) continue;
+      if (other < 0 || restrained[other]) continue;
       SupportAddBlock(support, links[i], end, ground[other]);
-      held[other] = SupportIsFull(ground[other]);
-      if (held[other]) queue[n++] = other;
+      restrained[other] = SupportIsFull(ground[other]);
+      if (restrained[other]) queue[n++] = other;
     }
   }
   PetscCall(PetscFree(ground));
@@ -504,7 +504,7 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
    held. */
 static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
 {
-  PetscBool *held;
+  PetscBool *restrained;
   PetscInt  *place, m = 0;
   PetscReal *gram, *free_part;
 
@@ -512,15 +512,15 @@ static PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, support->gram, (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK),
       MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
-  PetscCall(PetscMalloc2(support->nbodies, &held, support->nbodies, &place));
-  PetscCall(SupportFindHeld(support, held));
-  for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = held[b] ? PETSC_DECIDE : m++;
+  PetscCall(PetscMalloc2(support->nbodies, &restrained, support->nbodies, &place));
+  PetscCall(SupportFindRestrained(support, restrained));
+  for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = restrained[b] ? PETSC_DECIDE : m++;
   PetscCall(PetscCalloc2(36 * m * m, &gram, 6 * m, &free_part));
   SupportGather(support, place, 6 * m, gram);
   SupportProject(6 * m, gram, free_part);
-  for (PetscInt k = 0; k < support->n; ++k) outside[k] = held[k / 6] ? 0 : free_part[6 * place[k / 6] + k % 6];
+  for (PetscInt k = 0; k < support->n; ++k) outside[k] = restrained[k / 6] ? 0 : free_part[6 * place[k / 6] + k % 6];
   PetscCall(PetscFree2(gram, free_part));
-  PetscCall(PetscFree2(held, place));
+  PetscCall(PetscFree2(restrained, place));
   PetscFunctionReturn(0);
 }
 
@@ -605,7 +605,7 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 
 /* Collective. Finds the bodies with free modes. The first of them is reported as an error, unless the scene has weak
    springs. unheld: whether each body has a free mode; NULL if not needed */
-static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
+static PetscErrorCode SupportFindUnsupported(DM dm, Scene scene, PetscBool unsupported[])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   const PetscInt         nlinks =
@@ -642,14 +642,15 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
     PetscCall(SupportAddJoint(&support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(&support, &scene->cyclic[k]));
   PetscCall(SupportGetFree(&support, outside));
-  for (PetscInt k = 0; unheld && k < support.n; ++k) unheld[k / 6] = (PetscBool)(unheld[k / 6] || outside[k] > 2e-6);
+  for (PetscInt k = 0; unsupported && k < support.n; ++k)
+    unsupported[k / 6] = (PetscBool)(unsupported[k / 6] || outside[k] > 2e-6);
   if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
   PetscCall(PetscFree5(support.center, support.size, support.links, support.gram, outside));
   PetscFunctionReturn(0);
 }
 
 /*@
-  MeshGetUnheld - Finds the bodies that have free rigid body motions
+  MeshGetUnsupported - Finds the bodies that have free rigid body motions
 
   Collective
 
@@ -664,11 +665,11 @@ static PetscErrorCode SupportFindUnheld(DM dm, Scene scene, PetscBool unheld[])
 
 .seealso: `MeshCheckScene()`
 @*/
-PetscErrorCode MeshGetUnheld(DM dm, Scene scene, PetscBool unheld[])
+PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(unheld, scene->nbodies));
-  PetscCall(SupportFindUnheld(dm, scene, unheld));
+  PetscCall(PetscArrayzero(unsupported, scene->nbodies));
+  PetscCall(SupportFindUnsupported(dm, scene, unsupported));
   PetscFunctionReturn(0);
 }
 
@@ -716,6 +717,6 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
     PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].from));
     PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].to));
   }
-  if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnheld(dm, scene, NULL));
+  if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnsupported(dm, scene, NULL));
   PetscFunctionReturn(0);
 }

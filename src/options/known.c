@@ -116,13 +116,13 @@ size_t OptionPrefixLength(const char name[])
 */
 PetscBool OptionIsKnown(const char name[])
 {
-  const char *rest = name + OptionAllPrefixes(name);
+  const char *suffix = name + OptionAllPrefixes(name);
 
   if (OptionIsOneOf(name, OptionsOurs)) return PETSC_TRUE;
   if (!strncasecmp(name, "no_", 3) && OptionIsKnown(name + 3)) return PETSC_TRUE;
-  if (OptionBeginning(rest, OptionsAMGF)) return OptionIsOneOf(rest, OptionsOurs);
-  if (!strcasecmp(rest, "h") || !strcasecmp(rest, "v")) return PETSC_TRUE;
-  return OptionBeginning(rest, OptionsKinds) ? PETSC_TRUE : PETSC_FALSE;
+  if (OptionBeginning(suffix, OptionsAMGF)) return OptionIsOneOf(suffix, OptionsOurs);
+  if (!strcasecmp(suffix, "h") || !strcasecmp(suffix, "v")) return PETSC_TRUE;
+  return OptionBeginning(suffix, OptionsKinds) ? PETSC_TRUE : PETSC_FALSE;
 }
 
 PetscBool OptionGetKind(const char name[], OptionKind *kind)

@@ -22,7 +22,7 @@
          its tolerance, and a second run costs more than a Newton step */
 
 /* Values of -accuracy_of. `force` and `displacement` include the energy; `pressure` includes energy and force. */
-typedef enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT } AccuracyTarget;
+enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT };
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
 /*@C

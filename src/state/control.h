@@ -46,12 +46,12 @@ struct _n_StepControl {
   KSP             ksp;     /* linear solver for quadratic load steps without contact; NULL until it is needed */
   Forecast        forecast;
   StepObserver    observer;
-  PetscInt        unheld;      /* number of consecutive attempts at this load step that failed because contact cannot
+  PetscInt        unsupported;    /* number of consecutive attempts at this load step that failed because contact cannot
                                  hold the loads; a proven failure counts 2 */
-  char           *cause;       /* reason for which the first of these attempts failed; NULL if there was none */
-  PetscReal       weak_share;  /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
+  char           *cause;          /* reason for which the first of these attempts failed; NULL if there was none */
+  PetscReal       weak_stiffness; /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
                                  of the bodies; 0: no such term */
-  int             interrupted; /* signal that was caught; 0: none */
+  int             interrupted;    /* signal that was caught; 0: none */
 };
 
 #endif

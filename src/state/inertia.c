@@ -92,7 +92,7 @@ PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, P
   PetscFunctionBegin;
   PetscCall(InertiaGetForce(sim, u, &force));
   PetscCall(VecNorm(force, NORM_2, &after));
-  PetscCall(VecNorm(d->rest, NORM_2, &before));
+  PetscCall(VecNorm(d->residual, NORM_2, &before));
   last      = d->excess;
   d->excess = force;
   PetscCall(InertiaSetExcess(sim, u));

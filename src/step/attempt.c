@@ -70,18 +70,18 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
    further. A failure counts 2 if it is proven and no prescribed displacement moves, since smaller increments start from
    the same positions. Other failures count 1.
 */
-static PetscErrorCode AttemptCountUnheld(const StepProblem *p, const StepReport *report)
+static PetscErrorCode AttemptCountUnsupported(const StepProblem *p, const StepReport *report)
 {
   Simulation sim = p->sim;
   PetscBool  still;
 
   PetscFunctionBegin;
-  if (report->converged || (!p->unheld && !p->moves_on)) {
-    sim->control->unheld = 0;
+  if (report->converged || (!p->unsupported && !p->moves_on)) {
+    sim->control->unsupported = 0;
     PetscFunctionReturn(0);
   }
   PetscCall(VecEqual(p->base, sim->path->u, &still));
-  sim->control->unheld += still && p->unheld ? 2 : 1;
+  sim->control->unsupported += still && p->unsupported ? 2 : 1;
   if (!sim->control->cause) PetscCall(PetscStrallocpy(report->reason, &sim->control->cause));
   PetscFunctionReturn(0);
 }
@@ -118,6 +118,65 @@ static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u
   PetscFunctionReturn(0);
 }
 
+/* Collective. Before the first load step: warns of contact pairs that penetrate or are apart */
+static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report)
+{
+  PetscFunctionBegin;
+  if (!sim->contact || sim->path->time > 0.0 || report->cuts || sim->control->forecast.failed) PetscFunctionReturn(0);
+  if (!sim->solved->upcoming) PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &sim->solved->upcoming));
+  PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
+  PetscCall(StartWarn(sim, sim->solved->upcoming));
+  PetscFunctionReturn(0);
+}
+
+/* Solves with contact. If no state is found without the weak springs that hold loose bodies, they are added. */
+static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
+  ContactSolution *sol, ContactLinearization *at_u)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactUpdatesSolve(p, foreseen, u, report, sol, at_u));
+  while (!report->converged && ProximalMayHoldWeak(p)) {
+    PetscCall(ContactLinearizationDestroy(at_u));
+    PetscCall(ContactLinearizationDestroy(&p->sim->solved->linearization));
+    PetscCall(ProximalHoldWeak(p, u));
+    PetscCall(ContactUpdatesSolve(p, PETSC_FALSE, u, report, sol, at_u));
+  }
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(MissedFindPassed(p->sim, p->time, u, report));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Measures the new state and makes it the last one of sim->path, which takes u. *at_u: the linearization at u, which
+   the next load step takes
+*/
+static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol, ContactLinearization *at_u,
+  StepReport *report)
+{
+  Simulation sim = p->sim;
+  Vec        inertia;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(InertiaGetForce(sim, *u, &inertia));
+  PetscCall(ElasticityCommit(sim->elasticity, *u));
+  PetscCall(InertiaAdvance(sim, p->time, *u));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(MeasureState(sim, p->time, p->load, inertia, *u, sol, report));
+  PetscCall(VecDestroy(&inertia));
+  if (sim->contact) PetscCall(AttemptKeepSurface(sim, sol));
+  if (sim->contact) PetscCall(FrictionSettle(sim, p->time, *u, sol));
+  PetscCall(PathAdvance(sim->path, p->time, u));
+  PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
+  /* if only the gap was computed, the next load step must linearize again */
+  if (*at_u && (*at_u)->gaps_only) PetscCall(ContactLinearizationDestroy(at_u));
+  sim->solved->upcoming = *at_u;
+  if (*at_u) PetscCall(InterferenceAdd(sim, p->time, -1.0, sim->solved->upcoming));
+  *at_u = NULL;
+  PetscFunctionReturn(0);
+}
+
 /*
    Attempts to advance the state to `time`. After success sim->path, sim->solved->linearization, pressures and gaps are
    those of the new state. After a failure they are unchanged.
@@ -127,16 +186,12 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   const PetscInt       first = sim->scene->displacement_bounds;
   StepProblem          p;
   ContactSolution      sol  = {.gap = NULL};
-  ContactLinearization good = sim->solved->linearization, at_u = NULL;
+  ContactLinearization last = sim->solved->linearization, at_u = NULL;
   PetscBool            foreseen;
-  Vec                  u, inertia;
+  Vec                  u;
 
   PetscFunctionBegin;
-  if (sim->contact && sim->path->time == 0.0 && !report->cuts && !sim->control->forecast.failed) {
-    if (!sim->solved->upcoming) PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &sim->solved->upcoming));
-    PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
-    PetscCall(StartWarn(sim, sim->solved->upcoming));
-  }
+  PetscCall(AttemptCheckStart(sim, report));
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
@@ -144,43 +199,18 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (first && time > (PetscReal)(first - 1) && sim->path->largest_increment > 0.0)
     PetscCall(StepProblemSetBounds(&p, sim->path->largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
-  if (sim->contact) {
-    PetscCall(ContactUpdatesSolve(&p, foreseen, u, report, &sol, &at_u));
-    while (!report->converged && ProximalMayHoldWeak(&p)) {
-      PetscCall(ContactLinearizationDestroy(&at_u));
-      PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
-      PetscCall(ProximalHoldWeak(&p, u));
-      PetscCall(ContactUpdatesSolve(&p, PETSC_FALSE, u, report, &sol, &at_u));
-    }
-    PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-    PetscCall(MissedFindPassed(sim, time, u, report));
-    PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
-  } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
-
-  PetscCall(AttemptCountUnheld(&p, report));
+  if (sim->contact) PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
+  else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
+  PetscCall(AttemptCountUnsupported(&p, report));
   PetscCall(AttemptJudgeTimeStep(sim, time, u, report));
   if (report->converged) {
-    PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-    PetscCall(InertiaGetForce(sim, u, &inertia));
-    PetscCall(ElasticityCommit(sim->elasticity, u));
-    PetscCall(InertiaAdvance(sim, time, u));
-    PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
-    PetscCall(MeasureState(p.sim, p.time, p.load, inertia, u, &sol, report));
-    PetscCall(VecDestroy(&inertia));
-    if (sim->contact) PetscCall(AttemptKeepSurface(sim, &sol));
-    if (sim->contact) PetscCall(FrictionSettle(sim, time, u, &sol));
-    PetscCall(PathAdvance(sim->path, time, &u));
-    PetscCall(ContactLinearizationDestroy(&good));
-    PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
-    /* if only the gap was computed, the next load step must linearize again */
-    if (at_u && at_u->gaps_only) PetscCall(ContactLinearizationDestroy(&at_u));
-    sim->solved->upcoming = at_u;
-    if (at_u) PetscCall(InterferenceAdd(sim, time, -1.0, sim->solved->upcoming));
+    PetscCall(AttemptAccept(&p, &u, &sol, &at_u, report));
+    PetscCall(ContactLinearizationDestroy(&last));
   } else if (sim->contact) {
     PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
-    sim->solved->linearization = good;
-    PetscCall(ContactLinearizationDestroy(&at_u));
+    sim->solved->linearization = last;
   }
+  PetscCall(ContactLinearizationDestroy(&at_u));
   PetscCall(VecDestroy(&u));
   PetscCall(ContactSolutionDestroy(&sol));
   PetscCall(StepProblemDestroy(&p));

@@ -27,7 +27,7 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   sim->report.nsteps    = step + 1 - sim->control->first_step;
   sim->path->unbalanced = sim->path->turnover = 0.0;
   sim->path->pressed                          = sim->path->presses;
-  sim->control->unheld                        = 0;
+  sim->control->unsupported                   = 0;
   PetscCall(PetscFree(sim->control->cause));
   sim->control->time_step = (TimeStepControl){.shortest = 1.0};
   if (sim->contact && scene->dynamics.tolerance > 0.0)
@@ -89,7 +89,7 @@ static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscRea
 
   PetscFunctionBegin;
   *again = (PetscBool)(!linear && !sim->control->interrupted && report->cuts < sim->control->maxcuts &&
-                       sim->control->unheld < 2);
+                       sim->control->unsupported < 2);
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
@@ -129,6 +129,59 @@ static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
   return longer;
 }
 
+/*
+   Collective. Takes one increment towards the end of the step, and chooses the next one. *again: set to false if the
+   increment cannot be cut further
+*/
+static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepReport *report, PetscReal *increment,
+  PetscBool *again)
+{
+  const PetscReal left = end - sim->path->time;
+  PetscBool       anew;
+
+  PetscFunctionBegin;
+  if (*increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) *increment = left;
+  PetscCall(SimulationAttempt(sim, *increment == left ? end : sim->path->time + *increment, report));
+  if (report->converged) {
+    ++report->substeps;
+    if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
+    *increment = SimulationLengthen(sim, *increment);
+  }
+  if (sim->control->time_step.too_long) PetscCall(SimulationShorten(sim, report, increment));
+  else {
+    PetscCall(ForecastAssess(sim, report->converged, &anew));
+    if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, increment, again));
+  }
+  sim->control->increment = *increment;
+  PetscFunctionReturn(0);
+}
+
+/* Writes the outcome of the step into the report of the run */
+static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
+{
+  PetscFunctionBegin;
+  /* the reason of the first of the failed attempts is reported, not that of a later one with a smaller increment */
+  if (!report->converged && sim->control->cause && !sim->control->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause));
+  if (!report->converged || report->gap_unconverged) sim->report.reason = report->reason;
+  if (report->converged) PetscFunctionReturn(0);
+  sim->report.converged = PETSC_FALSE;
+  sim->report.exit_code = sim->control->interrupted ? RUN_INTERRUPTED
+                          : report->gap_unconverged ? RUN_GAP_UNCONVERGED
+                                                    : RUN_FAILED;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Warns of what the whole run shows, after its last step */
+static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(StartWarnOfUnmet(sim, report));
+  PetscCall(PenetrationWarn(sim));
+  PetscCall(PairMeshWarn(sim));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationStep - Solves the next load step
 
@@ -166,7 +219,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
   const PetscReal end       = (PetscReal)(step + 1);
   PetscReal       increment = sim->control->increment > 0.0 ? sim->control->increment : end - sim->path->time;
-  PetscBool       again     = PETSC_TRUE, anew, stop;
+  PetscBool       again     = PETSC_TRUE, stop;
   StepReport     *report;
   PetscLogDouble  t0, t1;
 
@@ -177,49 +230,22 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationBeginReport(sim, step, report));
   if (sim->control->observer.begin) PetscCall(sim->control->observer.begin(sim));
   while (again && sim->path->time < end) {
-    const PetscReal left = end - sim->path->time;
-
     PetscCall(InterruptTest(sim, &stop));
     if (stop) {
       PetscCall(InterruptReport(sim, report));
       break;
     }
-    if (increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) increment = left;
-    PetscCall(SimulationAttempt(sim, increment == left ? end : sim->path->time + increment, report));
-    if (report->converged) {
-      ++report->substeps;
-      if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
-      increment = SimulationLengthen(sim, increment);
-    }
-    if (sim->control->time_step.too_long) PetscCall(SimulationShorten(sim, report, &increment));
-    else {
-      PetscCall(ForecastAssess(sim, report->converged, &anew));
-      if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, &increment, &again));
-    }
-    sim->control->increment = increment;
+    PetscCall(SimulationAdvance(sim, end, report, &increment, &again));
   }
   if (sim->path->time >= end) {
     if (sim->scene->dynamics.tolerance == 0.0) sim->control->increment = 0.0;
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
   }
-  /* the reason of the first of these attempts is reported, not that of a later one with a smaller increment */
-  if (!report->converged && sim->control->cause && !sim->control->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause));
-  if (!report->converged) {
-    sim->report.converged = PETSC_FALSE;
-    sim->report.reason    = report->reason;
-    sim->report.exit_code = sim->control->interrupted ? RUN_INTERRUPTED
-                            : report->gap_unconverged ? RUN_GAP_UNCONVERGED
-                                                      : RUN_FAILED;
-  } else if (report->gap_unconverged) sim->report.reason = report->reason;
+  PetscCall(SimulationReportStep(sim, report));
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
-  if (report->converged && step + 1 == sim->scene->nsteps) {
-    PetscCall(StartWarnOfUnmet(sim, report));
-    PetscCall(PenetrationWarn(sim));
-    PetscCall(PairMeshWarn(sim));
-  }
+  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(SimulationWarn(sim, report));
   PetscFunctionReturn(0);
 }

@@ -43,11 +43,11 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
   PetscFunctionBegin;
   *left = PETSC_FALSE;
   if (ip->method->on || ip->terms->n || ip->rec->nsaddles >= most) PetscFunctionReturn(0);
-  if (!ip->method->constant && !ip->relax->times) PetscCall(IPLineSearchBeyond(tao, left));
+  if (!ip->method->constant && !ip->relax->times) PetscCall(IPLeaveInflection(tao, left));
   if (!*left) {
     PetscCall(SaddleUnknown(tao, &unknown));
     if (unknown) PetscCall(IPNegativeCurvature(tao, &found));
-    if (found) PetscCall(IPLineSearchLeave(tao, left));
+    if (found) PetscCall(IPLeaveStationary(tao, left));
   }
   if (!*left) PetscFunctionReturn(0);
   PetscCall(PetscInfo(tao, "The point is stationary, but not a minimum\n"));

@@ -51,7 +51,7 @@ static PetscReal ConvexTrial(const IPTermSet *set, const TermConvex *convex, con
   const PetscReal rho = ConvexStiffness(set, row);
 
   for (PetscInt a = 0; a < 2; a++) b[a] = convex->multiplier[row + a] - rho * v[row + a];
-  IPTermRemoveDead(&set->dead[2 * i], b);
+  IPTermRemoveRigid(&set->rigid[2 * i], b);
   return PetscSqrtReal(b[0] * b[0] + b[1] * b[1]);
 }
 
@@ -98,7 +98,7 @@ static void ConvexLinearize(IPTermSet *set, const IPReducedSystem *s, const Term
   force  = PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
   inside = force > convex->bound[i] ? convex->bound[i] / force : 1.0;
   for (PetscInt c = 0; c < 2; c++) {
-    const PetscReal alive = (a == c ? 1.0 : 0.0) - set->dead[2 * i + a] * set->dead[2 * i + c];
+    const PetscReal alive = (a == c ? 1.0 : 0.0) - set->rigid[2 * i + a] * set->rigid[2 * i + c];
 
     by_v[c] = size > convex->bound[i]
                 ? (convex->bound[i] * alive - 0.5 * inside * (tau[a] * b[c] + tau[c] * b[a]) / size) / size

@@ -27,7 +27,7 @@ static PetscErrorCode LawsGetData(IPLaws laws, IPLawsData *data)
   PetscFunctionBegin;
   data->limit       = laws->set.limit;
   data->coefficient = laws->set.coefficient;
-  data->dead        = laws->set.dead;
+  data->rigid       = laws->set.rigid;
   data->closed      = laws->set.closed;
   data->shift       = laws->set.shift;
   data->nreleased   = laws->set.nreleased;

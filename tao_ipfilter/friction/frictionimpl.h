@@ -60,7 +60,7 @@ typedef struct {
                                      constraint */
   PetscReal   *theta, *direction;   /* at the last linearization, for slipping terms with b = tau - rho v: theta =
                                      bound / |b|; direction = b / |b| */
-  PetscReal   *dead;   /* two entries per term: unit tangent along which the term cannot move; zero: none */
+  PetscReal   *rigid;  /* two entries per term: unit tangent along which the term cannot move; zero: none */
   PetscReal    length; /* size of the motions, for tolerances [length] */
   PetscBool   *closed, *slips;
   PetscBool   *active, listed; /* active: rows that may carry a force; listed: whether `active` is up to date */

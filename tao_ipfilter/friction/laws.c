@@ -14,7 +14,7 @@ PetscErrorCode IPTermLawsDestroy(IPTermSet *set)
   PetscFunctionBegin;
   PetscCall(PetscFree5(set->limit, set->coefficient, set->rho, set->slope, set->shift));
   PetscCall(PetscFree3(set->closed, set->slips, set->active));
-  PetscCall(PetscFree5(set->theta, set->direction, set->dead, set->F, set->Fy));
+  PetscCall(PetscFree5(set->theta, set->direction, set->rigid, set->F, set->Fy));
   PetscCall(IPTermSystemDestroy(&set->system));
   PetscCall(PetscMemzero(set, sizeof(*set)));
   PetscFunctionReturn(0);
@@ -35,7 +35,7 @@ PetscErrorCode IPTermLawsCreate(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Ma
   set->n = n;
   PetscCall(PetscCalloc5(n, &set->limit, n, &set->coefficient, n, &set->rho, n, &set->slope, 2 * n, &set->shift));
   PetscCall(PetscCalloc3(m, &set->closed, n, &set->slips, all, &set->active));
-  PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->direction, 2 * n, &set->dead, all, &set->F, kmax, &set->Fy));
+  PetscCall(PetscCalloc5(n, &set->theta, 2 * n, &set->direction, 2 * n, &set->rigid, all, &set->F, kmax, &set->Fy));
   PetscCall(IPTermSystemSetUp(&set->system, m, n, kmax, K, factors, R, definite));
   PetscFunctionReturn(0);
 }
@@ -92,7 +92,7 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 /* Removes the components of the terms' forces along directions that cannot move */
 void IPTermLawsRelieve(const IPTermSet *set, const IPReducedSystem *s)
 {
-  for (PetscInt i = 0; i < set->n; i++) IPTermRemoveDead(&set->dead[2 * i], &s->lambda[IPTermLawsRow(set, i)]);
+  for (PetscInt i = 0; i < set->n; i++) IPTermRemoveRigid(&set->rigid[2 * i], &s->lambda[IPTermLawsRow(set, i)]);
 }
 
 /* Returns the compliance of a row [length/force]; for either row of a term it is the larger one of both */
@@ -135,7 +135,7 @@ void IPTermLawsResist(IPTermSet *set)
 void IPTermLawsMotion(const IPTermSet *set, const IPReducedSystem *s, PetscInt i, PetscReal v[2])
 {
   for (PetscInt a = 0; a < 2; a++) v[a] = s->gap[IPTermLawsRow(set, i) + a];
-  IPTermRemoveDead(&set->dead[2 * i], v);
+  IPTermRemoveRigid(&set->rigid[2 * i], v);
 }
 
 /* Computes b = tau - rho v of term i. Returns |b|. */

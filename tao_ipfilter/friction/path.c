@@ -72,7 +72,7 @@ static PetscErrorCode TermPathSetConstraint(IPTermSet *set, const IPReducedSyste
 static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const TermPath *path, PetscInt i, PetscInt a,
   PetscReal by_v[3], PetscReal by_f[3], PetscReal *F)
 {
-  const PetscReal *dead = &set->dead[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)],
+  const PetscReal *rigid = &set->rigid[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)],
                   bound = IPTermLawsBound(set, s, i), force = PetscSqrtReal(tau[0] * tau[0] + tau[1] * tau[1]);
   const PetscBool sticks = (PetscBool)(bound >= PETSC_INFINITY);
   const PetscReal inside = force > bound ? bound / force : 1.0;
@@ -82,10 +82,10 @@ static void TermPathLinearize(IPTermSet *set, const IPReducedSystem *s, const Te
   r    = PetscSqrtReal(v[0] * v[0] + v[1] * v[1] + path->e * path->e);
   size = bound + set->rho[i] * r;
   for (PetscInt b = 0; b < 2; b++) {
-    const PetscReal one = a == b ? 1.0 : 0.0, gone = dead[a] * dead[b];
+    const PetscReal one = a == b ? 1.0 : 0.0, along_rigid = rigid[a] * rigid[b];
 
-    by_v[b] = sticks ? one - gone : (bound * (one - gone) + inside * tau[a] * v[b] / r) / size;
-    by_f[b] = sticks ? gone / set->rho[i] : one * r / size;
+    by_v[b] = sticks ? one - along_rigid : (bound * (one - along_rigid) + inside * tau[a] * v[b] / r) / size;
+    by_f[b] = sticks ? along_rigid / set->rho[i] : one * r / size;
   }
   by_f[2] = sticks || set->coefficient[i] < 0.0 || bound >= set->limit[i] ? 0.0 : set->coefficient[i] * v[a] / size;
   *F      = sticks ? v[a] : (r * tau[a] + bound * v[a]) / size;

@@ -115,11 +115,11 @@ static PetscReal TermSetResidual(IPTermSet *set, const IPReducedSystem *s)
 
       set->F[r] = (s->lambda[r] - (size > 0.0 ? IPTermLawsBound(set, s, i) * b[a] / size : 0.0)) / set->rho[i];
     } else if (i >= 0) {
-      const PetscReal *dead = &set->dead[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)];
+      const PetscReal *rigid = &set->rigid[2 * i], *tau = &s->lambda[IPTermLawsRow(set, i)];
       PetscReal        v[2];
 
       IPTermLawsMotion(set, s, i, v);
-      set->F[r] = v[a] + dead[a] * (dead[0] * tau[0] + dead[1] * tau[1]) / set->rho[i];
+      set->F[r] = v[a] + rigid[a] * (rigid[0] * tau[0] + rigid[1] * tau[1]) / set->rho[i];
     } else set->F[r] = s->gap[r];
     largest = PetscMax(largest, PetscAbsReal(set->F[r]));
   }
@@ -135,7 +135,7 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
 {
   PetscInt         a = 0;
   const PetscInt   i = IPTermLawsOfRow(set, row, &a);
-  const PetscReal *direction, *dead;
+  const PetscReal *direction, *rigid;
 
   by_v[0] = by_v[1] = by_f[0] = by_f[1] = *by_lambda = 0.0;
   if (i < 0) {
@@ -143,15 +143,15 @@ static void TermSetRow(const IPTermSet *set, PetscInt row, PetscReal by_v[2], Pe
     return;
   }
   direction = &set->direction[2 * i];
-  dead      = &set->dead[2 * i];
+  rigid     = &set->rigid[2 * i];
   for (PetscInt b = 0; b < 2; b++) {
-    const PetscReal one = a == b ? 1.0 : 0.0, alive = one - dead[a] * dead[b],
+    const PetscReal one = a == b ? 1.0 : 0.0, movable = one - rigid[a] * rigid[b],
                     across = one - direction[a] * direction[b];
 
-    by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - alive) / set->rho[i];
+    by_f[b] = set->slips[i] ? (one - set->theta[i] * across) / set->rho[i] : (one - movable) / set->rho[i];
     by_v[b] =
       /* a direction that cannot move is orthogonal to the slip direction */
-      set->slips[i] ? set->theta[i] * (across - dead[a] * dead[b]) : alive;
+      set->slips[i] ? set->theta[i] * (across - rigid[a] * rigid[b]) : movable;
   }
   if (set->slips[i]) *by_lambda = -set->slope[i] * direction[a] / set->rho[i];
 }

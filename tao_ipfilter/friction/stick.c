@@ -71,11 +71,11 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
   PetscCall(IPTableauCreate(set, p));
   IPTableauChoose(set, s, p);
   for (PetscInt i = 0; i < p->n; i++) {
-    const PetscReal *dead = &set->dead[2 * i];
+    const PetscReal *rigid = &set->rigid[2 * i];
 
     p->mu[i] = 0.0;
-    if (dead[0] == 0.0 && dead[1] == 0.0) p->axis[2 * i] = 1.0;
-    if (dead[0] == 0.0 && dead[1] == 0.0) p->axis[2 * i + 1] = 0.0;
+    if (rigid[0] == 0.0 && rigid[1] == 0.0) p->axis[2 * i] = 1.0;
+    if (rigid[0] == 0.0 && rigid[1] == 0.0) p->axis[2 * i + 1] = 0.0;
     for (PetscInt a = 0; a < 2; a++) {
       p->sign[2 * i + a]   = 1.0;
       p->sticks[2 * i + a] = (PetscBool)(!p->dropped[p->m + 2 * i + a] && p->closed[i]);

@@ -83,19 +83,19 @@ void IPTableauChoose(const IPTermSet *set, const IPReducedSystem *s, IPTableau *
     p->closed[i]  = (PetscBool)(set->closed[i] && !p->dropped[i]);
   }
   for (PetscInt i = 0; i < p->n; i++) {
-    const PetscInt   row  = IPTermLawsRow(set, i);
-    const PetscReal *dead = &set->dead[2 * i];
+    const PetscInt   row   = IPTermLawsRow(set, i);
+    const PetscReal *rigid = &set->rigid[2 * i];
     PetscReal        b[2], size = IPTermLawsTrial(set, s, i, b);
     const PetscBool  tresca = (PetscBool)(set->coefficient[i] < 0.0),
-                    held    = (PetscBool)(dead[0] != 0.0 || dead[1] != 0.0),
+                    held    = (PetscBool)(rigid[0] != 0.0 || rigid[1] != 0.0),
                     none    = (PetscBool)(set->limit[i] == 0.0 || set->coefficient[i] == 0.0 ||
                                        (!tresca && (i >= p->m || p->dropped[i])));
     const PetscBool slips   = (PetscBool)(size > IPTermLawsBound(set, s, i) && (tresca || p->closed[i]));
 
     p->mu[i]           = tresca ? 0.0 : set->coefficient[i];
     p->limit[i]        = tresca ? set->limit[i] : 0.0;
-    p->axis[2 * i]     = held ? dead[1] : slips ? b[0] / size : 1.0;
-    p->axis[2 * i + 1] = held ? -dead[0] : slips ? b[1] / size : 0.0;
+    p->axis[2 * i]     = held ? rigid[1] : slips ? b[0] / size : 1.0;
+    p->axis[2 * i + 1] = held ? -rigid[0] : slips ? b[1] / size : 0.0;
     for (PetscInt a = 0; a < 2; a++) {
       p->dropped[row + a]  = (PetscBool)(none || (held && a) || !(IPTermLawsCompliance(set, row) > 0.0));
       p->sticks[2 * i + a] = (PetscBool)(!p->dropped[row + a] && (tresca || p->closed[i]) && (!slips || (a && !held)));

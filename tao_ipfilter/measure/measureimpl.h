@@ -33,7 +33,7 @@ PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal 
 PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
 PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
-PETSC_INTERN void           IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2]);
+PETSC_INTERN void           IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2]);
 PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);
 PETSC_INTERN PetscErrorCode IPTermsSubtractForces(Tao, Vec);
 PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force);

@@ -38,32 +38,32 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
 }
 
 /*
-   Computes dead, the unit direction in which a term has almost no compliance; zeros if there is none. It is the
+   Computes rigid, the unit direction in which a term has almost no compliance; zeros if there is none. It is the
    eigenvector of the smallest eigenvalue of the 2 x 2 matrix of compliances. first, second: diagonal entries of that
    matrix, the compliances of the term's two rows; both: the compliance of the sum of the rows.
 */
-static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, PetscReal both, PetscScalar dead[2])
+static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, PetscReal both, PetscScalar rigid[2])
 {
   const PetscReal next_to_nothing = 1e-9, mixed = 0.5 * (both - first - second), mean = 0.5 * (first + second),
                   half   = 0.5 * (first - second);
   const PetscReal radius = PetscSqrtReal(half * half + mixed * mixed), angle = 0.5 * PetscAtan2Real(mixed, half);
   const PetscBool none = (PetscBool)(mean - radius > next_to_nothing * mean || mean == 0.0);
 
-  dead[0] = none ? 0.0 : -PetscSinReal(angle);
-  dead[1] = none ? 0.0 : PetscCosReal(angle);
+  rigid[0] = none ? 0.0 : -PetscSinReal(angle);
+  rigid[1] = none ? 0.0 : PetscCosReal(angle);
 }
 
 /*
-   Computes terms->rho, the stiffness that resists each term (0 if it has no compliance), and terms->dead, a direction
+   Computes terms->rho, the stiffness that resists each term (0 if it has no compliance), and terms->rigid, a direction
    with almost no compliance and almost no motion v, e.g. across a symmetry plane. In that direction v does not depend
    on x and counts as zero.
 */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
   IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    unmoved = 1e-6; /* largest motion along `dead`, relative to the largest motion of all */
+  const PetscReal    unmoved = 1e-6; /* largest motion along `rigid`, relative to the largest motion of all */
   const PetscScalar *c, *b, *v;
-  PetscScalar       *rho, *dead;
+  PetscScalar       *rho, *rigid;
   PetscReal          sizes[2];
   PetscInt           n;
   Vec                compliance, both, value;
@@ -86,17 +86,17 @@ PetscErrorCode IPTermsResistance(Tao tao)
   PetscCall(VecGetArrayRead(both, &b));
   PetscCall(VecGetArrayRead(value, &v));
   PetscCall(VecGetArrayWrite(terms->rho, &rho));
-  PetscCall(VecGetArrayWrite(terms->dead, &dead));
+  PetscCall(VecGetArrayWrite(terms->rigid, &rigid));
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal larger = PetscMax(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]));
-    PetscScalar    *d      = &dead[2 * i];
+    PetscScalar    *d      = &rigid[2 * i];
 
     rho[i] = larger > 0.0 ? 1.0 / larger : 0.0;
     ResistanceFindRigidDirection(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]), PetscRealPart(b[i]), d);
     if (PetscAbsScalar(d[0] * v[2 * i] + d[1] * v[2 * i + 1]) > unmoved * PetscMax(sizes[0], sizes[1]))
       d[0] = d[1] = 0.0;
   }
-  PetscCall(VecRestoreArrayWrite(terms->dead, &dead));
+  PetscCall(VecRestoreArrayWrite(terms->rigid, &rigid));
   PetscCall(VecRestoreArrayWrite(terms->rho, &rho));
   PetscCall(VecRestoreArrayRead(value, &v));
   PetscCall(VecRestoreArrayRead(both, &b));

@@ -26,7 +26,7 @@ PetscErrorCode IPTermsDestroy(IPTerms *terms)
   PetscCall(VecDestroy(&terms->best));
   PetscCall(VecDestroy(&terms->last));
   PetscCall(VecDestroy(&terms->rho));
-  PetscCall(VecDestroy(&terms->dead));
+  PetscCall(VecDestroy(&terms->rigid));
   PetscCall(PetscMemzero(terms, sizeof(*terms)));
   PetscFunctionReturn(0);
 }
@@ -93,30 +93,30 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Removes the component of v along `dead`, which is a unit vector or zero */
-void IPTermRemoveDead(const PetscScalar dead[2], PetscScalar v[2])
+/* Removes the component of v along `rigid`, which is a unit vector or zero */
+void IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2])
 {
-  const PetscScalar along = dead[0] * v[0] + dead[1] * v[1];
+  const PetscScalar along = rigid[0] * v[0] + rigid[1] * v[1];
 
-  for (PetscInt a = 0; a < 2; a++) v[a] -= along * dead[a];
+  for (PetscInt a = 0; a < 2; a++) v[a] -= along * rigid[a];
 }
 
 /* Computes v = T x + t without the components in directions in which terms cannot move */
 PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 {
   IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscScalar *dead;
+  const PetscScalar *rigid;
   PetscScalar       *a;
   PetscInt           n;
 
   PetscFunctionBegin;
   PetscCall(MatMultAdd(terms->given, x, terms->t, v));
   PetscCall(VecGetLocalSize(terms->rho, &n));
-  PetscCall(VecGetArrayRead(terms->dead, &dead));
+  PetscCall(VecGetArrayRead(terms->rigid, &rigid));
   PetscCall(VecGetArray(v, &a));
-  for (PetscInt i = 0; i < n; i++) IPTermRemoveDead(dead + 2 * i, a + 2 * i);
+  for (PetscInt i = 0; i < n; i++) IPTermRemoveRigid(rigid + 2 * i, a + 2 * i);
   PetscCall(VecRestoreArray(v, &a));
-  PetscCall(VecRestoreArrayRead(terms->dead, &dead));
+  PetscCall(VecRestoreArrayRead(terms->rigid, &rigid));
   PetscFunctionReturn(0);
 }
 
@@ -137,7 +137,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
     PetscCall(VecDuplicate(terms->t, &terms->force));
     PetscCall(VecDuplicate(terms->t, &terms->best));
     PetscCall(VecDuplicate(terms->t, &terms->last));
-    PetscCall(VecDuplicate(terms->t, &terms->dead));
+    PetscCall(VecDuplicate(terms->t, &terms->rigid));
     PetscCall(VecGetLocalSize(terms->t, &n));
     PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), &terms->rho));
     PetscCall(VecSetSizes(terms->rho, n / 2, PETSC_DETERMINE));
@@ -145,7 +145,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
   }
   if (terms->warm) PetscCall(VecCopy(terms->warm, terms->force));
   else PetscCall(VecSet(terms->force, 0.0));
-  PetscCall(VecZeroEntries(terms->dead));
+  PetscCall(VecZeroEntries(terms->rigid));
   PetscFunctionReturn(0);
 }
 

@@ -16,7 +16,7 @@
    Computes theta and phi at the trial point x + alpha dx, s + alpha ds. *finite: false if the caller's functions
    returned no finite number.
 */
-static PetscErrorCode SearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
+PetscErrorCode IPSearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscReal *phi, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
@@ -114,7 +114,7 @@ static PetscReal SearchSmallestStep(const TAO_IPFILTER *ip, PetscReal slope)
    pairs the step length `dual`. Very small slacks are increased slightly, since otherwise J^T D J would dominate the
    Hessian.
 */
-static PetscErrorCode SearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
+PetscErrorCode IPSearchTakeStep(Tao tao, PetscReal alpha, PetscReal dual)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -192,7 +192,7 @@ static PetscErrorCode SearchAccept(Tao tao, PetscReal alpha, PetscReal dual, Pet
   PetscFunctionBegin;
   if (!objective) PetscCall(IPMeritFilterAdd(tao));
   ip->search->tag = objective ? (corrected ? 'F' : 'f') : (corrected ? 'H' : 'h');
-  PetscCall(SearchTakeStep(tao, alpha, dual));
+  PetscCall(IPSearchTakeStep(tao, alpha, dual));
   PetscFunctionReturn(0);
 }
 
@@ -221,7 +221,7 @@ static PetscErrorCode SearchCorrections(Tao tao, PetscReal alpha, PetscReal slop
     if (!usable) break;
     step = 1.0;
     PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &step, &dual));
-    PetscCall(SearchTrial(tao, step, &theta, &phi, &finite));
+    PetscCall(IPSearchTrial(tao, step, &theta, &phi, &finite));
     ip->search->ntrials++;
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
     if (*ok) PetscCall(SearchAccept(tao, step, dual, objective, PETSC_TRUE));
@@ -301,13 +301,13 @@ static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, P
   ip->search->theta   = watch->theta;
   ip->search->phi     = watch->phi;
   ip->search->ntrials = 1;
-  PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+  PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
   if (finite) PetscCall(SearchAccepts(tao, watch->alpha, watch->slope, theta, phi, &accepted, &objective));
   if (accepted) {
     PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
     PetscCall(IPWatchdogEnd(watch));
   } else if (finite && watch->left > 1) {
-    PetscCall(SearchTakeStep(tao, alpha, dual));
+    PetscCall(IPSearchTakeStep(tao, alpha, dual));
     ip->search->tag = 'w';
     watch->left--;
   } else PetscCall(IPWatchdogReturn(tao, taken));
@@ -318,7 +318,7 @@ static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, P
    Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
    curvature vanish at the same point.
 */
-static PetscBool SearchIsLinear(const TAO_IPFILTER *ip)
+PetscBool IPSearchIsLinear(const TAO_IPFILTER *ip)
 {
   const PetscReal quadratic = 0.2;
 
@@ -333,7 +333,7 @@ static PetscErrorCode SearchKeepSlow(Tao tao)
 
   PetscFunctionBegin;
   if (!(ip->dir.norm > 0.0)) PetscFunctionReturn(0);
-  ip->search->slows = SearchIsLinear(ip);
+  ip->search->slows = IPSearchIsLinear(ip);
   if (ip->search->slows) PetscCall(VecCopy(ip->dir.x, ip->search->slow));
   PetscFunctionReturn(0);
 }
@@ -365,7 +365,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
 
     ip->search->ntrials++;
-    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
+    PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
     if (finite) PetscCall(SearchAccepts(tao, alpha, slope, theta, phi, ok, &objective));
     if (finite && ip->search->ntrials == 1) PetscCall(SearchTestLinearity(tao, alpha));
     if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
@@ -375,238 +375,5 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   if (*ok) PetscCall(SearchKeepSlow(tao));
   ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
   ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;
-  PetscFunctionReturn(0);
-}
-
-/*
-   Continues the iteration from the trial point x + alpha dir.x, which is not near the central path. The multipliers are
-   therefore moved to it, with mu at least a small fraction of the first mu.
-*/
-static PetscErrorCode SearchStartAgain(Tao tao, PetscReal alpha)
-{
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal trace = 1e-3;
-
-  PetscFunctionBegin;
-  PetscCall(SearchTakeStep(tao, alpha, 0.0));
-  ip->mu = PetscMax(ip->mu, trace * ip->bar->first);
-  for (PetscInt b = 0; b < IP_NPAIRS; b++) PetscCall(IPPairCenter(&ip->pair[b], ip->mu));
-  if (ip->mi) PetscCall(IPSlackPressure(tao, ip->at.lambda));
-  PetscCall(IPFilterSetReset(ip->filter));
-  PetscCall(IPEvaluateDerivatives(tao));
-  PetscCall(IPComputeKKT(tao));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the directions of slacks and of distances to bounds that follow from dir.x. The multipliers of the
-   constraints do not change.
-*/
-static PetscErrorCode SearchFollow(Tao tao)
-{
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
-
-  PetscFunctionBegin;
-  PetscCall(IPBoundsDirection(tao));
-  if (ip->me) PetscCall(VecSet(ip->dir.y, 0.0));
-  if (!ip->mi) PetscFunctionReturn(0);
-  PetscCall(MatMult(ip->jac->inequality, ip->dir.x, slack->dt));
-  if (ip->pair[IP_CEILING].n) PetscCall(VecAXPBY(ip->pair[IP_CEILING].dt, -1.0, 0.0, slack->dt));
-  PetscCall(VecSet(ip->dir.lambda, 0.0));
-  PetscFunctionReturn(0);
-}
-
-/* Raises the trial point's slacks to the values of their constraints, which curve away from their linearization */
-static PetscErrorCode SearchRaiseSlacks(Tao tao, PetscReal *theta, PetscReal *phi)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  if (!ip->mi) PetscFunctionReturn(0);
-  PetscCall(VecPointwiseMax(ip->trial.s, ip->trial.s, ip->trial.c));
-  PetscCall(IPSlackKeepInside(tao, ip->trial.s, 1.0 - IP_TAU_MIN));
-  PetscCall(IPSlackDistance(tao, ip->trial.s, PETSC_TRUE));
-  PetscCall(IPMeritMeasureTrial(tao, theta, phi));
-  PetscFunctionReturn(0);
-}
-
-#define IP_LEAVE_MET 1e-2 /* largest violation, in units of theta_ref, of a point that leaves the path */
-
-/*
-   Leaves a stationary point along dir.x, a direction of negative curvature. The longest step is taken for which the
-   barrier function falls and the constraints remain satisfied. *left: false if there is none.
-*/
-PetscErrorCode IPLineSearchLeave(Tao tao, PetscBool *left)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal part = 0.1, least = 1e-6;
-  PetscReal       alpha = 1.0, norm, size, slope;
-
-  PetscFunctionBegin;
-  *left = PETSC_FALSE;
-  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size = PetscMax(size, ip->first->x);
-  PetscCall(VecScale(ip->dir.x, (size > 0.0 ? part * size : 1.0) / norm));
-  PetscCall(SearchFollow(tao));
-  PetscCall(IPMeritMeasure(tao));
-  PetscCall(IPMeritSlope(tao, &slope));
-  if (slope > 0.0) {
-    PetscCall(VecScale(ip->dir.x, -1.0));
-    PetscCall(SearchFollow(tao));
-  }
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &alpha, NULL));
-  for (; alpha > least && !*left; alpha *= 0.5) {
-    PetscReal theta = 0.0, phi = 0.0;
-    PetscBool finite = PETSC_FALSE;
-
-    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    if (finite) PetscCall(SearchRaiseSlacks(tao, &theta, &phi));
-    *left = (PetscBool)(finite && phi < ip->search->phi - ip->search->rounding &&
-                        theta <= IP_LEAVE_MET * ip->search->theta_ref);
-    if (*left) PetscCall(SearchStartAgain(tao, alpha));
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the Lagrangian at the iterate `at` with the present multipliers, and adds its rounding error to *rounding.
-   trial: whether distances to bounds are those of the trial point
-*/
-static PetscErrorCode SearchLagrangian(Tao tao, const IPIterate *at, PetscBool trial, PetscReal *lagrangian,
-  PetscReal *rounding)
-{
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  PetscReal     terms = PetscAbsReal(at->f), norms[2];
-  PetscScalar   product;
-  Vec           force;
-
-  PetscFunctionBegin;
-  *lagrangian = at->f;
-  if (ip->mi) {
-    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
-    PetscCall(VecDot(force, at->c, &product));
-    PetscCall(VecNorm(force, NORM_2, &norms[0]));
-    PetscCall(VecNorm(at->c, NORM_2, &norms[1]));
-    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-    *lagrangian -= PetscRealPart(product);
-    terms += norms[0] * norms[1];
-  }
-  if (ip->me) {
-    PetscCall(VecDot(ip->at.y, at->ce, &product));
-    PetscCall(VecNorm(ip->at.y, NORM_2, &norms[0]));
-    PetscCall(VecNorm(at->ce, NORM_2, &norms[1]));
-    *lagrangian += PetscRealPart(product);
-    terms += norms[0] * norms[1];
-  }
-  for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
-    const IPPair *p = &ip->pair[b];
-
-    if (!p->n) continue;
-    PetscCall(IPGetWork(tao, IP_UNKNOWNS, &force));
-    PetscCall(VecPointwiseMult(force, p->z, p->w));
-    PetscCall(VecDot(force, trial ? p->trial : p->t, &product));
-    PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &force));
-    *lagrangian -= PetscRealPart(product);
-    terms += PetscAbsScalar(product);
-  }
-  *rounding += 10.0 * PETSC_MACHINE_EPSILON * terms;
-  PetscFunctionReturn(0);
-}
-
-/*
-   Tries to leave a point of inflection of the Lagrangian along the last direction of linear convergence. With curved
-   constraints the barrier function need not fall there. The Lagrangian must fall at longer and longer steps, up to a
-   fraction of the unknowns' size. The decrease must be much larger than that from the residual, and the constraints
-   must remain satisfied. *left: whether the solve continues from the longest step.
-*/
-static PetscErrorCode SearchInflection(Tao tao, PetscBool *left)
-{
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair         *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
-  const PetscReal part = 0.1, far = 10.0, clear = 1e3;
-  PetscReal       most, size, norm, here, there, last, rounding = 0.0;
-  PetscBool       falls = PETSC_TRUE;
-  PetscScalar     slope;
-
-  PetscFunctionBegin;
-  PetscCall(VecCopy(ip->search->slow, ip->dir.x));
-  PetscCall(VecDot(ip->rx, ip->dir.x, &slope));
-  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
-  PetscCall(SearchFollow(tao));
-  if (ip->mi) PetscCall(VecSet(slack->dt, 0.0));
-  if (ceiling->n) PetscCall(VecSet(ceiling->dt, 0.0));
-  PetscCall(IPMeritMeasure(tao));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  most = part * PetscMax(size, ip->first->x) / norm;
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
-  PetscCall(SearchLagrangian(tao, &ip->at, PETSC_FALSE, &here, &rounding));
-  last = here;
-  for (PetscReal alpha = PetscMin(2.0, most); falls && !*left; alpha = PetscMin(far * alpha, most)) {
-    PetscReal theta = 0.0, phi = 0.0;
-    PetscBool finite = PETSC_FALSE;
-
-    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    if (finite) PetscCall(SearchRaiseSlacks(tao, &theta, &phi));
-    if (finite) PetscCall(SearchLagrangian(tao, &ip->trial, PETSC_TRUE, &there, &rounding));
-    falls = (PetscBool)(finite && there <= last + rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
-    last  = PetscMin(last, there);
-    if (falls && alpha >= most) {
-      falls = PETSC_FALSE;
-      *left = (PetscBool)(here - there > clear * PetscMax(rounding, alpha * PetscAbsScalar(slope)));
-      if (*left) PetscCall(SearchStartAgain(tao, alpha));
-    }
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
-   Tries to leave a point at which Newton's method converges only linearly, or with a shift that shortens its steps.
-   Such a point may be an inflection point. Longer and longer steps along the last direction are tested. If the barrier
-   function falls along them clearly, the solve continues from the longest one; with constraints from the first one,
-   since longer ones violate them. *left: whether it continues.
-*/
-static PetscErrorCode SearchBeyond(Tao tao, PetscBool *left)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal part = 0.1, far = 10.0, clear = 1e3;
-  PetscReal       most = PETSC_MAX_REAL, size, theta = 0.0, phi = 0.0, lowest, longest = 0.0;
-  PetscBool       falls, finite;
-
-  PetscFunctionBegin;
-  *left = PETSC_FALSE;
-  if (!(ip->dir.norm > 0.0) || !(SearchIsLinear(ip) || ip->shift->delta > 0.0)) PetscFunctionReturn(0);
-  PetscCall(SearchFollow(tao));
-  PetscCall(IPMeritMeasure(tao));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  most = part * PetscMax(size, ip->first->x) / ip->dir.norm;
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &most, NULL));
-  lowest = ip->search->phi;
-  falls  = (PetscBool)(most >= 1.0);
-  for (PetscReal alpha = PetscMin(2.0, most); falls; alpha = PetscMin(far * alpha, most)) {
-    PetscCall(SearchTrial(tao, alpha, &theta, &phi, &finite));
-    falls =
-      (PetscBool)(finite && phi <= lowest + ip->search->rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
-    if (falls) longest = alpha;
-    if (falls) lowest = PetscMin(lowest, phi);
-    *left = (PetscBool)(lowest < ip->search->phi - clear * ip->search->rounding);
-    if (alpha >= most || (*left && (ip->mi || ip->me))) falls = PETSC_FALSE;
-  }
-  if (!*left) PetscFunctionReturn(0);
-  PetscCall(SearchTrial(tao, longest, &theta, &phi, &finite));
-  PetscCall(SearchStartAgain(tao, longest));
-  PetscFunctionReturn(0);
-}
-
-/* Tries to leave a point of inflection of the barrier function or of the Lagrangian. *left: whether it succeeds */
-PetscErrorCode IPLineSearchBeyond(Tao tao, PetscBool *left)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  PetscCall(SearchBeyond(tao, left));
-  if (!*left && (ip->mi || ip->me) && ip->search->slows) PetscCall(SearchInflection(tao, left));
   PetscFunctionReturn(0);
 }

@@ -43,8 +43,13 @@ PETSC_INTERN PetscErrorCode IPWatchdogEnd(IPWatchdog *);
 
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPLineSearchLeave(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPLineSearchBeyond(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPSearchTrial(Tao, PetscReal, PetscReal *, PetscReal *, PetscBool *);
+PETSC_INTERN PetscErrorCode IPSearchTakeStep(Tao, PetscReal, PetscReal);
+PETSC_INTERN PetscBool      IPSearchIsLinear(const TAO_IPFILTER *);
+
+/* leave.c */
+PETSC_INTERN PetscErrorCode IPLeaveStationary(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPLeaveInflection(Tao, PetscBool *);
 
 /* penalty.c */
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);

@@ -494,7 +494,7 @@ PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
   PetscFunctionBegin;
   if (!terms->n) PetscFunctionReturn(0);
   if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCall(ReducedFetch(r->to_terms, terms->dead, r->on_terms, 2 * r->nterms, data.dead));
+  PetscCall(ReducedFetch(r->to_terms, terms->rigid, r->on_terms, 2 * r->nterms, data.rigid));
   values[0] = data.limit;
   values[1] = data.coefficient;
   for (PetscInt i = 0; i < r->nterms; i++) {

@@ -100,7 +100,7 @@ typedef struct {
 typedef struct {
   PetscReal *limit, *coefficient; /* per term: limit and coefficient of its bound; a negative coefficient: the bound
                                      is the limit */
-  PetscReal *dead;                /* two entries per term: unit direction along which the term cannot move; zero:
+  PetscReal *rigid;               /* two entries per term: unit direction along which the term cannot move; zero:
                                      none */
   PetscBool *closed;              /* constraints that are closed initially */
   PetscReal *shift;               /* two entries per term: by which the laws have shifted the term's reference since

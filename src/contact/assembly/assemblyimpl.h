@@ -45,8 +45,8 @@ typedef struct {
   PetscInt   nlocal, *first; /* rows first[p] to first[p + 1] - 1 of this rank belong to pair p; nlocal is their
                                 total number */
   PetscInt  *vertex;         /* [nlocal] local DMPlex points of the nonmortar vertices */
-  PetscInt  *held;           /* [nlocal] directions without slip: bit c for axis c, plus 8 (1 + number of the prescribed
-                      displacement) for an inclined symmetry plane; NULL until ContactFindHeld() has computed them */
+  PetscInt  *no_slip;        /* [nlocal] directions without slip: bit c for axis c, plus 8 (1 + number of the prescribed
+                      displacement) for an inclined symmetry plane; NULL until ContactFindNoSlip() has computed them */
   PetscReal *normal;         /* [3 nlocal] averaged unit normals of the deformed nonmortar faces */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;        /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
@@ -151,8 +151,8 @@ PETSC_INTERN PetscErrorCode ContactEntriesDestroy(ContactEntries *);
 PETSC_INTERN PetscErrorCode ContactCyclicMerge(Contact, ContactLinearization);
 PETSC_INTERN PetscErrorCode ContactCyclicDestroy(Contact);
 
-/* held.c: computes rows->held once: the directions along which rows with friction have no slip */
-PETSC_INTERN PetscErrorCode ContactFindHeld(Contact);
+/* no_slip.c: computes rows->prescribed once: the directions along which rows with friction have no slip */
+PETSC_INTERN PetscErrorCode ContactFindNoSlip(Contact);
 
 /* slip.c: the slip rows of the contact rows that remain */
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);

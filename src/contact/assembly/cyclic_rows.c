@@ -231,35 +231,35 @@ static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization
 }
 
 /* Creates the matrix that maps values of the new rows to values of the old rows. width: 1, or 2 for the rows of slip */
-static PetscErrorCode CyclicCreateShare(Contact contact, PetscInt width, PetscInt n, const CyclicGoal goals[],
-  PetscInt nkept, Mat *share)
+static PetscErrorCode CyclicCreateMerge(Contact contact, PetscInt width, PetscInt n, const CyclicGoal goals[],
+  PetscInt nkept, Mat *merge)
 {
   PetscInt start;
 
   PetscFunctionBegin;
   PetscCall(MatCreateAIJ(contact->comm, width * n, width * nkept, PETSC_DETERMINE, PETSC_DETERMINE, width, NULL, width,
-    NULL, share));
-  PetscCall(MatGetOwnershipRange(*share, &start, NULL));
+    NULL, merge));
+  PetscCall(MatGetOwnershipRange(*merge, &start, NULL));
   for (PetscInt k = 0; k < n; ++k) {
     for (PetscInt e = 0; e < width * width; ++e)
-      PetscCall(MatSetValue(*share, start + width * k + e / width, width * goals[k].row + e % width,
+      PetscCall(MatSetValue(*merge, start + width * k + e / width, width * goals[k].row + e % width,
         width == 1 ? 1.0 : goals[k].along[e % 2][e / 2], INSERT_VALUES));
   }
-  PetscCall(MatAssemblyBegin(*share, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*share, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyBegin(*merge, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*merge, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
-/* Computes rows = diag(1/mass) share^T diag(old_mass) rows, which adds rows that are divided by their masses. A
+/* Computes rows = diag(1/mass) merge^T diag(old_mass) rows, which adds rows that are divided by their masses. A
    matrix that is NULL remains NULL. */
-static PetscErrorCode CyclicShareMatrix(Mat share, Vec old_mass, Vec mass, Mat *rows)
+static PetscErrorCode CyclicMergeMatrix(Mat merge, Vec old_mass, Vec mass, Mat *rows)
 {
   Mat sums;
 
   PetscFunctionBegin;
   if (!*rows) PetscFunctionReturn(0);
   PetscCall(MatDiagonalScale(*rows, old_mass, NULL));
-  PetscCall(MatTransposeMatMult(share, *rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &sums));
+  PetscCall(MatTransposeMatMult(merge, *rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &sums));
   PetscCall(VecReciprocal(mass));
   PetscCall(MatDiagonalScale(sums, mass, NULL));
   PetscCall(VecReciprocal(mass));
@@ -287,7 +287,7 @@ static PetscErrorCode CyclicDouble(Vec mass, Vec *twice)
 }
 
 /* Adds the slip rows, and the covered areas, of each vertex and its image */
-static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGoal goals[], PetscInt nkept,
+static PetscErrorCode CyclicMergeSlip(Contact contact, Mat merge, const CyclicGoal goals[], PetscInt nkept,
   Vec old_mass, Vec mass, ContactLinearization lin)
 {
   Mat          pairs;
@@ -296,10 +296,10 @@ static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGo
 
   PetscFunctionBegin;
   if (!lin->slip) PetscFunctionReturn(0);
-  PetscCall(CyclicCreateShare(contact, 2, lin->nlocal, goals, nkept, &pairs));
+  PetscCall(CyclicCreateMerge(contact, 2, lin->nlocal, goals, nkept, &pairs));
   PetscCall(CyclicDouble(old_mass, &before));
   PetscCall(CyclicDouble(mass, &after));
-  PetscCall(CyclicShareMatrix(pairs, before, after, &lin->slip));
+  PetscCall(CyclicMergeMatrix(pairs, before, after, &lin->slip));
   PetscCall(VecDestroy(&after));
   PetscCall(VecDestroy(&before));
   PetscCall(MatDestroy(&pairs));
@@ -308,7 +308,7 @@ static PetscErrorCode CyclicShareSlip(Contact contact, Mat share, const CyclicGo
   PetscCall(VecGetArrayWrite(before, &a));
   for (PetscInt k = 0; k < lin->nlocal; ++k) a[k] = lin->covered[k];
   PetscCall(VecRestoreArrayWrite(before, &a));
-  PetscCall(MatMultTranspose(share, before, after));
+  PetscCall(MatMultTranspose(merge, before, after));
   PetscCall(VecGetArray(after, &a));
   for (PetscInt k = 0; k < nkept; ++k) lin->covered[k] = PetscRealPart(a[k]);
   PetscCall(VecRestoreArray(after, &a));
@@ -404,31 +404,31 @@ PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
 {
   PetscInt    nkept, *kept;
   CyclicGoal *goals;
-  Mat         share;
+  Mat         merge;
   Vec         mass, gap;
 
   PetscFunctionBegin;
   if (!contact->cyclic) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(lin->nlocal, &goals, lin->nlocal, &kept));
   PetscCall(CyclicSetGoals(contact, lin, goals, &nkept, kept));
-  PetscCall(CyclicCreateShare(contact, 1, lin->nlocal, goals, nkept, &share));
-  PetscCall(MatCreateVecs(share, &mass, NULL));
+  PetscCall(CyclicCreateMerge(contact, 1, lin->nlocal, goals, nkept, &merge));
+  PetscCall(MatCreateVecs(merge, &mass, NULL));
   PetscCall(VecDuplicate(mass, &gap));
-  PetscCall(MatMultTranspose(share, lin->mass, mass));
+  PetscCall(MatMultTranspose(merge, lin->mass, mass));
   PetscCall(CyclicSetSums(contact, goals, nkept, mass, lin));
   PetscCall(VecPointwiseMult(lin->g, lin->g, lin->mass));
-  PetscCall(MatMultTranspose(share, lin->g, gap));
+  PetscCall(MatMultTranspose(merge, lin->g, gap));
   PetscCall(VecPointwiseDivide(gap, gap, mass));
-  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->J));
-  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->derivative));
-  PetscCall(CyclicShareMatrix(share, lin->mass, mass, &lin->cover));
-  PetscCall(CyclicShareSlip(contact, share, goals, nkept, lin->mass, mass, lin));
+  PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->J));
+  PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->derivative));
+  PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->cover));
+  PetscCall(CyclicMergeSlip(contact, merge, goals, nkept, lin->mass, mass, lin));
   CyclicMoveRows(nkept, kept, lin);
   PetscCall(VecDestroy(&lin->g));
   PetscCall(VecDestroy(&lin->mass));
   lin->g    = gap;
   lin->mass = mass;
-  PetscCall(MatDestroy(&share));
+  PetscCall(MatDestroy(&merge));
   PetscCall(PetscFree2(goals, kept));
   PetscFunctionReturn(0);
 }

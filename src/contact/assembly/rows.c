@@ -137,7 +137,7 @@ PetscErrorCode ContactRowsDestroy(Contact contact)
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(PetscFree2(contact->pairs[p].row, contact->pairs[p].normal));
   PetscCall(PetscFree(rows->first));
   PetscCall(PetscFree(rows->vertex));
-  PetscCall(PetscFree(rows->held));
+  PetscCall(PetscFree(rows->no_slip));
   PetscCall(PetscFree2(rows->normal, rows->x));
   PetscCall(VecDestroy(&rows->mass));
   PetscCall(VecDestroy(&rows->weight));

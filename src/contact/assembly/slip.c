@@ -5,7 +5,7 @@
      slip_A = (1/m_A) int phi_A (u2 - u1).t  [length]
 
    Here u is any displacement of the vertices. A rigid motion of both faces gives no slip where the faces touch. If a
-   row has no slip along an axis, or across a symmetry plane (held.c), its tangent in that direction is set to zero.
+   row has no slip along an axis, or across a symmetry plane (no_slip.c), its tangent in that direction is set to zero.
 */
 #include "assemblyimpl.h"
 
@@ -41,7 +41,7 @@ static PetscBool SlipTangentsInPlane(const PetscReal n[3], const PetscReal plane
 
 /* Computes two unit tangents t perpendicular to n and to each other. held: bit c is set if there is no slip along axis
    c; the tangent along such an axis is set to zero */
-static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
+static void SlipTangents(const PetscReal n[3], PetscInt no_slip, PetscReal t[6])
 {
   PetscInt  axis = 0;
   PetscReal along[3];
@@ -49,42 +49,42 @@ static void SlipTangents(const PetscReal n[3], PetscInt held, PetscReal t[6])
   for (PetscInt c = 1; c < 3; ++c)
     if (PetscAbsReal(n[c]) < PetscAbsReal(n[axis])) axis = c;
   for (PetscInt c = 0; c < 3; ++c)
-    if (held >> c & 1 && SlipTangentAlong(n, c, along)) axis = c;
+    if (no_slip >> c & 1 && SlipTangentAlong(n, c, along)) axis = c;
   (void)SlipTangentAlong(n, axis, t + 3);
   VectorCross(t + 3, n, t);
   for (PetscInt c = 0; c < 3; ++c) {
-    if (!(held >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
+    if (!(no_slip >> c & 1) || !SlipTangentAlong(n, c, along)) continue;
     for (PetscInt d = 0; d < 3; ++d) t[(c == axis ? 3 : 0) + d] = 0.0;
   }
 }
 
 /* Sets the tangent t to zero if its component along a held axis is larger than 1/2 */
-static void SlipDropHeld(PetscInt held, PetscReal t[3])
+static void SlipDropHeld(PetscInt no_slip, PetscReal t[3])
 {
   const PetscReal half  = 0.5;
   PetscReal       along = 0.0;
 
   for (PetscInt c = 0; c < 3; ++c)
-    if (held >> c & 1) along = PetscMax(along, PetscAbsReal(t[c]));
+    if (no_slip >> c & 1) along = PetscMax(along, PetscAbsReal(t[c]));
   for (PetscInt c = 0; c < 3; ++c) t[c] = along > half ? 0.0 : t[c];
 }
 
 /* Computes the two tangents of a row; those along directions in which its vertex is held are zero */
 static void SlipRowTangents(Contact contact, PetscInt row, PetscReal t[6])
 {
-  const PetscReal *n    = &contact->rows.normal[3 * row];
-  const PetscInt   held = contact->rows.held[row], plane = held / 8 - 1;
+  const PetscReal *n       = &contact->rows.normal[3 * row];
+  const PetscInt   no_slip = contact->rows.no_slip[row], plane = no_slip / 8 - 1;
   PetscReal        across[3];
 
   if (plane >= 0) {
     for (PetscInt c = 0; c < 3; ++c) across[c] = contact->displacements[plane].normal[c];
     (void)VectorScaleToUnit(across);
     if (SlipTangentsInPlane(n, across, t)) {
-      SlipDropHeld(held, t);
+      SlipDropHeld(no_slip, t);
       return;
     }
   }
-  SlipTangents(n, held % 8, t);
+  SlipTangents(n, no_slip % 8, t);
 }
 
 /* Returns the covered area of a row, int phi_A over the mortar side, from the row's couplings [length^2] */
@@ -155,7 +155,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
   PetscInt           rstart, start;
 
   PetscFunctionBegin;
-  PetscCall(ContactFindHeld(contact));
+  PetscCall(ContactFindNoSlip(contact));
   PetscCall(SlipCreateMatrix(contact, couplings, kept, lin, &lin->slip));
   PetscCall(PetscCalloc1(6 * lin->nlocal, &lin->tangent));
   PetscCall(PetscCalloc1(lin->nlocal, &lin->covered));

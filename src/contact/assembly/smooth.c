@@ -49,7 +49,7 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
     ContactSurface undeformed = *surface[k];
 
     undeformed.x = undeformed.reference;
-    PetscCall(ContactSurfaceFindHeld(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
+    PetscCall(ContactSurfaceFindPrescribed(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
     PetscCall(ContactRingCreate(contact->comm, u, cosine, surface[k], ring[k]));
     PetscCall(
       PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->normal_id));

@@ -24,7 +24,7 @@ typedef struct {
 /* Returns whether a node is held along the axis */
 static PetscBool MirrorHolds(const ContactRing *ring, PetscInt node, PetscInt axis)
 {
-  return (PetscBool)((ring->held[node] >> axis & 1) != 0);
+  return (PetscBool)((ring->prescribed[node] >> axis & 1) != 0);
 }
 
 /* Returns whether the surface at a corner is not perpendicular to a plane normal to the axis */
@@ -124,10 +124,10 @@ static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis
   if (v >= ring->nreal) image = ring->image[v - ring->nreal];
   image.plane[axis] = at;
   PetscCall(PetscRealloc((g + 1) * sizeof(ContactImage), &ring->image));
-  PetscCall(PetscRealloc((ring->nnodes + 1) * sizeof(PetscInt), &ring->held));
+  PetscCall(PetscRealloc((ring->nnodes + 1) * sizeof(PetscInt), &ring->prescribed));
   PetscCall(PetscRealloc(3 * (ring->nnodes + 1) * sizeof(PetscReal), &ring->x));
-  ring->image[g]           = image;
-  ring->held[ring->nnodes] = ring->held[v];
+  ring->image[g]                 = image;
+  ring->prescribed[ring->nnodes] = ring->prescribed[v];
   ++ring->nnodes;
   ContactRingReflect(ring, ring->nnodes - 1);
   PetscFunctionReturn(0);

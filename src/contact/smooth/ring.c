@@ -97,7 +97,7 @@ PetscErrorCode ContactRingDestroy(ContactRing *ring)
   PetscCall(PetscFree(ring->twin));
   PetscCall(PetscFree2(ring->normal, ring->at));
   PetscCall(PetscFree(ring->global));
-  PetscCall(PetscFree(ring->held));
+  PetscCall(PetscFree(ring->prescribed));
   PetscCall(PetscFree(ring->image));
   PetscCall(PetscFree(ring->reference));
   PetscCall(PetscFree(ring->x));

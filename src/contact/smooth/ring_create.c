@@ -63,10 +63,10 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   ring->nreal = ring->nnodes;
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->reference));
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->x));
-  PetscCall(PetscCalloc1(ring->nnodes, &ring->held));
+  PetscCall(PetscCalloc1(ring->nnodes, &ring->prescribed));
   for (PetscInt i = 0; i < 12 * ring->nfacets; ++i) ring->reference[3 * ring->node[i / 3] + i % 3] = facets->x[i];
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
-    ring->held[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
+    ring->prescribed[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
   PetscCall(PetscArraycpy(ring->x, ring->reference, 3 * ring->nnodes));
   PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, ring->global, PETSC_COPY_VALUES, &rows));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, 3 * ring->nnodes, &ring->u));
@@ -172,7 +172,7 @@ PetscErrorCode ContactRingCreate(MPI_Comm comm, Vec u, PetscReal cosine, const C
 
   PetscFunctionBegin;
   undeformed.x        = s->reference;
-  undeformed.border   = s->held;
+  undeformed.border   = s->prescribed;
   undeformed.bordered = PETSC_TRUE;
   PetscCall(RingBox(comm, s, box, &length));
   PetscCall(ContactExchange(comm, box, &undeformed, &facets));

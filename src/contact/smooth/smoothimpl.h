@@ -40,14 +40,14 @@ typedef struct {
 typedef struct {
   PetscInt   nfacets, own;  /* number of facets; the facets that this rank owns are numbers own, own + 1, ... */
   PetscInt   nnodes, *node; /* number of nodes; [4 nfacets] number of the node at each corner */
-  PetscInt  *twin;     /* [4 nfacets] corner that represents the same edge in the neighbouring facet; -1 at a sharp edge
+  PetscInt  *twin;   /* [4 nfacets] corner that represents the same edge in the neighbouring facet; -1 at a sharp edge
                       or at the border */
-  PetscInt   nreal;    /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
-  PetscInt  *global;   /* [nreal] global numbers of the nodes */
-  PetscInt  *held;     /* [nnodes] bit c is set if the face is held along axis c */
-  PetscInt   nnormals; /* number of normals at the corners of the facets that this rank owns. Corners of a node share
+  PetscInt   nreal;  /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
+  PetscInt  *global; /* [nreal] global numbers of the nodes */
+  PetscInt  *prescribed;  /* [nnodes] bit c is set if the face is held along axis c */
+  PetscInt   nnormals;    /* number of normals at the corners of the facets that this rank owns. Corners of a node share
                           one normal unless a sharp edge separates them. */
-  PetscInt  *normal, *at;   /* [4 own facets] number of the normal at each corner; [nnormals] a corner that has the
+  PetscInt  *normal, *at; /* [4 own facets] number of the normal at each corner; [nnormals] a corner that has the
                              normal */
   PetscReal *reference, *x; /* coordinates of the nodes [length]: undeformed [3 nreal], and deformed [3 nnodes] */
   Vec        u;             /* [3 nreal] displacements of the nodes [length] */

@@ -121,8 +121,9 @@ static PetscBool BorderIsOfBody(const char face[], const ContactSurface *s)
 }
 
 /* Collective. Finds the vertices of s at which faces with these prescribed displacements hold the mesh. Sets
-   s->held. */
-PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement displacements[], ContactSurface *s)
+   s->prescribed. */
+PetscErrorCode ContactSurfaceFindPrescribed(DM dm, PetscInt n, const SceneDisplacement displacements[],
+  ContactSurface *s)
 {
   PetscSF  sf;
   PetscInt npoints, *bits;
@@ -138,9 +139,9 @@ PetscErrorCode ContactSurfaceFindHeld(DM dm, PetscInt n, const SceneDisplacement
     if (!d->moves && BorderIsOfBody(d->face, s)) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
   }
   PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
-  PetscCall(PetscFree(s->held));
-  PetscCall(PetscCalloc1(s->nfacets, &s->held));
-  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->held[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
+  PetscCall(PetscFree(s->prescribed));
+  PetscCall(PetscCalloc1(s->nfacets, &s->prescribed));
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->prescribed[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
   PetscCall(PetscFree(bits));
   PetscFunctionReturn(0);
 }

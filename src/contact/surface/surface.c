@@ -190,7 +190,7 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree4(s->vertex, s->node, s->reference, s->x));
   PetscCall(PetscFree(s->border));
   PetscCall(PetscBTDestroy(&s->rim));
-  PetscCall(PetscFree(s->held));
+  PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscFree2(s->patch, s->normal_id));
   PetscCall(PetscFree2(s->rank, s->below));
   PetscFunctionReturn(0);

@@ -25,16 +25,16 @@ PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, P
 typedef struct {
   char      *name;
   PetscInt   nfacets;
-  PetscInt  *vertex;    /* [4 nfacets] local DMPlex points that carry the vertices' nodes, counterclockwise seen from
+  PetscInt  *vertex;     /* [4 nfacets] local DMPlex points that carry the vertices' nodes, counterclockwise seen from
                         outside; a triangle stores its last vertex twice */
-  PetscInt  *node;      /* [4 nfacets] global numbers of the vertices (first global row / 3) */
-  PetscReal *reference; /* [12 nfacets] coordinates of the undeformed vertices [length] */
-  PetscReal *x;         /* [12 nfacets] coordinates of the deformed vertices [length] */
-  PetscReal *patch;     /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
-  PetscInt  *normal_id; /* [4 nfacets] global numbers of these normals */
-  PetscBool  patched;   /* whether patch and normal_id exist; equal on all ranks */
-  PetscBool  cut;       /* whether the facets are parts of facets of order 2; equal on all ranks */
-  PetscInt  *held;      /* [nfacets] Bit 3 a + c is set if a face of the mesh prescribes the displacement of vertex a
+  PetscInt  *node;       /* [4 nfacets] global numbers of the vertices (first global row / 3) */
+  PetscReal *reference;  /* [12 nfacets] coordinates of the undeformed vertices [length] */
+  PetscReal *x;          /* [12 nfacets] coordinates of the deformed vertices [length] */
+  PetscReal *patch;      /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
+  PetscInt  *normal_id;  /* [4 nfacets] global numbers of these normals */
+  PetscBool  patched;    /* whether patch and normal_id exist; equal on all ranks */
+  PetscBool  cut;        /* whether the facets are parts of facets of order 2; equal on all ranks */
+  PetscInt  *prescribed; /* [nfacets] Bit 3 a + c is set if a face of the mesh prescribes the displacement of vertex a
                         along axis c. */
   PetscInt  *border;    /* [nfacets] Bit a is set if the edge from vertex a to the next is on the face's border, and bit
                        4 + a if vertex a is on the border. Bit 2 of a triangle stands for its last vertex. */
@@ -69,7 +69,7 @@ PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 #define CONTACT_FREE    -2 /* no displacement is prescribed */
 #define CONTACT_AT_REST -1 /* a displacement of 0 is prescribed */
 PETSC_INTERN PetscErrorCode ContactSurfaceFindBorder(DM, ContactSurface *);
-PETSC_INTERN PetscErrorCode ContactSurfaceFindHeld(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
+PETSC_INTERN PetscErrorCode ContactSurfaceFindPrescribed(DM, PetscInt n, const SceneDisplacement[], ContactSurface *);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindMotions(DM, PetscInt n, const SceneDisplacement[], PetscInt axis,
   const ContactSurface *, PetscInt motion[]);
 PETSC_INTERN PetscErrorCode ContactSurfaceFindPlanes(DM, PetscInt n, const SceneDisplacement[], const ContactSurface *,

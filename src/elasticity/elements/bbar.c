@@ -170,9 +170,9 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
   PetscReal      rank1[3 * CELL_MAX_NODES];
 
   if (m->law->constant) {
-    PetscReal rest[3][CELL_MAX_NODES] = {{0}};
+    PetscReal undeformed[3][CELL_MAX_NODES] = {{0}};
 
-    ElementDilatation(basis, m, X, rest, &d);
+    ElementDilatation(basis, m, X, undeformed, &d);
     CellStiffnessConstant(basis, m->law, &m->isochoric, X, K);
   } else {
     ElementDilatation(basis, m, X, U, &d);

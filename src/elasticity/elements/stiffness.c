@@ -116,12 +116,12 @@ static inline void StiffnessAnisotropic(const int n, const CellBasis *basis, Pet
 void CellStiffnessConstant(const CellBasis *basis, const MaterialLaw *law, const MaterialModuli *m,
   PetscReal X[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  const PetscReal rest[9] = {0};
+  const PetscReal undeformed[9] = {0};
   PetscReal       A[81];
 
   if (law->isotropic) CELL_CALL(StiffnessIsotropic, basis, X, m->lambda, m->mu, K);
   else {
-    (void)law->tangent(m, rest, A);
+    (void)law->tangent(m, undeformed, A);
     CELL_CALL(StiffnessAnisotropic, basis, X, A, K);
   }
 }

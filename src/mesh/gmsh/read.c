@@ -20,7 +20,7 @@ typedef struct {
 /* Reads and checks the section $MeshFormat */
 static PetscBool GmshCheckFormat(GmshReader *reader)
 {
-  char   words[3][GMSH_WORD], rest;
+  char   words[3][GMSH_WORD], trailing;
   double version;
   int    one = 0;
 
@@ -28,7 +28,7 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
   for (int i = 0; i < 3; ++i) {
     if (!GmshGetWord(&reader->in, words[i])) return PETSC_FALSE;
   }
-  if (sscanf(words[0], "%lf%c", &version, &rest) != 1 || (version != 2.2 && version != 4.0 && version != 4.1))
+  if (sscanf(words[0], "%lf%c", &version, &trailing) != 1 || (version != 2.2 && version != 4.0 && version != 4.1))
     return GmshWrong(&reader->in, "its format is \"%s\"; supported are 2.2, 4.0 and 4.1", words[0]);
   reader->in.version = (int)(10 * version + 0.5);
   if (strcmp(words[1], "0") && strcmp(words[1], "1"))
@@ -49,7 +49,7 @@ static PetscBool GmshCheckFormat(GmshReader *reader)
 static PetscBool GmshCheckNames(GmshReader *reader)
 {
   PetscInt64 count = 0;
-  char       words[2][GMSH_WORD], name[GMSH_WORD], rest;
+  char       words[2][GMSH_WORD], name[GMSH_WORD], trailing;
   int        number;
 
   if (!GmshGetCountWord(&reader->in, "physical names", &count)) return PETSC_FALSE;
@@ -58,7 +58,7 @@ static PetscBool GmshCheckNames(GmshReader *reader)
 
     for (int j = 0; j < 2; ++j) {
       if (!GmshGetWord(&reader->in, words[j])) return PETSC_FALSE;
-      if (sscanf(words[j], "%d%c", &number, &rest) != 1)
+      if (sscanf(words[j], "%d%c", &number, &trailing) != 1)
         return GmshWrong(&reader->in, "a dimension and a tag are expected in $PhysicalNames instead of \"%s\"",
           words[j]);
     }

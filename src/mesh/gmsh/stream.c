@@ -120,11 +120,11 @@ PetscBool GmshGetCounts(GmshStream *in, const char what[], PetscInt64 n, PetscIn
 /* Reads a count that format 2 writes as text even in binary files */
 PetscBool GmshGetCountWord(GmshStream *in, const char what[], PetscInt64 *count)
 {
-  char      word[GMSH_WORD], rest;
+  char      word[GMSH_WORD], trailing;
   long long value;
 
   if (!GmshGetWord(in, word)) return PETSC_FALSE;
-  if (sscanf(word, "%lld%c", &value, &rest) != 1)
+  if (sscanf(word, "%lld%c", &value, &trailing) != 1)
     return GmshWrong(in, "the number of %s is expected instead of \"%s\"", what, word);
   *count = (PetscInt64)value;
   return GmshIsCount(in, what, *count);

@@ -34,7 +34,7 @@ PetscErrorCode MeshHangingCreate(const MeshHexes *hexes, DM dm, MeshHanging *han
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode MeshHangingDestroy(MeshHanging *hanging)
+static PetscErrorCode MeshHangingDestroy(MeshHanging *hanging)
 {
   PetscFunctionBegin;
   PetscCall(PetscSectionDestroy(&hanging->section));

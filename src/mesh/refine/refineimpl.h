@@ -63,7 +63,6 @@ PETSC_INTERN PetscErrorCode MeshHangingCreate(const MeshHexes *, DM, MeshHanging
 PETSC_INTERN PetscErrorCode MeshHangingDistribute(PetscSF, DM before, MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHangingFinish(DM, MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHangingPlace(DM);
-PETSC_INTERN PetscErrorCode MeshHangingDestroy(MeshHanging *);
 
 /* refine_marked.c: refines the cells that were marked on earlier meshes */
 PETSC_INTERN PetscErrorCode MeshNumberCells(DM, const MeshHanging *);

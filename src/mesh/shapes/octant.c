@@ -254,3 +254,11 @@ void OctantPlace(const SceneBody *body, const PetscReal relative[3], PetscReal x
   for (PetscInt d = 0; d < 3; ++d)
     x[d] = body->octant.corner[d] + (body->octant.signs[d] < 0 ? -relative[d] : relative[d]);
 }
+
+/* Creates the grid of a shell, which has no core */
+PetscErrorCode OctantCreateShell(const SceneBody *body, ShapeGrid *grid)
+{
+  PetscFunctionBegin;
+  PetscCall(OctantCreate(body, PETSC_FALSE, grid));
+  PetscFunctionReturn(0);
+}

@@ -153,6 +153,7 @@ PETSC_INTERN const char *const *OctantFaces(const SceneBody *);
 PETSC_INTERN PetscErrorCode     OctantSize(MPI_Comm, const SceneBody *, PetscBool core, PetscInt64 *ncells,
       PetscInt64 *nvertices);
 PETSC_INTERN PetscErrorCode     OctantCreate(const SceneBody *, PetscBool core, ShapeGrid *);
+PETSC_INTERN PetscErrorCode     OctantCreateShell(const SceneBody *, ShapeGrid *);
 /* Splits parameters p outside of the core into the point q on the far sides of the unit cube, and s */
 PETSC_INTERN void OctantSplit(const PetscReal p[3], PetscReal q[3], PetscReal *s);
 /* Computes the unit vector in the direction of a point q on the far sides. Equal steps along the cube's edges give

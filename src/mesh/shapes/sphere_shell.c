@@ -76,13 +76,6 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ShapeCreate_SphereShell(const SceneBody *body, ShapeGrid *grid)
-{
-  PetscFunctionBegin;
-  PetscCall(OctantCreate(body, PETSC_FALSE, grid));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode ShapeMap_SphereShell(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
 {
   PetscReal q[3], s, direction[3], inner, outer, place[3];
@@ -108,5 +101,5 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, ShapeCreate_SphereShell, ShapeMap_SphereShell, keys,
+const Shape ShapeSphereShell = {OctantFaces, ShapeSize_SphereShell, OctantCreateShell, ShapeMap_SphereShell, keys,
   NULL};

@@ -16,13 +16,6 @@ static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *bo
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ShapeCreate_SpheroidShell(const SceneBody *body, ShapeGrid *grid)
-{
-  PetscFunctionBegin;
-  PetscCall(OctantCreate(body, PETSC_FALSE, grid));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode ShapeMap_SpheroidShell(const SceneBody *body, const PetscReal p[3], PetscReal x[3])
 {
   PetscReal q[3], s, direction[3], place[3];
@@ -44,5 +37,5 @@ static const ShapeKey keys[] = {
   {NULL, KEY_REALS, 0, 0, PETSC_FALSE},
 };
 
-const Shape ShapeSpheroidShell = {OctantFaces, ShapeSize_SpheroidShell, ShapeCreate_SpheroidShell,
-  ShapeMap_SpheroidShell, keys, NULL};
+const Shape ShapeSpheroidShell = {OctantFaces, ShapeSize_SpheroidShell, OctantCreateShell, ShapeMap_SpheroidShell, keys,
+  NULL};

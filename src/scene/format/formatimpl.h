@@ -205,7 +205,6 @@ typedef struct _n_SceneList {
 } SceneList;
 
 /* rows.c: reads, prints and frees entries with the rows of the table */
-PETSC_INTERN PetscBool      SceneRowIsOf(const SceneKey *, const char kind[]);
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
   const char kind[], PetscBool listed, void *entry);
 PETSC_INTERN PetscErrorCode SceneHasKey(SceneKeys, const char owner[], const char name[], PetscBool *has);

@@ -212,27 +212,27 @@ static PetscErrorCode SceneKeysGetValid(SceneKeys keys, const char unknown[], si
 /* Suggests which key was meant by an unknown key: a synonym, the nearest name, or a list of the valid keys. */
 static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], char meant[], size_t length)
 {
-  const char **names, *nearest, *rest;
+  const char **names, *nearest, *suffix;
   char         full[SCENE_KEY_LENGTH];
   size_t       below, distance, letters;
   PetscInt     n;
 
   PetscFunctionBegin;
   PetscCall(SceneKeysGetValid(keys, unknown, &below, &n, &names));
-  rest = unknown + below;
+  suffix = unknown + below;
   for (size_t s = 0; s < PETSC_STATIC_ARRAY_LENGTH(synonyms); ++s) {
     PetscBool same, valid = PETSC_FALSE;
 
-    PetscCall(PetscStrcasecmp(rest, synonyms[s][0], &same));
+    PetscCall(PetscStrcasecmp(suffix, synonyms[s][0], &same));
     for (PetscInt k = 0; same && k < n && !valid; ++k) PetscCall(PetscStrcmp(names[k], synonyms[s][1], &valid));
     if (!same || !valid) continue;
     PetscCall(PetscSNPrintf(meant, length, "it is called \"%s\" here", synonyms[s][1]));
     PetscCall(PetscFree(names));
     PetscFunctionReturn(0);
   }
-  PetscCall(OptionsNearest(n, names, rest, &nearest));
-  PetscCall(OptionsDistance(rest, nearest, &distance));
-  PetscCall(PetscStrlen(rest, &letters));
+  PetscCall(OptionsNearest(n, names, suffix, &nearest));
+  PetscCall(OptionsDistance(suffix, nearest, &distance));
+  PetscCall(PetscStrlen(suffix, &letters));
   if (2 * distance < PetscMax(letters, 3)) {
     PetscCall(PetscSNPrintf(full, sizeof(full), "%.*s%s", (int)below, unknown, nearest));
     PetscCall(PetscSNPrintf(meant, length, "the nearest valid key is \"%s\"", SceneKeyOf(keys, full)));

@@ -14,9 +14,9 @@ static PetscErrorCode RepeatedSetPath(RepeatedKeys *keys, size_t length, const c
 
   PetscFunctionBegin;
   PetscCall(PetscStrlen(more, &added));
-  if (length + added + 2 > keys->room) {
-    keys->room = 2 * (length + added + 2);
-    PetscCall(PetscRealloc(keys->room, &keys->path));
+  if (length + added + 2 > keys->capacity) {
+    keys->capacity = 2 * (length + added + 2);
+    PetscCall(PetscRealloc(keys->capacity, &keys->path));
   }
   PetscCall(PetscMemcpy(keys->path + length, more, added + 1));
   keys->length = length + added;

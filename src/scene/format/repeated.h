@@ -17,9 +17,9 @@ typedef struct {
 typedef struct {
   PetscInt       depth, maxdepth, n, max;
   RepeatedLevel *levels;
-  char          *path, **paths; /* path of the last key, and paths of all keys */
-  size_t         length, room;  /* length of `path`, and its allocated length */
-  size_t         line, *lines;  /* line of the last key, and lines of all keys */
+  char          *path, **paths;    /* path of the last key, and paths of all keys */
+  size_t         length, capacity; /* length of `path`, and its allocated length */
+  size_t         line, *lines;     /* line of the last key, and lines of all keys */
 } RepeatedKeys;
 
 /* repeated.c: Not collective. Pass each event to RepeatedKeysRead() in turn, then call RepeatedKeysCheck() */

@@ -7,7 +7,7 @@
    Returns whether a row applies to this kind of shape or material law. row->of is a list of kinds separated by blanks.
    If `kind` is NULL, only rows without such a list apply.
 */
-PetscBool SceneRowIsOf(const SceneKey *row, const char kind[])
+static PetscBool SceneRowIsOf(const SceneKey *row, const char kind[])
 {
   const size_t length = kind ? strlen(kind) : 0;
 

@@ -13,7 +13,7 @@
    largest force at the end of the contact updates of the proximal term that holds bodies on weak springs, as a fraction
    of the forces of the deformation
 */
-#define CONTACT_UPDATES_HELD 1e-5
+#define CONTACT_UPDATES_PROXIMAL 1e-5
 
 /* contact updates within which the change of the gap must fall to a tenth; otherwise the updates end without success */
 #define CONTACT_UPDATES_PATIENCE 12
@@ -30,7 +30,7 @@ static PetscErrorCode ContactUpdatesMeasureGap(const StepProblem *p, Vec u, cons
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
   Simulation sim = p->sim;
-  PetscReal  size, held;
+  PetscReal  size, proximal;
   PetscInt   nrows;
 
   PetscFunctionBegin;
@@ -44,9 +44,9 @@ static PetscErrorCode ContactUpdatesMeasureGap(const StepProblem *p, Vec u, cons
   report->gap_unconverged =
     (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
                 PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size);
-  PetscCall(ProximalMeasureHeld(p, u, &held));
-  if (held > PetscMax(sim->control->tolerances.optimizer, 1e-10)) *is_true = PETSC_FALSE;
-  if (held > CONTACT_UPDATES_HELD) report->gap_unconverged = PETSC_TRUE;
+  PetscCall(ProximalMeasure(p, u, &proximal));
+  if (proximal > PetscMax(sim->control->tolerances.optimizer, 1e-10)) *is_true = PETSC_FALSE;
+  if (proximal > CONTACT_UPDATES_PROXIMAL) report->gap_unconverged = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -196,6 +196,27 @@ static PetscErrorCode ContactUpdatesVanish(const StepProblem *p, Vec u, PetscBoo
 }
 
 /*
+   Ends the contact updates: reports whether the linearized and the actual gap agree. slid: whether friction still
+   changed; linearization: that at u
+*/
+static PetscErrorCode ContactUpdatesReport(StepProblem *p, PetscBool slid, ContactLinearization linearization, Vec u,
+  const ContactSolution *sol, StepReport *report)
+{
+  PetscReal proximal;
+
+  PetscFunctionBegin;
+  report->gap_unconverged =
+    (PetscBool)(report->converged && (report->gap_unconverged || (slid && p->sim->scene->contact_updates > 1)));
+  if (!report->gap_unconverged) PetscFunctionReturn(0);
+  PetscCall(ContactUpdatesReportGapError(p->sim, sol, linearization, slid, report));
+  PetscCall(ProximalMeasure(p, u, &proximal));
+  if (proximal <= CONTACT_UPDATES_PROXIMAL) PetscFunctionReturn(0);
+  PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
+  report->gap_unconverged = PETSC_FALSE; /* the gap is not the reason of the failure: there is no equilibrium */
+  PetscFunctionReturn(0);
+}
+
+/*
    Updates the contact until the gap agrees, a solve fails or contact_updates is reached. On exit u is a solution of the
    problem with sim->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
    entry.
@@ -207,7 +228,6 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
   Anderson   secants = {0};
   PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
   PetscBool  vanishes, vanished = PETSC_FALSE, rested = PETSC_FALSE;
-  PetscReal  held;
   Vec        u_linearized;
 
   PetscFunctionBegin;
@@ -244,15 +264,6 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
     PetscCall(ContactUpdatesUndeformed(p, PETSC_TRUE, u, report, sol, at_u, &end));
   PetscCall(VecDestroy(&u_linearized));
   PetscCall(AndersonDestroy(&secants));
-  report->gap_unconverged =
-    (PetscBool)(report->converged && (report->gap_unconverged || (slid && sim->scene->contact_updates > 1)));
-  if (report->gap_unconverged) {
-    PetscCall(ContactUpdatesReportGapError(sim, sol, *at_u, slid, report));
-    PetscCall(ProximalMeasureHeld(p, u, &held));
-    if (held > CONTACT_UPDATES_HELD) {
-      PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
-      report->gap_unconverged = PETSC_FALSE; /* the gap is not the reason of the failure: there is no equilibrium */
-    }
-  }
+  PetscCall(ContactUpdatesReport(p, slid, *at_u, u, sol, report));
   PetscFunctionReturn(0);
 }

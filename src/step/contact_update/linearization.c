@@ -105,15 +105,15 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
 {
   Simulation sim = p->sim;
   PetscBool  damped, at_solution, found = PETSC_FALSE;
-  PetscReal  held;
+  PetscReal  proximal;
   Vec        next;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &next));
   if (!p->holds_weak) PetscCall(ContactUpdateNewton(p, sol, *at_u, u_linearized, u, next, report, &found));
-  PetscCall(ProximalMeasureHeld(p, u, &held)); /* `held` decreases as bodies on weak springs come to rest, whereas
+  PetscCall(ProximalMeasure(p, u, &proximal)); /* this force decreases as bodies on weak springs come to rest, whereas
                                                   the change of the gap need not decrease */
-  PetscCall(AndersonAdvance(secants, p->holds_weak ? held : report->update_error, u, u_linearized, &damped));
+  PetscCall(AndersonAdvance(secants, p->holds_weak ? proximal : report->update_error, u, u_linearized, &damped));
   if (damped && ProximalMayHoldWeak(p)) {
     PetscCall(VecDestroy(&next));
     PetscCall(

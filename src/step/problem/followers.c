@@ -152,7 +152,7 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
 PetscErrorCode FollowersForesee(StepProblem *p)
 {
   PetscFunctionBegin;
-  if (!p->sim->dynamics.rest || p->sim->quadratic) PetscFunctionReturn(0);
+  if (!p->sim->dynamics.residual || p->sim->quadratic) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(p->base, &p->meant));
   if (p->sim->contact) PetscCall(VecCopy(p->sim->path->u, p->meant));
   else PetscCall(PathContinue(p->sim, p->time, p->meant));

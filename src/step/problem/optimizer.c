@@ -189,7 +189,7 @@ static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;
   if (!p->lower && !SimulationIsDynamic(p->sim))
-    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
+    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
   PetscFunctionReturn(0);
 }
 
@@ -201,7 +201,7 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 
   PetscFunctionBegin;
   if (!p->friction.T) PetscCall(OptimizerForesee(p, report));
-  if (p->unheld) PetscFunctionReturn(0);
+  if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
     PetscCall(PetscSNPrintf(reason, sizeof(reason), "no equilibrium was found: %s", report->reason));
@@ -310,7 +310,7 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
 
   PetscFunctionBegin;
   if (p->friction.T && !resume) PetscCall(OptimizerForesee(p, report));
-  if (p->unheld) PetscFunctionReturn(0);
+  if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(OptimizerCreate(p, &tao, &ours));
   PetscCall(OptimizerStart(p, resume, tao, u, &valid));
   if (valid) {

@@ -56,33 +56,33 @@ typedef struct {
   PetscReal   energy; /* objective at base for the quadratic model [force length] */
   Mat         J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec         g;
-  Vec         lower, upper; /* NULL if there are no bounds */
-  Anderson    secants;      /* secants of the follower loads */
-  Vec         followed;     /* centre at which follower loads are linearized [length]; NULL: no follower
+  Vec         lower, upper;     /* NULL if there are no bounds */
+  Anderson    secants;          /* secants of the follower loads */
+  Vec         followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
                                         loads */
-  Vec         meant;        /* displacement at which the mean internal force of a time step is evaluated
+  Vec         meant;            /* displacement at which the mean internal force of a time step is evaluated
                                         [length]; NULL: not needed */
-  Anderson    mean_secants; /* secants of the displacement `meant` */
-  Vec         centre, held; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
+  Anderson    mean_secants;     /* secants of the displacement `meant` */
+  Vec         centre, proximal; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
                                         proximal term; NULL: no such term */
-  PetscBool   unheld;       /* true if it is proven that contact cannot hold the loads with the bodies in
+  PetscBool   unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
                                         the positions of the last state */
-  PetscBool   moves_on;     /* true if a body that only friction holds did not come to rest in any solve */
-  char       *failed;       /* reason for which the solve before the proximal term was added failed; NULL:
+  PetscBool   moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
+  char       *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
-  PetscBool   holds_weak;   /* true if the proximal term holds bodies on weak springs */
-  PetscReal   carried;      /* force of the proximal term after the last solve [force] */
-  PetscReal   tolerance;    /* relative KKT error to which the present linearization is solved; 0: that of
+  PetscBool   holds_weak;       /* true if the proximal term holds bodies on weak springs */
+  PetscReal   carried;          /* force of the proximal term after the last solve [force] */
+  PetscReal   tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of
                                         the load step */
-  PetscBool   ended_early;  /* true if the last solve stopped at `tolerance`, before the tolerance of the
+  PetscBool   ended_early;      /* true if the last solve stopped at `tolerance`, before the tolerance of the
                                         load step */
   PetscReal   gap_change;   /* change of the gap in the contact update before the last one [length] */
   PetscBool   by_newton;    /* true if Newton's method found the point at which the gap is linearized */
   PetscReal   newton_rtol;  /* relative tolerance to which Newton's method for the last contact update was solved */
   PetscBool   rough;        /* true if a contact update made no progress, so that Newton's method is not
                                         used for now */
-  PetscInt    nflows;       /* number of iterates that show plastic flow */
-  const char *flowing;      /* name of the body that flows, so that there is no equilibrium; NULL: none */
+  PetscInt    nflows;           /* number of iterates that show plastic flow */
+  const char *flowing;          /* name of the body that flows, so that there is no equilibrium; NULL: none */
   Vec         w, Kw;
 
   StepFriction friction;
@@ -121,7 +121,7 @@ PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, P
 PETSC_INTERN PetscBool      ProximalMayHoldWeak(const StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalHoldWeak(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalLinearize(StepProblem *, Vec u_linearized);
-PETSC_INTERN PetscErrorCode ProximalMeasureHeld(const StepProblem *, Vec u, PetscReal *share);
+PETSC_INTERN PetscErrorCode ProximalMeasure(const StepProblem *, Vec u, PetscReal *fraction);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
 PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);

@@ -1,8 +1,8 @@
 /*
    Proximal point method for bodies that only contact or friction holds. The rigid body motions of such a body have no
-   stiffness, but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T held (x - centre) is
-   added to the energy, with a small diagonal matrix `held`. The centre moves to each solution until this term exerts no
-   force. The convergence rate is the ratio of `held` to the stiffness of whatever holds the bodies.
+   stiffness, but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T proximal (x - centre) is
+   added to the energy, with a small diagonal matrix `proximal`. The centre moves to each solution until this term exerts no
+   force. The convergence rate is the ratio of `proximal` to the stiffness of whatever holds the bodies.
 
      All bodies get this term if only friction holds an elastic body and the first solve failed.
 
@@ -23,39 +23,40 @@ static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
 /*
-   Stiffness of the term, divided by that of the bodies: friction_share after a failed solve with friction, weak_share
+   Stiffness of the term, divided by that of the bodies: friction_stiffness after a failed solve with friction, weak_stiffness
    for bodies on weak springs. The latter must exceed the rotational stiffness of the contact forces, which a linearized
-   gap omits and which is of the size of the strains. It grows by the factor weak_share_growth in each further attempt
-   while it is below weak_share_most.
+   gap omits and which is of the size of the strains. It grows by the factor weak_stiffness_growth in each further attempt
+   while it is below weak_stiffness_most.
 */
-static const PetscReal friction_share = 1e-4, weak_share = 1e-2, weak_share_most = 1.0, weak_share_growth = 10.0;
+static const PetscReal friction_stiffness = 1e-4, weak_stiffness = 1e-2, weak_stiffness_most = 1.0,
+                       weak_stiffness_growth = 10.0;
 
 /*
-   Adds the energy of the proximal term at x to *energy, and its force, held (x - centre), to `force`. force: may be
+   Adds the energy of the proximal term at x to *energy, and its force, proximal (x - centre), to `force`. force: may be
    NULL.
 */
 PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
-  if (p->centre) PetscCall(CentredAdd(1.0, NULL, p->held, p->centre, x, energy, force));
+  if (p->centre) PetscCall(CentredAdd(1.0, NULL, p->proximal, p->centre, x, energy, force));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the force of the proximal term at x (`held`) and that of the deformation (`elastic`) in new vectors. norms:
+   Computes the force of the proximal term at x (`proximal`) and that of the deformation (`elastic`) in new vectors. norms:
    2-norms of both [force].
 */
-static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *held, Vec *elastic, PetscReal norms[2])
+static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *proximal, Vec *elastic, PetscReal norms[2])
 {
   PetscReal energy = 0.0;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(x, held));
+  PetscCall(VecDuplicate(x, proximal));
   PetscCall(VecDuplicate(x, elastic));
-  PetscCall(VecZeroEntries(*held));
-  PetscCall(ProximalAdd(p, x, &energy, *held));
+  PetscCall(VecZeroEntries(*proximal));
+  PetscCall(ProximalAdd(p, x, &energy, *proximal));
   PetscCall(ElasticityForce(p->sim->elasticity, x, *elastic));
-  PetscCall(VecNorm(*held, NORM_2, &norms[0]));
+  PetscCall(VecNorm(*proximal, NORM_2, &norms[0]));
   PetscCall(VecNorm(*elastic, NORM_2, &norms[1]));
   PetscFunctionReturn(0);
 }
@@ -78,22 +79,22 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 }
 
 /*
-   Adds `held` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already contains
+   Adds `proximal` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already contains
    this stiffness.
 */
 PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
   PetscFunctionBegin;
-  if (p->failed || p->holds_weak) PetscCall(MatDiagonalSet(K, p->held, ADD_VALUES));
+  if (p->failed || p->holds_weak) PetscCall(MatDiagonalSet(K, p->proximal, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the stiffness of the proximal term. held: `share` times the stiffness of the bodies; 0 in prescribed and
+   Computes the stiffness of the proximal term. proximal: `fraction` times the stiffness of the bodies; 0 in prescribed and
    tied rows. weak: stiffness of the weak springs, so that only rows with such springs have a term; NULL: all bodies
    have the term.
 */
-static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal share, Vec weak, Vec held)
+static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal fraction, Vec weak, Vec proximal)
 {
   const Bodies       bodies = SimulationBodies(p->sim);
   const PetscScalar *springs;
@@ -101,17 +102,17 @@ static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal share
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(SpringsOfSize(&bodies, share, held));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, held));
-  PetscCall(TiesSet(&p->sim->ties, 0.0, held));
+  PetscCall(SpringsOfSize(&bodies, fraction, proximal));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, proximal));
+  PetscCall(TiesSet(&p->sim->ties, 0.0, proximal));
   if (!weak) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(held, &n));
+  PetscCall(VecGetLocalSize(proximal, &n));
   PetscCall(VecGetArrayRead(weak, &springs));
-  PetscCall(VecGetArray(held, &k));
+  PetscCall(VecGetArray(proximal, &k));
   for (PetscInt i = 0; i < n; ++i) {
     if (springs[i] == 0.0) k[i] = 0.0;
   }
-  PetscCall(VecRestoreArray(held, &k));
+  PetscCall(VecRestoreArray(proximal, &k));
   PetscCall(VecRestoreArrayRead(weak, &springs));
   PetscFunctionReturn(0);
 }
@@ -126,9 +127,9 @@ static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
 
   PetscFunctionBegin;
   p->holds_weak = weak;
-  PetscCall(VecDuplicate(p->base, &p->held));
-  PetscCall(ProximalGetStiffness(p, weak ? p->sim->control->weak_share : friction_share,
-    weak ? p->sim->springs.weak : NULL, p->held));
+  PetscCall(VecDuplicate(p->base, &p->proximal));
+  PetscCall(ProximalGetStiffness(p, weak ? p->sim->control->weak_stiffness : friction_stiffness,
+    weak ? p->sim->springs.weak : NULL, p->proximal));
   if (p->sim->quadratic) {
     PetscCall(MatDuplicate(p->sim->K, MAT_COPY_VALUES, &K));
     PetscCall(ProximalAddStiffness(p, K));
@@ -145,9 +146,10 @@ PetscBool ProximalMayHoldWeak(const StepProblem *p)
 {
   const Simulation sim = p->sim;
 
-  return (PetscBool)(sim->springs.weak && (!p->centre || p->holds_weak) && !p->lower && !p->unheld && !p->flowing &&
-                     sim->scene->contact_updates > 1 && sim->control->weak_share < weak_share_most &&
-                     !sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
+  return (PetscBool)(sim->springs.weak && (!p->centre || p->holds_weak) && !p->lower && !p->unsupported &&
+                     !p->flowing && sim->scene->contact_updates > 1 &&
+                     sim->control->weak_stiffness < weak_stiffness_most && !sim->control->interrupted &&
+                     EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
 }
 
 /* Finds whether bodies on weak springs need the proximal term from the first contact update on. */
@@ -158,15 +160,15 @@ static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
   if (!sim->contact || !sim->springs.weak || p->centre || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  *holds = (PetscBool)(sim->control->weak_share > 0.0);
+  *holds = (PetscBool)(sim->control->weak_stiffness > 0.0);
   if (sim->quadratic || *holds) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
     PetscBool curved;
 
     PetscCall(ContactIsCurved(sim->contact, k, &curved));
-    if (curved && !SceneContactPairHasFriction(&sim->scene->pairs[k])) sim->control->weak_share = weak_share;
+    if (curved && !SceneContactPairHasFriction(&sim->scene->pairs[k])) sim->control->weak_stiffness = weak_stiffness;
   }
-  *holds = (PetscBool)(sim->control->weak_share > 0.0);
+  *holds = (PetscBool)(sim->control->weak_stiffness > 0.0);
   PetscFunctionReturn(0);
 }
 
@@ -180,8 +182,8 @@ PetscErrorCode ProximalBegin(StepProblem *p)
 
   PetscFunctionBegin;
   if (p->sim->rigid.n && !SimulationIsDynamic(p->sim)) {
-    PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.held));
-    p->held = p->sim->rigid.held;
+    PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.restraint));
+    p->proximal = p->sim->rigid.restraint;
     PetscCall(VecDuplicate(p->base, &p->centre));
     PetscCall(VecCopy(p->base, p->centre));
   }
@@ -204,7 +206,7 @@ PetscErrorCode ProximalEnd(StepProblem *p)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->centre));
-  PetscCall(VecDestroy(&p->held));
+  PetscCall(VecDestroy(&p->proximal));
   PetscCall(PetscFree(p->failed));
   PetscFunctionReturn(0);
 }
@@ -216,8 +218,9 @@ PetscErrorCode ProximalEnd(StepProblem *p)
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
   PetscFunctionBegin;
-  *again = (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unheld && !p->flowing &&
-                       !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
+  *again =
+    (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unsupported && !p->flowing &&
+                !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(ProximalCreate(p, PETSC_FALSE));
@@ -231,10 +234,10 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 */
 PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
-  PetscReal *share = &p->sim->control->weak_share;
+  PetscReal *fraction = &p->sim->control->weak_stiffness;
 
   PetscFunctionBegin;
-  *share = *share > 0.0 ? *share * weak_share_growth : weak_share;
+  *fraction = *fraction > 0.0 ? *fraction * weak_stiffness_growth : weak_stiffness;
   if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
   PetscCall(ProximalEnd(p));
   PetscCall(ProximalCreate(p, PETSC_TRUE));
@@ -254,7 +257,7 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
    Compares two forces. *share: maximum over the bodies of the resultant of `force` on a body divided by the sum of the
    magnitudes of the nodal forces `all`.
 */
-static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *share)
+static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *fraction)
 {
   const Simulation   sim = p->sim;
   const PetscScalar *f, *a;
@@ -280,9 +283,9 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
   PetscCall(VecRestoreArrayRead(force, &f));
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  *share = 0.0;
+  *fraction = 0.0;
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
-    if (sums[4 * b + 3] > 0.0) *share = PetscMax(*share, VectorNorm(&sums[4 * b]) / sums[4 * b + 3]);
+    if (sums[4 * b + 3] > 0.0) *fraction = PetscMax(*fraction, VectorNorm(&sums[4 * b]) / sums[4 * b + 3]);
   }
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
@@ -294,19 +297,19 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
    on a body; 0 if there is no such term. The resultant has the larger weight because coarse facets can cause a torque,
    but not a resultant.
 */
-PetscErrorCode ProximalMeasureHeld(const StepProblem *p, Vec u, PetscReal *share)
+PetscErrorCode ProximalMeasure(const StepProblem *p, Vec u, PetscReal *fraction)
 {
   PetscReal norms[2], resultant;
   Vec       force, all;
 
   PetscFunctionBegin;
-  *share = 0.0;
+  *fraction = 0.0;
   if (!p->holds_weak) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));
   PetscCall(ProximalCompareResultants(p, force, all, &resultant));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));
-  if (norms[1] > 0.0) *share = PetscMax(norms[0] / norms[1], 10.0 * resultant);
+  if (norms[1] > 0.0) *fraction = PetscMax(norms[0] / norms[1], 10.0 * resultant);
   PetscFunctionReturn(0);
 }
 
@@ -332,8 +335,8 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
 {
   PetscFunctionBegin;
   PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
-  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unheld));
-  if (!p->unheld)
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  if (!p->unsupported)
     PetscCall(ReportReason(report, PETSC_FALSE,
       "no equilibrium was found for the rigid bodies that are driven by forces; use smaller load steps"));
   PetscFunctionReturn(0);

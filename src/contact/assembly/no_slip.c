@@ -13,7 +13,7 @@
 #include "assemblyimpl.h"
 #include "src/mesh/query/queryimpl.h"
 
-static const PetscReal held_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
+static const PetscReal plane_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
                                                 face */
 static const PetscReal held_normal = 0.95; /* an axis is the normal of a facet if the component of the unit normal along
                                               it is larger */
@@ -23,31 +23,31 @@ static const PetscReal held_normal = 0.95; /* an axis is the normal of a facet i
 typedef struct {
   PetscReal motion, place; /* number of the displacement that prescribes the motion, and coordinate along the axis
                               [length] */
-} HeldPlace;
+} PrescribedPlace;
 
 /* The prescribed displacements of a mortar face along one axis */
 typedef struct {
   PetscBool  whole;  /* whether all vertices of the face are held by the same motion */
   PetscInt   motion; /* that motion, if whole is true */
   PetscInt   n;      /* number of entries of `places` from all ranks, without repetition */
-  HeldPlace *places;
+  PrescribedPlace *places;
   PetscReal  rounding; /* tolerance for equal coordinates [length] */
-} HeldFace;
+} PrescribedFace;
 
-static int HeldPlaceCompare(const void *a, const void *b)
+static int PrescribedPlaceCompare(const void *a, const void *b)
 {
-  const HeldPlace *p = (const HeldPlace *)a, *q = (const HeldPlace *)b;
+  const PrescribedPlace *p = (const PrescribedPlace *)a, *q = (const PrescribedPlace *)b;
 
   if (p->motion != q->motion) return p->motion < q->motion ? -1 : 1;
   return (p->place > q->place) - (p->place < q->place);
 }
 
 /* Sorts the entries and removes those with equal motion and, up to rounding, equal coordinate */
-static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
+static void PrescribedPlacesUnite(PetscReal rounding, PetscInt *n, PrescribedPlace places[])
 {
   PetscInt kept = 0;
 
-  if (*n) qsort(places, (size_t)*n, sizeof(*places), HeldPlaceCompare);
+  if (*n) qsort(places, (size_t)*n, sizeof(*places), PrescribedPlaceCompare);
   for (PetscInt i = 0; i < *n; ++i) {
     if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding)
       places[kept++] = places[i];
@@ -56,11 +56,11 @@ static void HeldPlacesUnite(PetscReal rounding, PetscInt *n, HeldPlace places[])
 }
 
 /* Collective. Collects the entries of all ranks on every rank */
-static PetscErrorCode HeldPlacesGather(MPI_Comm comm, HeldFace *face)
+static PetscErrorCode PrescribedPlacesGather(MPI_Comm comm, PrescribedFace *face)
 {
   PetscFunctionBegin;
   PetscCall(RecordsGather(comm, 2, &face->n, &face->places));
-  HeldPlacesUnite(face->rounding, &face->n, face->places);
+  PrescribedPlacesUnite(face->rounding, &face->n, face->places);
   PetscFunctionReturn(0);
 }
 
@@ -91,13 +91,13 @@ static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt ax
 }
 
 /* Collective. Determines the prescribed displacements of the mortar face s along an axis */
-static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, HeldFace *face)
+static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, PrescribedFace *face)
 {
   PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds of motion: the negative of the smallest,
                                                                    and the largest */
 
   PetscFunctionBegin;
-  *face       = (HeldFace){.rounding = held_rounding * PetscSqrtReal(s->area)};
+  *face       = (PrescribedFace){.rounding = plane_rounding * PetscSqrtReal(s->area)};
   face->whole = HeldRigidMotion(contact, s->name, axis, &face->motion);
   if (face->whole) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
@@ -107,34 +107,34 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
     bounds[0] = PetscMax(bounds[0], -motion[i]);
     bounds[1] = PetscMax(bounds[1], motion[i]);
     if (motion[i] != CONTACT_FREE)
-      face->places[face->n++] = (HeldPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
+      face->places[face->n++] = (PrescribedPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
   }
   PetscCall(PetscFree(motion));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_INT, MPI_MAX, contact->comm));
   face->whole  = (PetscBool)(-bounds[0] == bounds[1]);
   face->motion = bounds[1];
-  HeldPlacesUnite(face->rounding, &face->n, face->places);
-  PetscCall(HeldPlacesGather(contact->comm, face));
+  PrescribedPlacesUnite(face->rounding, &face->n, face->places);
+  PetscCall(PrescribedPlacesGather(contact->comm, face));
   PetscFunctionReturn(0);
 }
 
 /* Compares the mortar face with a nonmortar vertex that has this prescribed motion, and this coordinate (place) along
    the axis. *held: whether the mortar face is held at that coordinate; *alike: whether the same motion holds it */
-static void HeldFaceFind(const HeldFace *face, PetscInt motion, PetscReal place, PetscBool *held, PetscBool *alike)
+static void HeldFaceFind(const PrescribedFace *face, PetscInt motion, PetscReal place, PetscBool *no_slip, PetscBool *alike)
 {
-  *held  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
-  *alike = (PetscBool)(*held && face->motion == motion);
+  *no_slip  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
+  *alike = (PetscBool)(*no_slip && face->motion == motion);
   for (PetscInt i = 0; !face->whole && i < face->n; ++i) {
     if (PetscAbsReal(face->places[i].place - place) > face->rounding) continue;
-    *held = PETSC_TRUE;
+    *no_slip = PETSC_TRUE;
     if ((PetscInt)face->places[i].motion == motion) *alike = PETSC_TRUE;
   }
 }
 
 /* Collective. Sets `held` to 1 on the pair's rows without slip along an axis. Sets `frictionless` to 1 on those of
    these rows where the faces slide nevertheless. Sets nothing if the whole nonmortar face is held. */
-static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const HeldFace *mortar, PetscInt axis,
-  Vec held, Vec frictionless)
+static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const PrescribedFace *mortar, PetscInt axis,
+  Vec no_slip, Vec frictionless)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *motion, free = 0;
@@ -153,7 +153,7 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
     if (ContactFacetNormal(&s->reference[12 * (i / 4)], normal) && PetscAbsReal(normal[axis]) > held_normal) continue;
     HeldFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
     if (!alike && !(both && pair->sticks)) continue;
-    PetscCall(VecSetValue(held, pair->row[i], 1.0, INSERT_VALUES));
+    PetscCall(VecSetValue(no_slip, pair->row[i], 1.0, INSERT_VALUES));
     if (!alike) PetscCall(VecSetValue(frictionless, pair->row[i], 1.0, INSERT_VALUES));
   }
   PetscCall(PetscFree(motion));
@@ -177,7 +177,7 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
 
   (void)VectorScaleToUnit(m);
   (void)VectorScaleToUnit(n);
-  return (PetscBool)(PetscAbsReal(VectorDot(m, n)) > 1.0 - held_rounding);
+  return (PetscBool)(PetscAbsReal(VectorDot(m, n)) > 1.0 - plane_rounding);
 }
 
 /*
@@ -186,14 +186,14 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
    normal. planes: from ContactSurfaceFindPlanes() for the mortar face's vertices; faces: its prescribed displacements
    along each axis; offset: distance of the plane from the origin [length]
 */
-static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const HeldFace faces[3],
+static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const PrescribedFace faces[3],
   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
 {
   const SceneDisplacement *plane  = &contact->displacements[k];
   PetscInt                 found  = 0;
   PetscReal                moved  = 0.0;
   PetscBool                whole  = PETSC_TRUE;
-  const PetscReal          margin = held_rounding * PetscSqrtReal(mortar->area);
+  const PetscReal          margin = plane_rounding * PetscSqrtReal(mortar->area);
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 4 * mortar->nfacets && !found; ++i) {
@@ -204,7 +204,7 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt axis = 0; axis < 3; ++axis) {
-    const HeldFace *face = &faces[axis];
+    const PrescribedFace *face = &faces[axis];
 
     whole = (PetscBool)(whole && face->whole && face->motion != CONTACT_FREE);
     if (face->whole && face->motion >= 0)
@@ -216,7 +216,7 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
 
 /* Collective. Sets `plane` to 1 + the number of the inclined symmetry plane on the rows whose vertices lie on it, if
    the mortar face cannot move across it. Sets nothing if all nonmortar vertices lie on such planes. */
-static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const HeldFace mortar[3], Vec plane)
+static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const PrescribedFace mortar[3], Vec plane)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *planes, *others, off = 0;
@@ -246,33 +246,33 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, con
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes contact->rows.held, the directions along which rows have no slip, and the number of frictionless
+/* Collective. Computes contact->rows.no_slip, the directions along which rows have no slip, and the number of frictionless
    rows of each pair */
-PetscErrorCode ContactFindHeld(Contact contact)
+PetscErrorCode ContactFindNoSlip(Contact contact)
 {
   ContactRows *rows = &contact->rows;
-  Vec          held[4], frictionless;
+  Vec          no_slip[4], frictionless;
 
   PetscFunctionBegin;
-  if (rows->held) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->held));
+  if (rows->no_slip) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(rows->nlocal + 1, &rows->no_slip));
   PetscCall(VecDuplicate(rows->mass, &frictionless));
   for (PetscInt c = 0; c < 4; ++c) {
-    PetscCall(VecDuplicate(rows->mass, &held[c]));
-    PetscCall(VecZeroEntries(held[c]));
+    PetscCall(VecDuplicate(rows->mass, &no_slip[c]));
+    PetscCall(VecZeroEntries(no_slip[c]));
   }
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
-    HeldFace         mortar[3];
+    PrescribedFace         mortar[3];
     PetscScalar      sum;
 
     if (!pair->frictional) continue;
     PetscCall(VecZeroEntries(frictionless));
     for (PetscInt c = 0; c < 3; ++c) {
       PetscCall(HeldFaceCreate(contact, &pair->mortar, c, &mortar[c]));
-      PetscCall(HeldMarkAxis(contact, pair, &mortar[c], c, held[c], frictionless));
+      PetscCall(HeldMarkAxis(contact, pair, &mortar[c], c, no_slip[c], frictionless));
     }
-    PetscCall(HeldMarkPlanes(contact, pair, mortar, held[3]));
+    PetscCall(HeldMarkPlanes(contact, pair, mortar, no_slip[3]));
     for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].places));
     PetscCall(VecAssemblyBegin(frictionless));
     PetscCall(VecAssemblyEnd(frictionless));
@@ -282,13 +282,13 @@ PetscErrorCode ContactFindHeld(Contact contact)
   for (PetscInt c = 0; c < 4; ++c) {
     const PetscScalar *a;
 
-    PetscCall(VecAssemblyBegin(held[c]));
-    PetscCall(VecAssemblyEnd(held[c]));
-    PetscCall(VecGetArrayRead(held[c], &a));
+    PetscCall(VecAssemblyBegin(no_slip[c]));
+    PetscCall(VecAssemblyEnd(no_slip[c]));
+    PetscCall(VecGetArrayRead(no_slip[c], &a));
     for (PetscInt i = 0; i < rows->nlocal; ++i)
-      rows->held[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0) << c;
-    PetscCall(VecRestoreArrayRead(held[c], &a));
-    PetscCall(VecDestroy(&held[c]));
+      rows->no_slip[i] |= (c == 3 ? (PetscInt)PetscRealPart(a[i]) : PetscRealPart(a[i]) > 0.0) << c;
+    PetscCall(VecRestoreArrayRead(no_slip[c], &a));
+    PetscCall(VecDestroy(&no_slip[c]));
   }
   PetscCall(VecDestroy(&frictionless));
   PetscFunctionReturn(0);
