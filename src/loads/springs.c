@@ -65,23 +65,23 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
    deformation. */
 static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
 {
-  PetscBool   *unheld;
+  PetscBool   *unsupported;
   PetscScalar *k;
   PetscInt     n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(bodies->scene->nbodies, &unheld));
-  PetscCall(MeshGetUnsupported(bodies->dm, bodies->scene, unheld));
+  PetscCall(PetscMalloc1(bodies->scene->nbodies, &unsupported));
+  PetscCall(MeshGetUnsupported(bodies->dm, bodies->scene, unsupported));
   PetscCall(VecDuplicate(bodies->mass, &springs->weak));
   PetscCall(SpringsOfSize(bodies, bodies->scene->weak_springs, springs->weak));
   PetscCall(VecGetLocalSize(springs->weak, &n));
   PetscCall(VecGetArray(springs->weak, &k));
   for (PetscInt i = 0; i < n; ++i) {
-    if (!unheld[bodies->places.body[i / 3]]) k[i] = 0.0;
+    if (!unsupported[bodies->places.body[i / 3]]) k[i] = 0.0;
   }
   PetscCall(VecRestoreArray(springs->weak, &k));
-  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b) springs->nweak += unheld[b];
-  PetscCall(PetscFree(unheld));
+  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b) springs->nweak += unsupported[b];
+  PetscCall(PetscFree(unsupported));
   PetscFunctionReturn(0);
 }
 

@@ -604,7 +604,7 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char ow
 }
 
 /* Collective. Finds the bodies with free modes. The first of them is reported as an error, unless the scene has weak
-   springs. unheld: whether each body has a free mode; NULL if not needed */
+   springs. unsupported: whether each body has a free mode; NULL if not needed */
 static PetscErrorCode SupportFindUnsupported(DM dm, Scene scene, PetscBool unsupported[])
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
@@ -659,7 +659,7 @@ static PetscErrorCode SupportFindUnsupported(DM dm, Scene scene, PetscBool unsup
 - scene - the scene
 
   Output Parameter:
-. unheld - one value per body: whether any of its rigid body motions is free
+. unsupported - one value per body: whether any of its rigid body motions is free
 
   Level: intermediate
 
