@@ -67,8 +67,8 @@ static PetscErrorCode PairSpreadTurned(const PairRows *rows, const PetscReal val
 }
 
 /*
-   Adds to v[to] at the vertices B: factor x sum_A mass_A A_AB . n_A covered_A value_A (value NULL: 1). sides: the factor
-   is multiplied by its first value; NULL: 1
+   Adds to v[to] at the vertices B: factor x sum_A mass_A A_AB . n_A covered_A value_A (value NULL: 1). sides: the
+   factor is multiplied by its first value; NULL: 1
 */
 static PetscErrorCode PairSpreadBy(Simulation sim, const PairRows *rows, Mat A, const PetscReal value[],
   PetscReal factor, Vec sides, PetscInt to, Vec v)

@@ -1,6 +1,6 @@
 /*
-   Leaves points at which the gradient vanishes, but which are no minimizers: along a direction of negative curvature, or
-   through a point of inflection of the barrier function or of the Lagrangian
+   Leaves points at which the gradient vanishes, but which are no minimizers: along a direction of negative curvature,
+   or through a point of inflection of the barrier function or of the Lagrangian
 */
 #include "stepimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -166,8 +166,9 @@ static PetscErrorCode LeaveLongestStep(Tao tao, PetscReal norm, PetscReal *longe
 }
 
 /*
-   Computes the trial point at the step length alpha, and there the Lagrangian or the barrier function. Adds the rounding
-   error of the Lagrangian to *rounding. *feasible: whether the point has finite values and satisfies the constraints
+   Computes the trial point at the step length alpha, and there the Lagrangian or the barrier function. Adds the
+   rounding error of the Lagrangian to *rounding. *feasible: whether the point has finite values and satisfies the
+   constraints
 */
 static PetscErrorCode LeaveTrial(Tao tao, PetscReal alpha, PetscBool lagrangian, PetscReal *value, PetscReal *rounding,
   PetscBool *feasible)
@@ -245,8 +246,8 @@ static PetscErrorCode LeaveLagrangianInflection(Tao tao, PetscBool *left)
 }
 
 /*
-   Tries to leave a point of inflection of the barrier function along the last direction. At such a point Newton's method
-   converges only linearly, or with a shift that shortens its steps.
+   Tries to leave a point of inflection of the barrier function along the last direction. At such a point Newton's
+   method converges only linearly, or with a shift that shortens its steps.
 */
 static PetscErrorCode LeaveBarrierInflection(Tao tao, PetscBool *left)
 {

@@ -27,11 +27,11 @@ typedef struct {
 
 /* The prescribed displacements of a mortar face along one axis */
 typedef struct {
-  PetscBool  whole;  /* whether all vertices of the face are held by the same motion */
-  PetscInt   motion; /* that motion, if whole is true */
-  PetscInt   n;      /* number of entries of `places` from all ranks, without repetition */
+  PetscBool        whole;  /* whether all vertices of the face are held by the same motion */
+  PetscInt         motion; /* that motion, if whole is true */
+  PetscInt         n;      /* number of entries of `places` from all ranks, without repetition */
   PrescribedPlace *places;
-  PetscReal  rounding; /* tolerance for equal coordinates [length] */
+  PetscReal        rounding; /* tolerance for equal coordinates [length] */
 } PrescribedFace;
 
 static int PrescribedPlaceCompare(const void *a, const void *b)
@@ -69,7 +69,7 @@ static PetscErrorCode PrescribedPlacesGather(MPI_Comm comm, PrescribedFace *face
    its displacement is zero, or CONTACT_FREE if a rotation moves it along the axis or forces drive it. Returns false if
    the body is not rigid.
 */
-static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
+static PetscBool NoSlipRigidMotion(Contact contact, const char face[], PetscInt axis, PetscInt *motion)
 {
   const size_t length = strcspn(face, ".");
   PetscBool    rigid  = PETSC_FALSE;
@@ -91,14 +91,15 @@ static PetscBool HeldRigidMotion(Contact contact, const char face[], PetscInt ax
 }
 
 /* Collective. Determines the prescribed displacements of the mortar face s along an axis */
-static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis, PrescribedFace *face)
+static PetscErrorCode PrescribedFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis,
+  PrescribedFace *face)
 {
   PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds of motion: the negative of the smallest,
                                                                    and the largest */
 
   PetscFunctionBegin;
   *face       = (PrescribedFace){.rounding = plane_rounding * PetscSqrtReal(s->area)};
-  face->whole = HeldRigidMotion(contact, s->name, axis, &face->motion);
+  face->whole = NoSlipRigidMotion(contact, s->name, axis, &face->motion);
   if (face->whole) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
   PetscCall(PetscMalloc1(4 * s->nfacets, &face->places));
@@ -120,10 +121,11 @@ static PetscErrorCode HeldFaceCreate(Contact contact, const ContactSurface *s, P
 
 /* Compares the mortar face with a nonmortar vertex that has this prescribed motion, and this coordinate (place) along
    the axis. *held: whether the mortar face is held at that coordinate; *alike: whether the same motion holds it */
-static void HeldFaceFind(const PrescribedFace *face, PetscInt motion, PetscReal place, PetscBool *no_slip, PetscBool *alike)
+static void PrescribedFaceFind(const PrescribedFace *face, PetscInt motion, PetscReal place, PetscBool *no_slip,
+  PetscBool *alike)
 {
-  *no_slip  = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
-  *alike = (PetscBool)(*no_slip && face->motion == motion);
+  *no_slip = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
+  *alike   = (PetscBool)(*no_slip && face->motion == motion);
   for (PetscInt i = 0; !face->whole && i < face->n; ++i) {
     if (PetscAbsReal(face->places[i].place - place) > face->rounding) continue;
     *no_slip = PETSC_TRUE;
@@ -133,8 +135,8 @@ static void HeldFaceFind(const PrescribedFace *face, PetscInt motion, PetscReal 
 
 /* Collective. Sets `held` to 1 on the pair's rows without slip along an axis. Sets `frictionless` to 1 on those of
    these rows where the faces slide nevertheless. Sets nothing if the whole nonmortar face is held. */
-static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const PrescribedFace *mortar, PetscInt axis,
-  Vec no_slip, Vec frictionless)
+static PetscErrorCode NoSlipMarkAxis(Contact contact, ContactPairData *pair, const PrescribedFace *mortar,
+  PetscInt axis, Vec no_slip, Vec frictionless)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *motion, free = 0;
@@ -151,7 +153,7 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
     if (motion[i] == CONTACT_FREE) continue;
     /* nothing slips along the normal */
     if (ContactFacetNormal(&s->reference[12 * (i / 4)], normal) && PetscAbsReal(normal[axis]) > held_normal) continue;
-    HeldFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
+    PrescribedFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
     if (!alike && !(both && pair->sticks)) continue;
     PetscCall(VecSetValue(no_slip, pair->row[i], 1.0, INSERT_VALUES));
     if (!alike) PetscCall(VecSetValue(frictionless, pair->row[i], 1.0, INSERT_VALUES));
@@ -162,7 +164,7 @@ static PetscErrorCode HeldMarkAxis(Contact contact, ContactPairData *pair, const
 
 /* Returns the signed distance of vertex i of a surface from the origin, along the normal of a symmetry plane
    [length] */
-static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisplacement *plane)
+static PetscReal NoSlipOffset(const ContactSurface *s, PetscInt i, const SceneDisplacement *plane)
 {
   PetscReal n[3] = {plane->normal[0], plane->normal[1], plane->normal[2]};
 
@@ -171,7 +173,7 @@ static PetscReal HeldOffset(const ContactSurface *s, PetscInt i, const SceneDisp
 }
 
 /* Returns whether the symmetry planes of two prescribed displacements are parallel */
-static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacement *b)
+static PetscBool NoSlipParallel(const SceneDisplacement *a, const SceneDisplacement *b)
 {
   PetscReal m[3] = {a->normal[0], a->normal[1], a->normal[2]}, n[3] = {b->normal[0], b->normal[1], b->normal[2]};
 
@@ -186,7 +188,7 @@ static PetscBool HeldParallel(const SceneDisplacement *a, const SceneDisplacemen
    normal. planes: from ContactSurfaceFindPlanes() for the mortar face's vertices; faces: its prescribed displacements
    along each axis; offset: distance of the plane from the origin [length]
 */
-static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar, const PrescribedFace faces[3],
+static PetscErrorCode NoSlipIsAcross(Contact contact, const ContactSurface *mortar, const PrescribedFace faces[3],
   const PetscInt planes[], PetscInt k, PetscReal offset, PetscBool *across)
 {
   const SceneDisplacement *plane  = &contact->displacements[k];
@@ -200,7 +202,8 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
     const SceneDisplacement *other = planes[i] ? &contact->displacements[planes[i] - 1] : NULL;
     const PetscReal          sign  = other && VectorDot(plane->normal, other->normal) < 0.0 ? -1.0 : 1.0;
 
-    found = other && HeldParallel(plane, other) && PetscAbsReal(sign * HeldOffset(mortar, i, other) - offset) <= margin;
+    found =
+      other && NoSlipParallel(plane, other) && PetscAbsReal(sign * NoSlipOffset(mortar, i, other) - offset) <= margin;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt axis = 0; axis < 3; ++axis) {
@@ -216,7 +219,8 @@ static PetscErrorCode HeldIsAcross(Contact contact, const ContactSurface *mortar
 
 /* Collective. Sets `plane` to 1 + the number of the inclined symmetry plane on the rows whose vertices lie on it, if
    the mortar face cannot move across it. Sets nothing if all nonmortar vertices lie on such planes. */
-static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, const PrescribedFace mortar[3], Vec plane)
+static PetscErrorCode NoSlipMarkPlanes(Contact contact, ContactPairData *pair, const PrescribedFace mortar[3],
+  Vec plane)
 {
   const ContactSurface *s = &pair->nonmortar;
   PetscInt             *planes, *others, off = 0;
@@ -234,10 +238,10 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, con
 
     if (!contact->displacements[k].inclined) continue;
     for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
-      if (planes[i] == k + 1) offset = HeldOffset(s, i, &contact->displacements[k]);
+      if (planes[i] == k + 1) offset = NoSlipOffset(s, i, &contact->displacements[k]);
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &offset, 1, MPIU_REAL, MPIU_MAX, contact->comm));
-    PetscCall(HeldIsAcross(contact, &pair->mortar, mortar, others, k, offset, &across));
+    PetscCall(NoSlipIsAcross(contact, &pair->mortar, mortar, others, k, offset, &across));
     for (PetscInt i = 0; across && i < 4 * s->nfacets; ++i) {
       if (planes[i] == k + 1) PetscCall(VecSetValue(plane, pair->row[i], planes[i], INSERT_VALUES));
     }
@@ -246,8 +250,10 @@ static PetscErrorCode HeldMarkPlanes(Contact contact, ContactPairData *pair, con
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes contact->rows.no_slip, the directions along which rows have no slip, and the number of frictionless
-   rows of each pair */
+/*
+   Collective. Computes contact->rows.no_slip, the directions along which rows have no slip, and the number of
+   frictionless rows of each pair
+*/
 PetscErrorCode ContactFindNoSlip(Contact contact)
 {
   ContactRows *rows = &contact->rows;
@@ -263,16 +269,16 @@ PetscErrorCode ContactFindNoSlip(Contact contact)
   }
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
-    PrescribedFace         mortar[3];
+    PrescribedFace   mortar[3];
     PetscScalar      sum;
 
     if (!pair->frictional) continue;
     PetscCall(VecZeroEntries(frictionless));
     for (PetscInt c = 0; c < 3; ++c) {
-      PetscCall(HeldFaceCreate(contact, &pair->mortar, c, &mortar[c]));
-      PetscCall(HeldMarkAxis(contact, pair, &mortar[c], c, no_slip[c], frictionless));
+      PetscCall(PrescribedFaceCreate(contact, &pair->mortar, c, &mortar[c]));
+      PetscCall(NoSlipMarkAxis(contact, pair, &mortar[c], c, no_slip[c], frictionless));
     }
-    PetscCall(HeldMarkPlanes(contact, pair, mortar, no_slip[3]));
+    PetscCall(NoSlipMarkPlanes(contact, pair, mortar, no_slip[3]));
     for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].places));
     PetscCall(VecAssemblyBegin(frictionless));
     PetscCall(VecAssemblyEnd(frictionless));

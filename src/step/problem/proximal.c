@@ -1,8 +1,8 @@
 /*
    Proximal point method for bodies that only contact or friction holds. The rigid body motions of such a body have no
    stiffness, but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T proximal (x - centre) is
-   added to the energy, with a small diagonal matrix `proximal`. The centre moves to each solution until this term exerts no
-   force. The convergence rate is the ratio of `proximal` to the stiffness of whatever holds the bodies.
+   added to the energy, with a small diagonal matrix `proximal`. The centre moves to each solution until this term
+   exerts no force. The convergence rate is the ratio of `proximal` to the stiffness of whatever holds the bodies.
 
      All bodies get this term if only friction holds an elastic body and the first solve failed.
 
@@ -23,10 +23,10 @@ static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
 /*
-   Stiffness of the term, divided by that of the bodies: friction_stiffness after a failed solve with friction, weak_stiffness
-   for bodies on weak springs. The latter must exceed the rotational stiffness of the contact forces, which a linearized
-   gap omits and which is of the size of the strains. It grows by the factor weak_stiffness_growth in each further attempt
-   while it is below weak_stiffness_most.
+   Stiffness of the term, divided by that of the bodies: friction_stiffness after a failed solve with friction,
+   weak_stiffness for bodies on weak springs. The latter must exceed the rotational stiffness of the contact forces,
+   which a linearized gap omits and which is of the size of the strains. It grows by the factor weak_stiffness_growth in
+   each further attempt while it is below weak_stiffness_most.
 */
 static const PetscReal friction_stiffness = 1e-4, weak_stiffness = 1e-2, weak_stiffness_most = 1.0,
                        weak_stiffness_growth = 10.0;
@@ -43,8 +43,8 @@ PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec f
 }
 
 /*
-   Computes the force of the proximal term at x (`proximal`) and that of the deformation (`elastic`) in new vectors. norms:
-   2-norms of both [force].
+   Computes the force of the proximal term at x (`proximal`) and that of the deformation (`elastic`) in new vectors.
+   norms: 2-norms of both [force].
 */
 static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *proximal, Vec *elastic, PetscReal norms[2])
 {
@@ -79,8 +79,8 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 }
 
 /*
-   Adds `proximal` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already contains
-   this stiffness.
+   Adds `proximal` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already
+   contains this stiffness.
 */
 PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
@@ -90,8 +90,8 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 }
 
 /*
-   Computes the stiffness of the proximal term. proximal: `fraction` times the stiffness of the bodies; 0 in prescribed and
-   tied rows. weak: stiffness of the weak springs, so that only rows with such springs have a term; NULL: all bodies
+   Computes the stiffness of the proximal term. proximal: `fraction` times the stiffness of the bodies; 0 in prescribed
+   and tied rows. weak: stiffness of the weak springs, so that only rows with such springs have a term; NULL: all bodies
    have the term.
 */
 static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal fraction, Vec weak, Vec proximal)
