@@ -76,10 +76,10 @@ typedef struct {
                                         the load step */
   PetscBool   ended_early;      /* true if the last solve stopped at `tolerance`, before the tolerance of the
                                         load step */
-  PetscReal   gap_change;   /* change of the gap in the contact update before the last one [length] */
-  PetscBool   by_newton;    /* true if Newton's method found the point at which the gap is linearized */
-  PetscReal   newton_rtol;  /* relative tolerance to which Newton's method for the last contact update was solved */
-  PetscBool   rough;        /* true if a contact update made no progress, so that Newton's method is not
+  PetscReal   gap_change;       /* change of the gap in the contact update before the last one [length] */
+  PetscBool   by_newton;        /* true if Newton's method found the point at which the gap is linearized */
+  PetscReal   newton_rtol;      /* relative tolerance to which Newton's method for the last contact update was solved */
+  PetscBool   rough;            /* true if a contact update made no progress, so that Newton's method is not
                                         used for now */
   PetscInt    nflows;           /* number of iterates that show plastic flow */
   const char *flowing;          /* name of the body that flows, so that there is no equilibrium; NULL: none */
