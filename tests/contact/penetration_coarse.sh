@@ -1,0 +1,30 @@
+# Two saddles of coarse tetrahedra that cross touch at a point and are pressed by less than the error of their curved faces: the run without force warns
+contact=$AMGF_DIR/bin/contact
+"$PYTHON" - <<'PY'
+from tetrahedra import BOX_FACES, Block
+
+def low(p):
+    x, y = 1.4 * p[0] - 0.7, 1.4 * p[1] - 0.7
+    return x, y, p[2] * (1 - y * y / 2)
+
+def high(p):
+    x, y = 1.4 * p[0] - 0.7, 1.4 * p[1] - 0.7
+    return x, y, 1 + x * x / 2 + p[2] * (1 - x * x / 2)
+
+for name, place in ("low", low), ("high", high):
+    Block(1, (4, 4, 2), place, BOX_FACES).write(name + ".msh", "2.2")
+for depth in 0.0002, 0.1:
+    open(f"pressed_{depth}.yaml", "w").write(f"""bodies:
+  - low: {{shape: gmsh, mesh: low.msh, volume: block, order: 1, young: 1000, poisson: 0.3}}
+  - high: {{shape: gmsh, mesh: high.msh, volume: block, order: 1, young: 1000, poisson: 0.3}}
+displacements:
+  - hold: {{face: low.zmin, value: [0, 0, 0]}}
+  - press: {{face: high.zmax, value: [0, 0, -{depth}]}}
+contact: auto
+load: {{steps: 1}}
+""")
+PY
+for depth in 0.0002 0.1; do
+  "$contact" pressed_$depth.yaml -quiet -error_estimate 0 > out 2>&1 || echo "exit $?"
+  grep -o 'carries no force' out || echo "pressed by $depth: no warning of a pair without force"
+done
