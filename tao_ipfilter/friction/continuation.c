@@ -190,33 +190,46 @@ static PetscErrorCode ContinuationFallBack(IPTermSet *set, const IPReducedSystem
   PetscFunctionReturn(0);
 }
 
-/* Returns whether all contacts that were closed are closed, and all closed contacts stick */
+/* Returns whether the same contacts are closed as before, and all of them stick */
 static PetscBool ContinuationKept(const IPTermSet *set, const PetscBool before[])
 {
   for (PetscInt i = 0; i < set->m; i++) {
-    if (before[i] && !set->closed[i]) return PETSC_FALSE;
+    if (before[i] != set->closed[i]) return PETSC_FALSE;
     if (i < set->n && set->active[IPTermLawsRow(set, i)] && set->slips[i]) return PETSC_FALSE;
   }
   return PETSC_TRUE;
 }
 
 /*
-   Solves if contacts stick: by Newton's method if no contact opens or slides, and by the path of stick_path.c if one
-   does. force, motion: forces and motions of the rows at the begin of the path; begin: forces, motions and y with which
-   Newton's method starts
+   Returns whether a contact is closed at the begin of the path. A contact that touches, and whose force is at most a
+   guess, is closed if it has not slid; otherwise it is about to close, and sticks where it is.
+*/
+static PetscBool ContinuationCloses(const IPTermSet *set, const IPReducedSystem *s, const PetscReal motion[],
+  PetscInt i)
+{
+  const PetscReal touch = 1e-9, slid = 1e-6;
+  const PetscInt  row = i < set->n ? IPTermLawsRow(set, i) : 0;
+
+  if (motion[i] > touch * set->length) return set->closed[i];
+  if (i >= set->n || (set->closed[i] && !s->guessed)) return PETSC_TRUE;
+  return (PetscBool)(PetscMax(PetscAbsReal(motion[row]), PetscAbsReal(motion[row + 1])) <= slid * set->length);
+}
+
+/*
+   Solves if contacts stick: by Newton's method if no contact opens, closes or slides, and by the path of stick_path.c
+   if one does. force, motion: forces and motions of the rows at the begin of the path; begin: forces, motions and y
+   with which Newton's method starts
 */
 static PetscErrorCode ContinuationStick(IPTermSet *set, const IPReducedSystem *s, PetscBool simply,
   const PetscReal force[], const PetscReal motion[], PetscReal begin[], PetscReal *first, PetscInt *steps,
   PetscBool *solved)
 {
-  const PetscInt  limit = 12;
-  const PetscReal touch = 1e-9;
-  PetscBool      *closed, measured, found = PETSC_FALSE;
+  const PetscInt limit = 12;
+  PetscBool     *closed, measured, found = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(set->m, &closed));
-  for (PetscInt i = 0; i < set->m; i++)
-    closed[i] = set->closed[i] = (PetscBool)(set->closed[i] || motion[i] <= touch * set->length);
+  for (PetscInt i = 0; i < set->m; i++) closed[i] = set->closed[i] = ContinuationCloses(set, s, motion, i);
   PetscCall(IPTermSetIterate(set, s, limit, *first, steps, solved));
   *solved = (PetscBool)(*solved && ContinuationKept(set, closed));
   if (!*solved && !simply) PetscCall(IPTermDenseMeasure(&set->system, PETSC_TRUE, &measured));

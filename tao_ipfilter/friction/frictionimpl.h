@@ -101,10 +101,9 @@ typedef struct {
 /* The state of a contact on the path of stick_path.c */
 typedef enum {
   IP_STICK_OPEN,
-  IP_STICK_HELD,    /* sticks */
-  IP_STICK_SLIDES,  /* its force along the face vanishes */
-  IP_STICK_RETURNS, /* it has closed, and its motion along the face vanishes */
-  IP_STICK_FREE     /* never sticks */
+  IP_STICK_HELD,   /* sticks */
+  IP_STICK_SLIDES, /* its force along the face vanishes */
+  IP_STICK_FREE    /* never sticks */
 } IPStickState;
 
 /* The path of stick_path.c */

@@ -2,7 +2,8 @@
    A path to the state of contacts that stick while they are closed. The load grows from the begin, which is a state of
    equilibrium, to the present one. On the way contacts open and close, one after the other. The order of these events
    decides the state at the end, which is one of several possible states. A contact whose force leaves a wide cone
-   slides: its force along the face vanishes at constant load, and it sticks again where it is then.
+   slides: its force along the face vanishes at constant load, and it sticks again where it is then. A contact that
+   closes sticks where it has closed.
    Contacts that change within rounding errors of each other change together, so that symmetric bodies remain symmetric.
 */
 #include "frictionimpl.h"
@@ -53,11 +54,11 @@ static PetscErrorCode PathHoldTangents(IPStickPath *w, PetscInt i, PetscBool hel
   PetscFunctionReturn(0);
 }
 
-/* Returns whether the load is constant while forces or motions along faces vanish */
+/* Returns whether the load is constant while forces along faces vanish */
 static PetscBool PathRelaxes(const IPStickPath *w)
 {
   for (PetscInt i = 0; i < w->p->m; i++)
-    if (w->contact[i] == IP_STICK_SLIDES || w->contact[i] == IP_STICK_RETURNS) return PETSC_TRUE;
+    if (w->contact[i] == IP_STICK_SLIDES) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
@@ -76,10 +77,9 @@ static void PathDrive(IPStickPath *w, PetscBool relaxes)
     if (p->place[r] < 0 && w->x[load] < 1.0) w->rate[r] = -w->x[r] / (1.0 - w->x[load]);
   for (PetscInt i = 0; i < p->m && relaxes; i++) {
     for (PetscInt a = 0; a < 2; a++) {
-      const PetscInt row = PathTangent(w, i, a), v = w->contact[i] == IP_STICK_SLIDES ? row : row + p->rows;
+      const PetscInt v = PathTangent(w, i, a);
 
-      if (w->contact[i] != IP_STICK_SLIDES && w->contact[i] != IP_STICK_RETURNS) continue;
-      if (p->place[v] < 0) w->rate[v] = -w->x[v];
+      if (w->contact[i] == IP_STICK_SLIDES && p->place[v] < 0) w->rate[v] = -w->x[v];
     }
   }
 }
@@ -129,7 +129,7 @@ static PetscReal PathReach(const IPStickPath *w, PetscInt i, PetscReal *speed)
 
   *speed = -w->rate[v];
   if (w->p->dropped[i]) return PETSC_INFINITY;
-  if (closed && (w->contact[i] == IP_STICK_HELD || w->contact[i] == IP_STICK_RETURNS)) return PathCone(w, i, speed);
+  if (closed && w->contact[i] == IP_STICK_HELD) return PathCone(w, i, speed);
   if (*speed <= tiny * w->size[!closed]) return PETSC_INFINITY;
   return PetscMax(w->x[v], 0.0) / *speed;
 }
@@ -176,7 +176,7 @@ static PetscErrorCode PathChange(IPStickPath *w, PetscInt i)
   const PetscBool closed = (PetscBool)(p->place[i] >= 0);
 
   PetscFunctionBegin;
-  if (closed && (w->contact[i] == IP_STICK_HELD || w->contact[i] == IP_STICK_RETURNS)) {
+  if (closed && w->contact[i] == IP_STICK_HELD) {
     PetscCall(PathRelease(w, i));
     PetscFunctionReturn(0);
   }
@@ -184,7 +184,8 @@ static PetscErrorCode PathChange(IPStickPath *w, PetscInt i)
   PetscCall(PathHold(w, i, (PetscBool)!closed));
   if (w->contact[i] == IP_STICK_OPEN && p->place[i] >= 0) {
     PetscCall(PathHoldTangents(w, i, PETSC_TRUE));
-    w->contact[i] = w->moved[i] ? IP_STICK_HELD : IP_STICK_RETURNS;
+    w->contact[i] = IP_STICK_HELD;
+    w->moved[i]   = PETSC_TRUE;
   }
   PetscFunctionReturn(0);
 }
@@ -196,11 +197,9 @@ static PetscErrorCode PathSettle(IPStickPath *w)
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < p->m; i++) {
-    const PetscBool slides = (PetscBool)(w->contact[i] == IP_STICK_SLIDES);
-
-    if (!slides && w->contact[i] != IP_STICK_RETURNS) continue;
+    if (w->contact[i] != IP_STICK_SLIDES) continue;
     for (PetscInt a = 0; a < 2; a++) {
-      const PetscInt v = PathTangent(w, i, a) + (slides ? 0 : p->rows);
+      const PetscInt v = PathTangent(w, i, a);
 
       if (p->place[v] < 0) w->x[v] = 0.0;
     }

@@ -40,6 +40,21 @@ contact:
 """
 
 
+def closing(gap, motion, steps):
+    """A block above a floor, moved sideways and down. It touches the floor after half of the motion if that is twice the gap."""
+    return f"""problem: closing
+bodies:
+  - floor: {{lower: [-2, -2, -1], upper: [3, 3, 0], cells: [5, 5, 1], young: 1e4, poisson: 0}}
+  - block: {{lower: [0, 0, {gap}], upper: [1, 1, {gap + 0.5}], cells: [4, 4, 2], young: 1000, poisson: 0}}
+displacements:
+  - hold: {{face: floor.zmin, value: [0, 0, 0]}}
+  - push: {{face: block.zmax, value: [{motion}, 0, {-motion}]}}
+contact:
+  - c: {{mortar: floor.zmax, nonmortar: block.zmin, distance: 0.1, stick: true}}
+load: {{steps: {steps}}}
+"""
+
+
 def turned(scene):
     """The same bodies in another order, which changes the order of the unknowns and with it the rounding errors"""
     lines = scene.splitlines(keepends=True)
@@ -61,6 +76,10 @@ SCENES = {
     "held": HELD,
     "belt": belt("stick: true"),
     "belt_rubs": belt("friction: 2"),
+    "touching": closing(0, 0.01, 1),
+    "closing_1": closing(0.01, 0.02, 1),
+    "closing_2": closing(0.01, 0.02, 2),
+    "closing_3": closing(0.01, 0.02, 3),
 }
 SCENES["leaves_free"] = SCENES["leaves_free"].replace(", friction: 0", "")
 
@@ -90,3 +109,7 @@ else:
         say(f"{name}: nothing is dissipated where nothing rubs", max(map(abs, off)) < 0.01, off)
     pair = last["belt_rubs"]["pairs"][0]
     say("belt_rubs: friction within its law", 0 < pair["shear_force"] <= 2 * pair["normal_force"] * (1 + 1e-6), pair)
+    for name in "closing_1", "closing_2", "closing_3":
+        pair, twin = (last[run]["pairs"][0] for run in (name, "touching"))
+        off = [pair[key] / twin[key] - 1 for key in ("shear_force", "normal_force")]
+        say(f"{name}: sticks where it has closed, with the forces of a block that touches from the start", max(map(abs, off)) < 0.005, off)

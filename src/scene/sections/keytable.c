@@ -226,7 +226,8 @@ static const SceneKey contact_rows[] = {
     "largest friction stress. With `friction` it limits Coulomb's law; alone it is Tresca's law where the faces touch"),
   OWN("stick", NULL, SceneContactPair, friction, OPTIONAL, SceneOwnStick, "", "`false`",
     "`true`: faces that touch do not slip while the shear force is below 1,000 times the normal force; without "
-    "`friction` and `shear_limit`. A node that opens and closes in one load step may slip in that step"),
+    "`friction` and `shear_limit`. A node that closes within a "
+    "load step sticks where it has closed; one that opens before may slip in that step"),
   ANSWER("smooth", NULL, SceneContactPair, smooth, "`true`",
     "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than "
     "35 degrees stay sharp. `false`: between the facets"),
