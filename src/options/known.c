@@ -127,8 +127,14 @@ PetscBool OptionIsKnown(const char name[])
 
 PetscBool OptionGetKind(const char name[], OptionKind *kind)
 {
-  const char *ours = name + OptionPrefixLength(name);
+  static const char *const counts[]  = {"ksp_max_it", "tao_max_it", NULL};
+  static const char *const numbers[] = {"ksp_rtol", "tao_gatol", NULL};
+  const char              *ours = name + OptionPrefixLength(name), *petscs = name + OptionAllPrefixes(name);
 
+  if (OptionIsOneOf(petscs, counts) || OptionIsOneOf(petscs, numbers)) {
+    *kind = OptionIsOneOf(petscs, counts) ? OPTION_COUNT : OPTION_NUMBER;
+    return PETSC_TRUE;
+  }
   if (OptionIsOneOf(ours, OptionsSwitches)) *kind = OPTION_SWITCH;
   else if (OptionIsOneOf(ours, OptionsCounts)) *kind = OPTION_COUNT;
   else if (OptionIsOneOf(ours, OptionsWords)) *kind = OPTION_WORD;

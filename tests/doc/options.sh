@@ -39,6 +39,8 @@ try -load_steps 4294967297
 try -checkpoint_every 99999999999999999999
 try -checkpoint_every -1
 try -load_max_cuts -1
+try -tao_max_it true
+try -elasticity_ksp_rtol small
 try -tao_ipfilter_tol small
 try -tao_ipfilter_pc_amgf_filter_ranks many
 try -quiet nofile
