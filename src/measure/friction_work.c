@@ -126,20 +126,6 @@ static PetscReal FrictionLatePart(PetscReal now, PetscReal gap, const PetscScala
   return gap * gap < square ? PetscMin(ratio, 1.0) : 0.0;
 }
 
-/*
-   Returns the work that the force of the last state would gain in a row that opened, if this force acted half of the
-   way. The friction force had vanished before the row moved in its direction.
-*/
-static PetscReal FrictionOpenWork(PetscReal now, const PetscReal old[3], const PetscReal tangent[6],
-  const PetscScalar s[2])
-{
-  PetscReal work = 0.0;
-
-  if (now > 0.0) return 0.0;
-  for (int a = 0; a < 2; ++a) work += 0.5 * PetscRealPart(s[a]) * VectorDot(&tangent[3 * a], old);
-  return PetscMax(work, 0.0);
-}
-
 /* Computes the bounds of all rows [force], and for each pair their sum over that at the last state */
 static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal bound[],
   PetscReal ratio[])
@@ -208,10 +194,9 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   for (PetscInt r = 0; r < lin->nlocal && !SimulationIsDynamic(sim); ++r) {
     const PetscInt   k       = ContactHistoryIndex(m, lin, r);
     const PetscReal *tangent = &lin->tangent[6 * r], *old = &m->settled[3 * k];
-    const PetscReal  counts = FrictionLatePart(bound[k], PetscRealPart(g[r]), &s[2 * r], ratio[lin->pair[r]]);
 
-    late[k] = counts * FrictionLateWork(m->bound[k], bound[k], old, tangent, &f[2 * r], &s[2 * r]) +
-              (1.0 - counts) * FrictionOpenWork(bound[k], old, tangent, &s[2 * r]);
+    late[k] = FrictionLatePart(bound[k], PetscRealPart(g[r]), &s[2 * r], ratio[lin->pair[r]]) *
+              FrictionLateWork(m->bound[k], bound[k], old, tangent, &f[2 * r], &s[2 * r]);
     late[k] += FrictionShiftWork(&m->shift[3 * k], old, tangent, &f[2 * r]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
