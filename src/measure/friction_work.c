@@ -209,9 +209,9 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 /*
    Computes for every pair and vertex the work of friction since the last state (work, [npairs x nowned]), and the
    bounds of the friction forces at u. Friction never gains energy. The work of a pair counts as zero if rounding errors
-   make it negative, or forces of rows that are no longer there. sums: [npairs] work of each pair on all ranks; *late:
-   the part that the mean of the forces at the two states lacks, on all ranks; friction: [3 npairs x nowned] friction
-   forces at u, or NULL.
+   make it negative, or forces of rows that opened, which the mean takes to act until the end. sums: [npairs] work of
+   each pair on all ranks; *late: the part that the mean of the forces at the two states lacks, on all ranks; friction:
+   [3 npairs x nowned] friction forces at u, or NULL.
 */
 static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
   PetscReal work[], PetscReal bound[], PetscReal sums[], PetscReal friction[], PetscReal *late)
