@@ -29,7 +29,7 @@ print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(
 choices = {name: re.findall(r'"(\w+)"', words) for name, words in re.findall(r'\{"(\w+)", \{([^}]*), NULL\}\}', code("src/options/known.c"))}
 enumerated = {name for call, name in calls if call in ("Enum", "EList")}
 print("enumerated, and without a list of words:", ", ".join(sorted(enumerated ^ set(choices))) or "none")
-arrays = [re.findall(r'"(\w+)"', words) for words in re.findall(r"\*const \w+\[\] *= \{(.*?)\}", sources, flags=re.S)]
+arrays = [re.findall(r'"(\w+)"', words) for words in re.findall(r"\*const +\w+\[\] *= \{(.*?)\}", sources, flags=re.S)]
 print("with other words than the sources have:", ", ".join(name for name, words in choices.items() if not any(words == array[: len(words)] and len(array) in (len(words), len(words) + 2) for array in arrays)) or "none")
 users = "".join(open(path, errors="replace").read() for folder in ("tests", "share") for path in glob.glob(os.path.join(TOP, folder, "**", "*.*"), recursive=True)
                 if path.endswith((".c", ".sh", ".py", ".opts", ".yaml", ".md")) and not path.endswith("changelog.md")) + open(os.path.join(TOP, "README.md")).read()

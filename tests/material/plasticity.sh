@@ -50,8 +50,8 @@ done
 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part1.json
 mpiexec --oversubscribe -n 3 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part3.json
 mpiexec --oversubscribe -n 2 "$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 -summary finer.json
-"$contact" tube.yaml $options -checkpoint tube.h5 -checkpoint_every 4 -output tube -summary tube.json || echo "tube: exit code $?"
-"$contact" tube.yaml $options -refine 1 -restart tube.h5 -summary refined.json
+"$contact" tube.yaml $options -checkpoint tube_checkpoint.h5 -checkpoint_every 4 -output tube -summary tube.json || echo "tube: exit code $?"
+"$contact" tube.yaml $options -refine 1 -restart tube_checkpoint.h5 -summary refined.json
 "$contact" tube.yaml $options -refine 1 -summary fine.json
 "$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"; echo "collapse: exit code ${PIPESTATUS[0]}"
 sed 's/element: bbar/element: incompatible/; s/0.4999/0.3/' collapse.yaml > modes.yaml
