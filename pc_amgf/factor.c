@@ -6,7 +6,7 @@
 */
 #define _POSIX_C_SOURCE 200809L /* declares clock_gettime() */
 #include "amgfimpl.h"
-#include "cholesky.h"
+#include "solver_types.h"
 #include "mumps.h"
 #include <petscblaslapack.h>
 #include <time.h>

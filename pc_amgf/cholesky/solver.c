@@ -1,7 +1,7 @@
 /* The factorization as two of PETSc's MatSolverType, for sequential matrices of types AIJ, BAIJ and SBAIJ */
 #include "choleskyimpl.h"
 #include "solver.h"
-#include "pc_amgf/cholesky.h"
+#include "pc_amgf/solver_types.h"
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <petsc/private/matimpl.h>

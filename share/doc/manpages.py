@@ -51,7 +51,8 @@ def from_source(comment, synopsis):
     page(name, 3, description, "\n".join(body) + "\n")
 
 
-for path in sorted(glob.glob(os.path.join(TOP, "pc_amgf", "**", "*.c"), recursive=True) + glob.glob(os.path.join(TOP, "tao_ipfilter", "**", "*.c"), recursive=True) + [os.path.join(TOP, "include", "petscamgf.h")]):
+sources = [path for folder in ("pc_amgf", "plugin", "tao_ipfilter") for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)]
+for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
     with open(path) as file:
         text = file.read()
     for match in re.finditer(r"/\*(@C?|MC|E)\n(.*?)\n(?:@|M|E)\*/\n([^\n]*)", text, flags=re.S):

@@ -9,7 +9,7 @@
    within those seen before.
 */
 #include "frictionimpl.h"
-#include "pc_amgf/cholesky.h"
+#include "pc_amgf/solver_types.h"
 #include "pc_amgf/mumps.h"
 #include <petscblaslapack.h>
 #include <vector3.h>

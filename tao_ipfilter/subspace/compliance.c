@@ -3,7 +3,7 @@
    needed first. All data are on the first rank.
 */
 #include "subspaceimpl.h"
-#include "pc_amgf/cholesky.h"
+#include "pc_amgf/solver_types.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)

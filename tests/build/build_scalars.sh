@@ -9,7 +9,7 @@ headers=$(pkg-config --cflags PETSc)
 # compile FILE...: with PETSc's own headers, told that scalars are complex
 compile() { mpicc -std=c11 -Wall -Wextra -Werror=incompatible-pointer-types -fsyntax-only -DPETSC_USE_COMPLEX -I"$AMGF_DIR/include" -I"$AMGF_DIR" $headers "$@"; }
 
-compile "$AMGF_DIR"/pc_amgf/*.c "$AMGF_DIR"/pc_amgf/plugin/*.c && echo "PCAMGF compiles"
+compile "$AMGF_DIR"/pc_amgf/*.c "$AMGF_DIR"/plugin/*.c && echo "PCAMGF compiles"
 for file in tao_ipfilter/ipfilter.c src/run/simulation.c; do
   compile "$AMGF_DIR/$file" > refusal 2>&1 && echo "$file compiles"
   grep -o '[a-z]* needs a PETSc with real scalars' refusal | sort -u
