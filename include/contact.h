@@ -55,6 +55,9 @@ PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization 
 /* Finds whether a body of a pair ends inside the other one, through faces that are not the pair's */
 PETSC_EXTERN PetscErrorCode ContactGetEntered(Contact, PetscInt pair, Vec u, PetscReal margin, PetscBool *entered,
   PetscReal place[3]);
+/* Collective. Determines whether the faces of a pair look away from each other everywhere. turns: whether bodies may
+   rotate by large angles */
+PETSC_EXTERN PetscErrorCode ContactLooksAway(Contact, PetscInt pair, PetscBool turns, PetscBool *away);
 /* Determines whether a face of a pair is curved before it deforms */
 PETSC_EXTERN PetscErrorCode ContactIsCurved(Contact, PetscInt pair, PetscBool *);
 /* Collective. Whether a node (its number in global vectors) is on the edge of a pair's nonmortar face */

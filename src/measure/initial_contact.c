@@ -70,6 +70,38 @@ static const char *StartJudge(const SceneContactPair *pair, const PairStart *sta
            : NULL;
 }
 
+/* Returns whether bodies of the scene may rotate by large angles */
+static PetscBool StartMayTurn(Scene scene)
+{
+  PetscBool turns = PETSC_FALSE;
+
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    turns = (PetscBool)(turns || MaterialIsFinite(&scene->bodies[b].material));
+  for (PetscInt k = 0; k < scene->ndisplacements; ++k) {
+    for (PetscInt c = 0; c < 3; ++c)
+      turns =
+        (PetscBool)(turns || scene->displacements[k].rotation[c] != 0.0 || scene->displacements[k].released[3 + c]);
+  }
+  return turns;
+}
+
+/* Collective. Writes what is wrong with a pair whose faces look away from each other; an empty text: nothing */
+static PetscErrorCode StartLookAway(Contact contact, Scene scene, PetscInt p, char text[], size_t length)
+{
+  const SceneContactPair *pair = &scene->pairs[p];
+  PetscBool               away;
+
+  PetscFunctionBegin;
+  text[0] = '\0';
+  PetscCall(ContactLooksAway(contact, p, StartMayTurn(scene), &away));
+  if (away)
+    PetscCall(PetscSNPrintf(text, length,
+      "contact pair \"%s\": all of the nonmortar face %s looks away from the mortar face %s, so that the two cannot be "
+      "pressed against each other: give the pair the faces that meet",
+      pair->name, pair->nonmortar, pair->mortar));
+  PetscFunctionReturn(0);
+}
+
 /* Warns of nodes that must stick although both faces have different prescribed displacements there */
 static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 {
@@ -119,7 +151,10 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);
+    char                    away[512];
 
+    PetscCall(StartLookAway(sim->contact, scene, p, away, sizeof(away)));
+    if (away[0]) PetscCall(ReportWarn(sim->comm, &sim->report, "%s", away));
     PetscCall(StartWarnOfRigid(sim, pair));
     PetscCall(StartWarnOfFrictionless(sim, p));
     if (!wanted) continue;
@@ -256,7 +291,13 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(PetscObjectComm((PetscObject)dm), lin, scene->npairs, starts));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Contact at the start\n"));
-  for (PetscInt p = 0; p < scene->npairs; ++p) PetscCall(StartDescribePair(&scene->pairs[p], &starts[p], viewer));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    char away[512];
+
+    PetscCall(StartDescribePair(&scene->pairs[p], &starts[p], viewer));
+    PetscCall(StartLookAway(contact, scene, p, away, sizeof(away)));
+    if (away[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "    WARNING: %s\n", away));
+  }
   PetscCall(PetscFree(starts));
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCall(VecDestroy(&zero));
