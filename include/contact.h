@@ -66,8 +66,9 @@ PETSC_EXTERN PetscErrorCode ContactIsAtEdge(Contact, PetscInt pair, PetscInt nod
    update, and all nodes of that face */
 PETSC_EXTERN PetscErrorCode ContactGetFrictionless(Contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes);
 /* Collective. Computes, for each pair, the largest penetration of a vertex of either face at a displacement, and the
-   uncertainty of this depth [length] */
-PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, PetscReal depth[], PetscReal rounding[]);
+   uncertainty of this depth [length]. within: pairs for which points in the facets count, too */
+PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, const PetscBool within[], PetscReal depth[],
+  PetscReal rounding[]);
 /* Collective. Computes the largest depth of vertices of a pair that passed through the other face between u0 and u1,
    and the search depth of the pair [length]. turned: whether a facet rotated by more than 90 degrees */
 PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,

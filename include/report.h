@@ -17,7 +17,8 @@ typedef struct {
                                    [force] */
   PetscReal   area;             /* area around the vertices in contact that the other side covers [length^2] */
   PetscReal   pressure;         /* largest value of the contact pressure field [force/length^2] */
-  PetscReal   penetration;      /* depth of the deepest vertex of either face below the other face [length] */
+  PetscReal   penetration;      /* depth of the deepest vertex of either face below the other face [length]; after the
+                                   last load step, of pairs without force, also of points in the facets */
   PetscReal   coarseness;       /* mean size of the nonmortar facets in contact divided by that of the mortar facets;
                                    0: no contact */
   PetscBool   narrow;           /* the contact area is only one nonmortar facet wide */

@@ -3,6 +3,8 @@
 #include "contactimpl.h"
 #include "src/contact/self/selfimpl.h"
 
+#define PENETRATION_POINTS 5 /* number of points along each direction of a facet, if points in the facets are tested */
+
 /* Returns the depth of the vertex x below a facet, or below its smooth surface [length]. The depth is 0 if the vertex
    is above the facet, or if its distance beside the facet exceeds its depth. */
 static PetscReal PenetrationOfVertex(const ContactCandidates *facets, const ContactNearest *nearest,
@@ -45,8 +47,58 @@ static PetscBool PenetrationMayMeet(const void *context, const ContactCandidates
   return (PetscBool)!ContactSelfIsWall(&vertex->facet, &vertex->facet.reference[3 * vertex->corner], &other, y);
 }
 
-/* Collective. Increases *deepest to the largest depth of the vertices of `side` below `other` [length] */
-static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const ContactSurface *side,
+/* Computes the point xi of a facet of `side`, on its smooth surface if it has one */
+static void PenetrationPlace(const ContactSurface *side, PetscInt facet, const PetscReal xi[2], PetscReal y[3])
+{
+  const PetscReal *x = &side->x[12 * facet];
+  PetscReal        phi[4], n[3];
+
+  for (PetscInt c = 0; c < 3; ++c) y[c] = 0.0;
+  if (side->patched) {
+    ContactPatch patch;
+
+    ContactPatchCreate(x, &side->patch[12 * facet], &patch);
+    ContactPatchEvaluate(&patch, xi, y, n);
+  }
+  ContactShape(xi, phi);
+  for (PetscInt i = 0; i < 12; ++i) y[i % 3] += phi[i / 3] * x[i];
+}
+
+/* Increases *deepest to the largest depth of points in facet f of `side` [length] */
+static void PenetrationOfFacet(PetscReal reach, const ContactSurface *side, PetscInt f, const PetscReal normal[3],
+  const ContactTree *tree, const ContactCandidates *facets, PetscReal *deepest)
+{
+  for (PetscInt k = 0; k < PENETRATION_POINTS * PENETRATION_POINTS; ++k) {
+    const PetscReal xi[2] = {2.0 * (PetscReal)(k % PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0,
+      2.0 * (PetscReal)(k / PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0};
+    PetscReal       y[3];
+    ContactNearest  nearest;
+
+    PenetrationPlace(side, f, xi, y);
+    ContactFindNearest(tree, facets, CONTACT_NORMAL_COSINE, reach, y, normal, NULL, NULL, &nearest);
+    if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(facets, &nearest, y));
+  }
+}
+
+/* Increases *deepest to the largest depth of the vertices of facet f of `side` [length] */
+static void PenetrationOfCorners(PetscReal reach, const ContactSurface *side, PetscInt f, const PetscReal normal[3],
+  const ContactTree *tree, const ContactCandidates *facets, PetscReal *deepest)
+{
+  for (PetscInt a = 0; a < 4; ++a) {
+    const PetscReal  *x = &side->x[12 * f + 3 * a];
+    ContactNearest    nearest;
+    PenetrationVertex vertex = {.corner = a};
+
+    if (side->self) vertex.facet = ContactSelfOwn(side, f);
+    ContactFindNearest(tree, facets, CONTACT_NORMAL_COSINE, reach, x, normal, side->self ? PenetrationMayMeet : NULL,
+      &vertex, &nearest);
+    if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(facets, &nearest, x));
+  }
+}
+
+/* Collective. Increases *deepest to the largest depth of the vertices of `side` below `other` [length]. within: whether
+   points in the facets count, too */
+static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, PetscBool within, const ContactSurface *side,
   const ContactSurface *other, PetscReal *deepest)
 {
   PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
@@ -64,16 +116,8 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, const 
     PetscReal n[3];
 
     if (!ContactFacetNormal(&side->x[12 * f], n)) continue;
-    for (PetscInt a = 0; a < 4; ++a) {
-      const PetscReal  *x = &side->x[12 * f + 3 * a];
-      ContactNearest    nearest;
-      PenetrationVertex vertex = {.corner = a};
-
-      if (side->self) vertex.facet = ContactSelfOwn(side, f);
-      ContactFindNearest(&tree, &facets, CONTACT_NORMAL_COSINE, reach, x, n, side->self ? PenetrationMayMeet : NULL,
-        &vertex, &nearest);
-      if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(&facets, &nearest, x));
-    }
+    PenetrationOfCorners(reach, side, f, n, &tree, &facets, deepest);
+    if (within && !side->self) PenetrationOfFacet(reach, side, f, n, &tree, &facets, deepest);
   }
   PetscCall(ContactTreeDestroy(&tree));
   PetscCall(ContactCandidatesDestroy(&facets));
@@ -98,11 +142,15 @@ static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest
    - rounding: for each pair, the uncertainty of the depth [length]. It is a tenth of the distance between smooth
      surfaces and facets, and 0 for plane faces.
 
+   - within: pairs for which points in the facets count as well as vertices. Without a vertex inside the other body, two
+     convex surfaces may penetrate where edges cross. This costs several times as much.
+
    The gap of a mortar pair is a mean, weighted by the shape function of a nonmortar vertex. Here the depth of each
    single vertex of both sides is measured along the normal of the other face. Smooth pairs are measured between the
    smooth surfaces. A vertex that does not project onto the other face has no depth.
 */
-PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], PetscReal rounding[])
+PetscErrorCode ContactGetPenetration(Contact contact, Vec u, const PetscBool within[], PetscReal depth[],
+  PetscReal rounding[])
 {
   PetscFunctionBegin;
   PetscCall(ContactDeform(contact, u));
@@ -116,8 +164,9 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, PetscReal depth[], 
       PenetrationOfFormula(contact, p, &depth[p]);
       continue;
     }
-    PetscCall(PenetrationOfSide(contact, reach, &pair->nonmortar, &pair->mortar, &depth[p]));
-    if (!pair->mortar.self) PetscCall(PenetrationOfSide(contact, reach, &pair->mortar, &pair->nonmortar, &depth[p]));
+    PetscCall(PenetrationOfSide(contact, reach, within[p], &pair->nonmortar, &pair->mortar, &depth[p]));
+    if (!pair->mortar.self)
+      PetscCall(PenetrationOfSide(contact, reach, within[p], &pair->mortar, &pair->nonmortar, &depth[p]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, depth, (PetscMPIInt)contact->npairs, MPIU_REAL, MPIU_MAX, contact->comm));
   PetscFunctionReturn(0);

@@ -8,21 +8,25 @@
 
 #define PENETRATION_SHARE 0.01 /* a warning is printed above this fraction of the largest displacement of the run */
 
-/* Measures penetration at the last state. Collective. */
+/* Measures penetration at the last state. After the last load step, pairs without force are measured in their facets as
+   well. Collective. */
 PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
 {
   PetscReal *depth, *rounding;
+  PetscBool *within;
 
   PetscFunctionBegin;
   if (!report->npairs) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(report->npairs, &depth, report->npairs, &rounding));
-  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, depth, rounding));
+  PetscCall(PetscMalloc3(report->npairs, &depth, report->npairs, &rounding, report->npairs, &within));
+  for (PetscInt p = 0; p < report->npairs; ++p)
+    within[p] = (PetscBool)(report->step == sim->scene->nsteps && report->pairs[p].normal_force == 0.0);
+  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
   PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &report->motion));
   for (PetscInt p = 0; p < report->npairs; ++p) {
     report->pairs[p].penetration          = depth[p];
     report->pairs[p].penetration_rounding = rounding[p];
   }
-  PetscCall(PetscFree2(depth, rounding));
+  PetscCall(PetscFree3(depth, rounding, within));
   PetscFunctionReturn(0);
 }
 
@@ -60,7 +64,7 @@ PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char re
 }
 
 /*
-   Fails the last load step if a pair carries no force although one of its vertices penetrates the other body. The mean
+   Fails the last load step if a pair carries no force although a point of it penetrates the other body. The mean
    gap is then open, so that no contact force acts. In earlier load steps this is only a warning: when contact begins on
    a coarse mesh, the first vertex penetrates a little before the mean gap closes. In dynamics it is always a warning.
 */
@@ -79,7 +83,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     if (its->normal_force != 0.0 || PenetrationIsMeant(pair, report)) continue;
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "contact pair \"%s\" carries no force, although a vertex of %s or %s penetrates the other body by %.3g, %.3g %% "
+      "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% "
       "of the largest displacement: the mean gap of the nonmortar facets there is open; use gap: node, swap the two "
       "faces, or refine them",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
@@ -107,7 +111,7 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
   if (its->normal_force != 0.0 || its->penetration <= most * motion || its->penetration > its->penetration_rounding)
     PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report,
-    "contact pair \"%s\" carries no force, although a vertex of %s or %s penetrates the other body by %.3g, %.3g %% of "
+    "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% of "
     "the largest displacement; the error of the curved faces there may be as large: refine them if the bodies are to "
     "touch",
     pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion)));
@@ -150,7 +154,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
         pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
     else
       PetscCall(ReportWarn(sim->comm, &sim->report,
-        "contact pair \"%s\": a vertex of %s or %s penetrates the other body by %.3g at the end of load step "
+        "contact pair \"%s\": a point of %s or %s penetrates the other body by %.3g at the end of load step "
         "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the %s is %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
         node ? "gap at the nonmortar vertices" : "mean gap", open ? "open" : "closed",

@@ -37,5 +37,5 @@ contact:
 END
 for name in ball pin; do
   "$contact" $name.yaml -quiet -summary $name.json 2> $name.log
-  echo "$name: exit code $?, $(grep -c 'carries no force, although a vertex of .* penetrates the other body' $name.log) sentence"
+  echo "$name: exit code $?, $(grep -c 'carries no force, although a point of .* penetrates the other body' $name.log) sentence"
 done

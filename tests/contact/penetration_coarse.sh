@@ -1,4 +1,4 @@
-# Two saddles of coarse tetrahedra that cross touch at a point and are pressed by less than the error of their curved faces: the run without force warns
+# Faces that touch at a point and are coarser than the motion: the run without force says so. First two saddles of coarse tetrahedra that cross, pressed by less than the error of their curved faces
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" - <<'PY'
 from tetrahedra import BOX_FACES, Block
@@ -27,4 +27,22 @@ PY
 for depth in 0.0002 0.1; do
   "$contact" pressed_$depth.yaml -quiet -error_estimate 0 > out 2>&1 || echo "exit $?"
   grep -o 'carries no force' out || echo "pressed by $depth: no warning of a pair without force"
+done
+# Two coarse cylinders that cross: where edges cross in their middles, no vertex is inside the other body
+for depth in 0.002 0.03; do
+  cat > crossed.yaml <<YAML
+bodies:
+  - low: {shape: cylinder, axis: x, center: [0, 0, 0], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000, poisson: 0.3}
+  - high: {shape: cylinder, axis: y, center: [0, 0, 2], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000, poisson: 0.3}
+displacements:
+  - hold: {face: low.lmin, value: [0, 0, 0]}
+  - press: {face: high.lmin, value: [0, 0, -$depth]}
+  - press_too: {face: high.lmax, value: [0, 0, -$depth]}
+contact: auto
+load: {steps: 1}
+YAML
+  for ranks in 1 3; do
+    mpiexec --oversubscribe -n $ranks "$contact" crossed.yaml -quiet -error_estimate 0 > out 2>&1
+    echo "crossed cylinders pressed by $depth, $ranks ranks: exit $?, $(grep -o 'carries no force' out)"
+  done
 done
