@@ -134,7 +134,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscReal      *thickness;
 
   PetscFunctionBegin;
-  PetscCall(ContactEventsRegister());
+  PetscCall(EventsRegister());
   PetscCall(ContactCheckPairs(dm, npairs, pairs));
   PetscCall(PetscNew(&c));
   PetscCall(PetscObjectReference((PetscObject)dm));
@@ -264,7 +264,7 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   contact->ndisplacements = n;
   contact->displacements  = displacements;
   PetscCall(PetscFree(contact->rows.no_slip));
-  PetscCall(ContactHeldRowsReset(contact));
+  PetscCall(ContactPrescribedRowsReset(contact));
   PetscCall(ContactSmoothReset(contact));
   PetscFunctionReturn(0);
 }

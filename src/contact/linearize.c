@@ -56,7 +56,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
     "The displacement at which contact is linearized is not finite");
   PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscCall(ContactDeform(contact, u));
-  PetscCall(ContactHeldRowsDistribute(contact));
+  PetscCall(ContactPrescribedRowsDistribute(contact));
   PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];

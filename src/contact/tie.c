@@ -222,7 +222,7 @@ PetscErrorCode ContactTieCreate(DM dm, const char what[], const SceneTie *tie, M
   Vec             u;
 
   PetscFunctionBegin;
-  PetscCall(ContactEventsRegister());
+  PetscCall(EventsRegister());
   PetscCall(ContactBoundaryCreate(dm, &boundary));
   PetscCall(PetscCalloc1(boundary.nbodies, &thickness));
   PetscCall(ContactBoundaryDestroy(&boundary));

@@ -136,7 +136,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   Elasticity e;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityEventsRegister());
+  PetscCall(EventsRegister());
   PetscCall(PetscNew(&e));
   PetscCall(PetscObjectReference((PetscObject)dm));
   e->dm      = dm;

@@ -3,6 +3,7 @@
 #define ELASTICITYIMPL_H
 
 #include "src/elasticity/faces/facesimpl.h"
+#include "src/report/events.h"
 
 /* constant.c: finds the bodies with constant tangent that need not be assembled again */
 PETSC_INTERN PetscErrorCode ElasticitySetUpKept(Elasticity);

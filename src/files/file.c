@@ -177,3 +177,19 @@ PetscErrorCode FileWriteText(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscCall(FileRename(comm, &part, file));
   PetscFunctionReturn(0);
 }
+
+/*
+   Collective. Sends a text of the first rank to the others. *length: its length, without the zero byte at its end;
+   *text: allocated on the other ranks, and freed by the caller everywhere
+*/
+PetscErrorCode FileBroadcastText(MPI_Comm comm, PetscInt64 *length, char **text)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
+  if (rank) PetscCall(PetscCalloc1(*length + 1, text));
+  PetscCallMPI(MPI_Bcast(*text, (PetscMPIInt)*length, MPI_CHAR, 0, comm));
+  PetscFunctionReturn(0);
+}

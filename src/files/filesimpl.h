@@ -43,6 +43,8 @@ PETSC_INTERN PetscErrorCode FileWriteText(MPI_Comm, const char file[], PetscErro
 /* Appends what fill() writes to the file, on the first rank. If the disk is full, the file is unchanged. */
 PETSC_INTERN PetscErrorCode FileAppendText(MPI_Comm, const char file[], PetscErrorCode (*fill)(FILE *, const void *),
   const void *ctx);
+/* Sends a text of the first rank, such as the contents of a file, to the others */
+PETSC_INTERN PetscErrorCode FileBroadcastText(MPI_Comm, PetscInt64 *length, char **text);
 
 /*
    lock_file.c: locks an existing file. Collective. Raises an error if another run has locked it. The lock lasts until

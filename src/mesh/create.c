@@ -1,13 +1,11 @@
 /* Creates the mesh: level 0, distribution, refinement, and layout of the unknowns */
 #include "meshimpl.h"
+#include "src/report/events.h"
 #include <petscsf.h>
 
 /* Level 0 is refined before it is distributed, until each rank gets at least this number of cells. Coarser partitions
    are badly balanced. */
 #define MESH_MIN_CELLS_PER_RANK 32
-
-static PetscClassId  MESH_CLASSID;
-static PetscLogEvent MESH_Create;
 
 static PetscErrorCode MeshInitializePackage(void)
 {
@@ -16,8 +14,7 @@ static PetscErrorCode MeshInitializePackage(void)
   PetscFunctionBegin;
   if (initialized) PetscFunctionReturn(0);
   initialized = PETSC_TRUE;
-  PetscCall(PetscClassIdRegister("Mesh", &MESH_CLASSID));
-  PetscCall(PetscLogEventRegister("MeshCreate", MESH_CLASSID, &MESH_Create));
+  PetscCall(EventsRegister());
   PetscCall(MeshRegisterPartitioner());
   PetscFunctionReturn(0);
 }

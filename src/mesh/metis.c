@@ -98,36 +98,18 @@ static PetscErrorCode MetisPartitionGathered(PetscInt nparts, PetscInt nv, const
   PetscFunctionReturn(0);
 }
 
-/* Collective. Gathers the ranks' arrays on the first rank. *all and *total are set on the first rank only; counts and
-   displs are those of MPI_Gatherv(). The size limit of a gather in MPI keeps the graph within METIS's index type. */
-static PetscErrorCode MetisGatherArray(MPI_Comm comm, PetscInt n, const PetscInt local[], PetscMPIInt counts[],
-  PetscMPIInt displs[], PetscInt *total, PetscInt **all)
+/* Collective. Checks that no gather of the graph's arrays is larger than an MPI message. n: entries on this rank. The
+   limit keeps the graph within METIS's index type, too. */
+static PetscErrorCode MetisCheckSize(MPI_Comm comm, PetscInt n)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank, size, count;
-  PetscInt64     sum = 0, local64 = n;
+  PetscInt64 sum = 0, local = n;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCallMPI(MPI_Allreduce(&local64, &sum, 1, MPIU_INT64, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(&local, &sum, 1, MPIU_INT64, MPI_SUM, comm));
   PetscCheck(sum <= PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP,
     "The graph for METIS has %" PetscInt64_FMT " entries, which exceeds the size of an MPI message: start from a "
     "coarser mesh and refine it with -refine, which is done after the distribution",
     sum);
-  PetscCall(PetscMPIIntCast(n, &count));
-  PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
-  *total    = (PetscInt)sum;
-  *all      = NULL;
-  displs[0] = 0;
-  for (PetscMPIInt r = 1; !rank && r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = PetscMalloc1(sum, all);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code,
-    "The first rank cannot gather a graph of %" PetscInt64_FMT " entries for METIS: %s", sum, error.message);
-  PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
   PetscFunctionReturn(0);
 }
 
@@ -146,9 +128,12 @@ static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, 
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(PetscMalloc3(size, &counts, size, &displs, nv, &degree));
   for (PetscInt v = 0; v < nv; ++v) degree[v] = start[v + 1] - start[v];
-  PetscCall(MetisGatherArray(comm, nv ? start[nv] : 0, adjacency, counts, displs, &neall, &alladjacency));
-  if (weighted) PetscCall(MetisGatherArray(comm, nv, weights, counts, displs, &nvall, &allweights));
-  PetscCall(MetisGatherArray(comm, nv, degree, counts, displs, &nvall, &alldegree));
+  PetscCall(MetisCheckSize(comm, PetscMax(nv, nv ? start[nv] : 0)));
+  PetscCall(
+    IntegersGather(comm, "the graph for METIS", nv ? start[nv] : 0, adjacency, counts, displs, &neall, &alladjacency));
+  if (weighted)
+    PetscCall(IntegersGather(comm, "the graph for METIS", nv, weights, counts, displs, &nvall, &allweights));
+  PetscCall(IntegersGather(comm, "the graph for METIS", nv, degree, counts, displs, &nvall, &alldegree));
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = MetisPartitionGathered(nparts, nvall, alldegree, alladjacency, allweights, &allpart);
   PetscCall(RankErrorEnd(comm, ierr, &error));

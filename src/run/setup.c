@@ -122,7 +122,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   Scene scene = sim->scene;
 
   PetscFunctionBegin;
-  PetscCall(StepEventsRead(&sim->run->start));
+  PetscCall(EventsRead(&sim->run->start));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.start));
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
   PetscCall(MeshCreateScene(sim->comm, scene, sim->run->marks, &sim->dm));

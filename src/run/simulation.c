@@ -40,7 +40,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   SimulationMemory *memory;
 
   PetscFunctionBegin;
-  PetscCall(StepEventsRegister());
+  PetscCall(EventsRegister());
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(ContactDetect(comm, scene));
   PetscCall(PetscNew(&memory));
@@ -257,7 +257,7 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(StepEventsGetTimes(sim->comm, &sim->run->start, &sim->report.time));
+  PetscCall(EventsGetTimes(sim->comm, &sim->run->start, &sim->report.time));
   for (PetscInt b = 0; b < sim->report.nbodies; ++b)
     PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
   PetscCall(EffectsSetTimes(sim, &sim->report));

@@ -1,8 +1,8 @@
 """Leaves with a common clamp at one end, the last one bent at its tip. Their cells do not match.
 
-python3 clamped_leaves.py scenes writes the scenes; python3 clamped_leaves.py judges the runs.
+python3 clamped_leaves.py scenes N writes the scenes with N leaves; python3 clamped_leaves.py judges the runs.
 
-Beam theory: equal leaves bend alike, and each needs a third of the force at the tip. They touch near the tip only. Rows of the nodes in the clamp would measure how differently the two faces are interpolated beside it; their forces were 4 to 100,000 times as large as the others.
+Beam theory: equal leaves bend alike, and each needs an equal part of the force at the tip. They touch near the tip only. Rows of the nodes in the clamp would measure how differently the two faces are interpolated beside it; their forces were 4 to 100,000 times as large as the others.
 """
 import sys
 
@@ -10,22 +10,27 @@ from leaves import leaves
 from summaries import load, say
 
 
-def mismatched(gap):
-    return leaves(3, f", gap: {gap}").replace("[0, 0, 0.3], upper: [10, 1, 0.6], cells: [20,", "[0, 0, 0.3], upper: [10, 1, 0.6], cells: [23,")
+def mismatched(n, gap):
+    return leaves(n, f", gap: {gap}").replace("[0, 0, 0.3], upper: [10, 1, 0.6], cells: [20,", "[0, 0, 0.3], upper: [10, 1, 0.6], cells: [23,")
 
 
-SCENES = {"matching": leaves(3, ", gap: mortar"), "mortar": mismatched("mortar"), "dual": mismatched("dual"), "node": mismatched("node")}
-# a displacement that is prescribed along the normal does not keep nodes from sticking
-SCENES["sticking"] = leaves(3, ", stick: true")
+def scenes(n):
+    yield "matching", leaves(n, ", gap: mortar")
+    yield from ((gap, mismatched(n, gap)) for gap in GAPS)
+    # a displacement that is prescribed along the normal does not keep nodes from sticking
+    yield "sticking", leaves(n, ", stick: true")
+
+
+GAPS = ("mortar", "dual", "node")
 FORCE = 3 * 1000 * 0.3**3 / 12 / 10**3  # of one leaf whose tip is bent by 1
 
-if sys.argv[1:] == ["scenes"]:
-    for name, text in SCENES.items():
+if sys.argv[1:2] == ["scenes"]:
+    for name, text in scenes(int(sys.argv[2])):
         with open(name + ".yaml", "w") as file:
             file.write(text)
 else:
     energy = load("matching")["steps"][-1]["energy"]
-    for name in (*list(SCENES)[:-1], "mortar_2"):
+    for name in ("matching", *GAPS, "mortar_2"):
         run = load(name)
         step = run["steps"][-1]
         forces = [pair["normal_force"] / FORCE / n for n, pair in enumerate(step["pairs"], 1)]

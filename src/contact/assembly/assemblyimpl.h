@@ -52,9 +52,9 @@ typedef struct {
   Vec        mass;        /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
   Vec        weight;      /* mass after the masses of hanging vertices were distributed to the vertices on which they
                         depend [length^2] */
-  Mat        hanging;     /* transposed, it distributes the sums of the rows of hanging and held vertices to other rows;
-                         NULL if there are none */
-  PetscBool  distributed; /* whether ContactHeldRowsDistribute() has distributed the rows of held vertices */
+  Mat        hanging;     /* transposed, it distributes the sums of the rows of hanging and prescribed vertices to other
+                             rows; NULL if there are none */
+  PetscBool  distributed; /* whether ContactPrescribedRowsDistribute() has distributed their rows */
 } ContactRows;
 
 /* Derivatives of the normals of all smooth surfaces with respect to the displacement. A rank stores the normals at the
@@ -120,9 +120,9 @@ PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactHangingRowsVector(Contact, Vec sums);
 PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 
-/* held_rows.c: distributes the rows of vertices that both faces hold */
-PETSC_INTERN PetscErrorCode ContactHeldRowsDistribute(Contact);
-PETSC_INTERN PetscErrorCode ContactHeldRowsReset(Contact);
+/* prescribed_rows.c: distributes the rows of vertices at which both faces have the same prescribed displacement */
+PETSC_INTERN PetscErrorCode ContactPrescribedRowsDistribute(Contact);
+PETSC_INTERN PetscErrorCode ContactPrescribedRowsReset(Contact);
 
 /* surface_normals.c: global numbers of the normals of smooth surfaces, and their derivatives at the current
    displacement */

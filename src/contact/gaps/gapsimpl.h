@@ -5,6 +5,7 @@
 #define GAPSIMPL_H
 
 #include "src/contact/assembly/assemblyimpl.h"
+#include "src/report/events.h"
 
 /*
    mortar.c, node.c, rigid_surface.c: the formulations of the gap.

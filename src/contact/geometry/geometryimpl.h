@@ -8,10 +8,6 @@
 #include <vector3.h>
 #include <petsccompat.h>
 
-/* events.c: PETSc's log events of this folder */
-PETSC_INTERN PetscLogEvent  CONTACT_Linearize, CONTACT_Search, CONTACT_Integrate;
-PETSC_INTERN PetscErrorCode ContactEventsRegister(void);
-
 /* quadrature.c: quadrature rules on triangles */
 #define CONTACT_RULE_DEGREE 8 /* highest degree of the polynomials that a rule integrates exactly */
 #define CONTACT_RULE_POINTS 16

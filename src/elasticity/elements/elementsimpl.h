@@ -186,10 +186,6 @@ ELEMENT_TYPES(ELEMENT_DECLARE)
 /* element.c: gets an element from the table */
 PETSC_INTERN PetscErrorCode ElementGet(ElementType, PetscInt nnodes, const Element **);
 
-/* events.c: log events of elasticity */
-PETSC_INTERN PetscLogEvent  ELASTICITY_Tangent, ELASTICITY_Force, ELASTICITY_Error;
-PETSC_INTERN PetscErrorCode ElasticityEventsRegister(void);
-
 typedef struct {
   Material         given; /* material that the caller has set */
   BodyMaterial     material;

@@ -3,6 +3,7 @@
    energy norm
 */
 #include "recoveryimpl.h"
+#include "src/report/events.h"
 
 /*
    Returns the second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error;
@@ -43,10 +44,18 @@ static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recove
   return sum;
 }
 
-/* Adds the squared errors of the selected bodies' cells to bodies[], and stores them in cells[] unless this is NULL */
-static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[],
-  const RecoveredNode recovered[], PetscReal bodies[], PetscReal cells[])
+/* Squared errors of the bodies, and of the cells unless this is NULL */
+typedef struct {
+  PetscReal *bodies, *cells;
+} EstimateSquares;
+
+/* Adds the squared errors of the selected bodies' cells */
+static PetscErrorCode EstimateAdd(Elasticity e, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const RecoveredNode recovered[], void *ctx)
 {
+  EstimateSquares *squares = (EstimateSquares *)ctx;
+
+  PetscFunctionBegin;
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
     CellState      cell;
@@ -55,68 +64,9 @@ static void ElasticityAddErrors(Elasticity e, const PetscBool selected[], const 
     if (!selected[b]) continue;
     ElasticityGetCell(e, c, x, u, &cell);
     error = EstimateCellSquared(&cell, recovered);
-    bodies[b] += error;
-    if (cells) cells[c] = error;
+    squares->bodies[b] += error;
+    if (squares->cells) squares->cells[c] = error;
   }
-}
-
-/*
-   Selects remaining bodies of which no two share a node, and marks them as no longer remaining. A body is selected if
-   its number is the smallest at all of its nodes. *more: whether some bodies remain.
-*/
-static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool remaining[], PetscBool selected[],
-  PetscBool *more)
-{
-  PetscInt *first, *second;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(e->nnodes, &first, e->nbodies, &second));
-  for (PetscInt v = 0; v < e->nnodes; ++v) first[v] = PETSC_MAX_INT;
-  PetscCall(PetscArrayzero(second, e->nbodies));
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt b = e->cellbody[c];
-
-    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i)
-      first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
-  }
-  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, first, first, MPI_MIN));
-  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, first, first, MPI_MIN));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, first, first, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, first, first, MPI_REPLACE));
-  for (PetscInt c = 0; c < e->ncells; ++c) {
-    const PetscInt b = e->cellbody[c];
-
-    for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i) {
-      if (first[e->cellnodes[i]] < b) second[b] = 1;
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, second, (PetscMPIInt)e->nbodies, MPIU_INT, MPI_MAX,
-    PetscObjectComm((PetscObject)e->dm)));
-  *more = PETSC_FALSE;
-  for (PetscInt b = 0; b < e->nbodies; ++b) {
-    selected[b]  = (PetscBool)(remaining[b] && !second[b]);
-    remaining[b] = (PetscBool)(remaining[b] && second[b]);
-    if (remaining[b]) *more = PETSC_TRUE;
-  }
-  PetscCall(PetscFree2(first, second));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Selects the next bodies, marks them as no longer remaining, and recovers their strains. *more: whether some bodies
-   remain.
-*/
-PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar x[], const PetscScalar u[],
-  PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more)
-{
-  PetscBool second = (PetscBool)(e->basis[1] || e->basis[3]);
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &second, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)e->dm)));
-  PetscCall(ElasticitySelectApart(e, sf, remaining, selected, more));
-  PetscCall(PetscArrayzero(recovered, e->nnodes));
-  PetscCall(ElasticityRecover(e, sf, selected, x, u, recovered));
-  if (second) PetscCall(ElasticityRecoverOrder2(e, sf, selected, x, u, recovered));
   PetscFunctionReturn(0);
 }
 
@@ -156,29 +106,16 @@ PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const PetscScalar
 @*/
 PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], PetscReal *cells[])
 {
-  Vec                local;
-  const PetscScalar *ul, *x;
-  PetscSF            sf;
-  PetscBool         *remaining, *selected, more = PETSC_TRUE;
-  RecoveredNode     *recovered;
+  EstimateSquares squares = {bodies, NULL};
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(ELASTICITY_Error, u, 0, 0, 0));
-  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
-  PetscCall(ElasticityCreateNodeSF(e, &sf));
-  PetscCall(PetscMalloc3(e->nbodies, &remaining, e->nbodies, &selected, e->nnodes, &recovered));
-  if (cells) PetscCall(PetscMalloc1(e->ncells, cells));
-  for (PetscInt b = 0; b < e->nbodies; ++b) {
-    bodies[b]    = 0;
-    remaining[b] = PETSC_TRUE;
+  if (cells) {
+    PetscCall(PetscMalloc1(e->ncells, cells));
+    squares.cells = *cells;
   }
-  while (more) {
-    PetscCall(ElasticityRecoverNext(e, sf, x, ul, remaining, selected, recovered, &more));
-    ElasticityAddErrors(e, selected, x, ul, recovered, bodies, cells ? *cells : NULL);
-  }
-  PetscCall(PetscFree3(remaining, selected, recovered));
-  PetscCall(PetscSFDestroy(&sf));
-  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  for (PetscInt b = 0; b < e->nbodies; ++b) bodies[b] = 0;
+  PetscCall(ElasticityRecoverBodies(e, u, EstimateAdd, &squares));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_SUM,
     PetscObjectComm((PetscObject)e->dm)));
   PetscCall(PetscLogEventEnd(ELASTICITY_Error, u, 0, 0, 0));

@@ -13,15 +13,20 @@ static PetscBool FieldsStress(const BodyMaterial *m, const PetscReal strain[ELEM
   return valid;
 }
 
-/*
-   Adds the stresses at the selected bodies' nodes to stress[], 6 values per node. n: number of contributions per node.
-*/
-static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const RecoveredNode recovered[],
-  PetscReal n[], PetscReal stress[])
+/* Sums of the stresses at the nodes, 6 values per node, and number of contributions per node */
+typedef struct {
+  PetscReal *stress, *n;
+} FieldsSums;
+
+/* Adds the stresses at the selected bodies' nodes */
+static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const RecoveredNode recovered[], void *ctx)
 {
-  PetscInt *body;
+  const FieldsSums *sums = (const FieldsSums *)ctx;
+  PetscInt         *body;
 
   PetscFunctionBegin;
+  (void)x, (void)u;
   PetscCall(PetscMalloc1(e->nnodes, &body));
   for (PetscInt v = 0; v < e->nnodes; ++v) body[v] = PETSC_DECIDE;
   for (PetscInt c = 0; c < e->ncells; ++c) {
@@ -33,8 +38,8 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 
     if (body[v] < 0) continue;
     (void)FieldsStress(&e->bodies[body[v]].material, recovered[v].value, s);
-    for (int k = 0; k < 6; ++k) stress[6 * v + k] += s[k];
-    n[v] += 1;
+    for (int k = 0; k < 6; ++k) sums->stress[6 * v + k] += s[k];
+    sums->n[v] += 1;
   }
   PetscCall(PetscFree(body));
   PetscFunctionReturn(0);
@@ -65,29 +70,15 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
 @*/
 PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
 {
-  Vec                local;
-  const PetscScalar *ul, *x;
-  PetscSF            sf;
-  PetscBool         *remaining, *selected, more = PETSC_TRUE;
-  RecoveredNode     *recovered;
-  PetscReal         *n;
+  FieldsSums sums;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
-  PetscCall(ElasticityCreateNodeSF(e, &sf));
-  PetscCall(PetscMalloc3(e->nbodies, &remaining, e->nbodies, &selected, e->nnodes, &recovered));
-  PetscCall(PetscCalloc1(6 * e->nnodes, stress));
-  PetscCall(PetscCalloc1(e->nnodes, &n));
-  for (PetscInt b = 0; b < e->nbodies; ++b) remaining[b] = PETSC_TRUE;
-  while (more) {
-    PetscCall(ElasticityRecoverNext(e, sf, x, ul, remaining, selected, recovered, &more));
-    PetscCall(FieldsAddNodes(e, selected, recovered, n, *stress));
-  }
-  for (PetscInt i = 0; i < 6 * e->nnodes; ++i) (*stress)[i] /= PetscMax(1, n[i / 6]);
-  PetscCall(PetscFree(n));
-  PetscCall(PetscFree3(remaining, selected, recovered));
-  PetscCall(PetscSFDestroy(&sf));
-  PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
+  PetscCall(PetscCalloc1(6 * e->nnodes, &sums.stress));
+  PetscCall(PetscCalloc1(e->nnodes, &sums.n));
+  PetscCall(ElasticityRecoverBodies(e, u, FieldsAddNodes, &sums));
+  for (PetscInt i = 0; i < 6 * e->nnodes; ++i) sums.stress[i] /= PetscMax(1, sums.n[i / 6]);
+  PetscCall(PetscFree(sums.n));
+  *stress = sums.stress;
   PetscFunctionReturn(0);
 }
 

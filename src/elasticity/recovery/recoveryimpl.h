@@ -28,8 +28,11 @@ PETSC_INTERN PetscReal StressVonMises(const PetscReal stress[6]);
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
-/* estimate.c: recovers the strains of as many remaining bodies as possible at once; its error estimate is public */
-PETSC_INTERN PetscErrorCode ElasticityRecoverNext(Elasticity, PetscSF, const PetscScalar x[], const PetscScalar u[],
-  PetscBool remaining[], PetscBool selected[], RecoveredNode recovered[], PetscBool *more);
+/* bodies.c: calls add() for each set of bodies that share no node, with the strains recovered at their nodes */
+typedef PetscErrorCode (*RecoveredAdd)(Elasticity, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const RecoveredNode recovered[], void *ctx);
+PETSC_INTERN PetscErrorCode ElasticityRecoverBodies(Elasticity, Vec u, RecoveredAdd add, void *ctx);
+
+/* estimate.c: only the public error estimate */
 
 #endif

@@ -1,5 +1,6 @@
 /* Physical names of a Gmsh file, which are read on rank 0 */
 #include "gmshimpl.h"
+#include "src/files/filesimpl.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,7 +71,7 @@ static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *bod
   PetscErrorCode ierr = 0;
   PetscMPIInt    rank;
   PetscInt64     length;
-  size_t         size = 0;
+  size_t         size = 1; /* with the zero byte */
 
   PetscFunctionBegin;
   *entries = NULL;
@@ -80,10 +81,8 @@ static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *bod
   if (rank == 0) ierr = GmshReadPhysicalNames(body, dim, &size, entries);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
-  length = (PetscInt64)size;
-  PetscCallMPI(MPI_Bcast(&length, 1, MPIU_INT64, 0, comm));
-  if (rank) PetscCall(PetscMalloc1(length, entries));
-  PetscCallMPI(MPI_Bcast(*entries, (PetscMPIInt)length, MPI_CHAR, 0, comm));
+  length = (PetscInt64)size - 1;
+  PetscCall(FileBroadcastText(comm, &length, entries));
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,6 @@
-/* Gathers lists of all ranks on every rank */
+/* Gathers lists of all ranks, on every rank or on the first one */
 #include "queryimpl.h"
+#include <rankerror.h>
 
 /*
    Collective. Replaces the records of this rank by those of all ranks, in the order of the ranks. reals: number of real
@@ -26,5 +27,37 @@ PetscErrorCode RecordsGather(MPI_Comm comm, PetscInt reals, PetscInt *n, void *r
   PetscCall(PetscFree2(count, start));
   *n    = total / reals;
   *list = all;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Gathers the n integers of each rank on the first rank, in the order of the ranks. what: their name in an
+   error message; counts, displs: those of MPI_Gatherv(), one value per rank; *total: number of all integers;
+   *all: the integers, NULL on other ranks
+*/
+PetscErrorCode IntegersGather(MPI_Comm comm, const char what[], PetscInt n, const PetscInt local[],
+  PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
+{
+  RankError      error;
+  PetscErrorCode ierr = 0;
+  PetscMPIInt    rank, size, count;
+  PetscInt       sum = n;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCall(PetscMPIIntCast(n, &count));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Gather(&count, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
+  displs[0] = 0;
+  for (PetscMPIInt r = 1; !rank && r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
+  *total = sum;
+  *all   = NULL;
+  PetscCall(RankErrorBegin(&error));
+  if (!rank) ierr = PetscMalloc1(*total, all);
+  PetscCall(RankErrorEnd(comm, ierr, &error));
+  PetscCheck(!error.code, comm, error.code, "The first rank cannot gather %" PetscInt_FMT " entries of %s: %s", sum,
+    what, error.message);
+  PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
   PetscFunctionReturn(0);
 }

@@ -13,8 +13,10 @@
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
-/* gather.c: the lists of all ranks on every rank */
+/* gather.c: the lists of all ranks, on every rank or on the first one */
 PETSC_INTERN PetscErrorCode RecordsGather(MPI_Comm, PetscInt reals, PetscInt *n, void *records);
+PETSC_INTERN PetscErrorCode IntegersGather(MPI_Comm, const char what[], PetscInt n, const PetscInt local[],
+  PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all);
 
 /* tetrahedron.c: position of a node in the reference tetrahedron */
 PETSC_INTERN void MeshTetrahedronPlace(PetscInt node, PetscReal xi[3]);

@@ -43,8 +43,8 @@ static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[]
 PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);
-  PetscMPIInt     rank, size, nlocal, *counts, *displs;
-  PetscInt        cstart, cend, n = 0, *local, *all;
+  PetscMPIInt     size, *counts, *displs;
+  PetscInt        cstart, cend, n = 0, total, *local, *all;
   const PetscInt *number;
   IS              numbers;
 
@@ -52,22 +52,16 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   PetscCall(PetscObjectQuery((PetscObject)dm, MESH_NUMBERS, (PetscObject *)&numbers));
   PetscCheck(numbers, comm, PETSC_ERR_ARG_WRONGSTATE,
     "The cells of this mesh have no numbers, because it was created without refinement marks");
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
-  PetscCall(PetscMalloc3(cend - cstart, &local, size, &counts, size + 1, &displs));
+  PetscCall(PetscMalloc3(cend - cstart, &local, size, &counts, size, &displs));
   PetscCall(ISGetIndices(numbers, &number));
   for (PetscInt c = 0; c < cend - cstart; ++c) {
     if (marked[c]) local[n++] = number[c];
   }
   PetscCall(ISRestoreIndices(numbers, &number));
-  PetscCall(PetscMPIIntCast(n, &nlocal));
-  PetscCallMPI(MPI_Gather(&nlocal, 1, MPI_INT, counts, 1, MPI_INT, 0, comm));
-  displs[0] = 0;
-  for (PetscMPIInt r = 0; r < size; ++r) displs[r + 1] = rank ? 0 : displs[r] + counts[r];
-  PetscCall(PetscMalloc1(displs[size], &all));
-  PetscCallMPI(MPI_Gatherv(local, nlocal, MPIU_INT, all, counts, displs, MPIU_INT, 0, comm));
-  PetscCall(MarksAppend(marks, displs[size], all));
+  PetscCall(IntegersGather(comm, "the marked cells", n, local, counts, displs, &total, &all));
+  PetscCall(MarksAppend(marks, all ? total : 0, all));
   PetscCall(PetscFree3(local, counts, displs));
   PetscFunctionReturn(0);
 }

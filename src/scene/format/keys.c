@@ -1,5 +1,6 @@
 /* Reads a scene file, looks up its keys, and reports keys that were not used. */
 #include "formatimpl.h"
+#include "src/files/filesimpl.h"
 #include <options.h>
 #include <stdarg.h>
 #include <string.h>
@@ -41,9 +42,7 @@ static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscIn
   if (rank == 0) ierr = SceneKeysReadText(file, length, text);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(!error.code, comm, error.code, "%s", error.message);
-  PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
-  if (rank) PetscCall(PetscCalloc1(*length + 1, text));
-  PetscCallMPI(MPI_Bcast(*text, (PetscMPIInt)*length, MPI_CHAR, 0, comm));
+  PetscCall(FileBroadcastText(comm, length, text));
   PetscFunctionReturn(0);
 }
 
