@@ -28,12 +28,7 @@ static PetscBool MaterialStress_Linear(const MaterialModuli *m, const PetscReal 
   PetscReal s[6];
 
   MaterialCauchy_Linear(m, H, s);
-  P[0] = s[0];
-  P[4] = s[1];
-  P[8] = s[2];
-  P[1] = P[3] = s[3];
-  P[5] = P[7] = s[4];
-  P[2] = P[6] = s[5];
+  MaterialStressMatrix(s, P);
   return PETSC_TRUE;
 }
 

@@ -73,4 +73,15 @@ PETSC_INTERN void LogarithmicTangent(Logarithmic *, const PetscReal H[9], const 
 /* orthotropic.c: computes the material's axes, the rows of R; returns false if the given axes are parallel */
 PETSC_INTERN PetscBool OrthotropicAxes(const Material *, PetscReal R[3][3]);
 
+/* Stores the stress xx yy zz xy yz zx as a matrix */
+static inline void MaterialStressMatrix(const PetscReal s[6], PetscReal P[9])
+{
+  P[0] = s[0];
+  P[4] = s[1];
+  P[8] = s[2];
+  P[1] = P[3] = s[3];
+  P[5] = P[7] = s[4];
+  P[2] = P[6] = s[5];
+}
+
 #endif

@@ -349,6 +349,20 @@ static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const 
   PetscFunctionReturn(0);
 }
 
+/* Adds the forces on all bodies to their sums at this offset in the reports, and frees them. forces: 3 components per
+   body [force] */
+static PetscErrorCode ForcesAddToBodies(StepReport *report, size_t offset, PetscReal **forces)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < report->nbodies; ++b) {
+    BodyReport *body = &report->bodies[b];
+
+    PetscCall(ForcesAddToBody(body, (PetscReal *)((char *)body + offset), &(*forces)[3 * b]));
+  }
+  PetscCall(PetscFree(*forces));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *report)
 {
   const PetscScalar *a;
@@ -362,9 +376,7 @@ static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *repor
   for (PetscInt i = 0; i < n; ++i) sums[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
   PetscCall(VecRestoreArrayRead(load, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(3 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt b = 0; b < report->nbodies; ++b)
-    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].load, &sums[3 * b]));
-  PetscCall(PetscFree(sums));
+  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, load), &sums));
   PetscFunctionReturn(0);
 }
 
@@ -377,9 +389,7 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
   PetscCall(SpringsMeasure(&bodies, &sim->springs, u, sums, &report->weak_spring_force));
   PetscCall(ForcesMeasureConnectors(sim, u, report));
-  for (PetscInt b = 0; b < report->nbodies; ++b)
-    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].springs, &sums[3 * b]));
-  PetscCall(PetscFree(sums));
+  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, springs), &sums));
   PetscFunctionReturn(0);
 }
 
@@ -391,9 +401,7 @@ static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
   PetscCall(TiesMeasure(&constraints, ties, sums));
-  for (PetscInt b = 0; b < report->nbodies; ++b)
-    PetscCall(ForcesAddToBody(&report->bodies[b], report->bodies[b].ties, &sums[3 * b]));
-  PetscCall(PetscFree(sums));
+  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, ties), &sums));
   PetscFunctionReturn(0);
 }
 

@@ -119,6 +119,19 @@ static PetscErrorCode SupportGetFace(Support *support, const char face[], IS *fa
 
 static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
+/* Gets the vertices of a facet [length] and its unit normal */
+static PetscErrorCode SupportGetFacet(DM dm, PetscInt facet, PetscReal x[4][3], PetscReal normal[3])
+{
+  PetscInt vertices[4];
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFacetVertices(dm, facet, vertices));
+  PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
+  MeshComputeFacetArea(x, normal);
+  VectorScaleToUnit(normal);
+  PetscFunctionReturn(0);
+}
+
 /*
    Adds restraints of the motion of a body at the vertices of facets. other: the body relative to which it moves;
    negative: the ground. along: the axes of the restrained components; NULL: the component along `normal`, or along the
@@ -134,13 +147,9 @@ static PetscErrorCode SupportAddFacets(Support *support, IS facets, PetscInt tot
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  vertices[4];
     PetscReal x[4][3], own[3];
 
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    MeshComputeFacetArea(x, own);
-    VectorScaleToUnit(own);
+    PetscCall(SupportGetFacet(support->dm, f[i], x, own));
     for (PetscInt k = 0; k < 12; ++k) {
       const PetscReal *direction = along ? axes[k % 3] : normal ? normal : own;
 
@@ -257,13 +266,9 @@ static PetscErrorCode SupportAddCentres(Support *support, IS facets, PetscInt to
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscInt  vertices[4];
     PetscReal x[4][3], normal[3], centre[3];
 
-    PetscCall(MeshGetFacetVertices(support->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, 4, vertices, x));
-    MeshComputeFacetArea(x, normal);
-    VectorScaleToUnit(normal);
+    PetscCall(SupportGetFacet(support->dm, f[i], x, normal));
     for (PetscInt d = 0; d < 3; ++d) centre[d] = 0.25 * (x[0][d] + x[1][d] + x[2][d] + x[3][d]);
     SupportAddMotion(support, body, normal, centre, 1);
     SupportAddMotion(support, other, normal, centre, -1);

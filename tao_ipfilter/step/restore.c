@@ -44,6 +44,23 @@ static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *
   PetscFunctionReturn(0);
 }
 
+/* Computes J^T (weights v) with the violation v of the inequalities at the present point; zero without inequalities */
+static PetscErrorCode RestoreForces(Tao tao, Vec weights, Vec forces)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(forces, 0.0));
+  if (!ip->mi) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPSlackViolation(tao, ip->at.c, force));
+  PetscCall(VecPointwiseMult(force, force, weights));
+  PetscCall(MatMultTranspose(ip->jac->inequality, force, forces));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscFunctionReturn(0);
+}
+
 /* Computes the gradient of psi at the present point */
 static PetscErrorCode RestoreGradient(Tao tao, Vec g)
 {
@@ -51,14 +68,7 @@ static PetscErrorCode RestoreGradient(Tao tao, Vec g)
   Vec           force;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(g, 0.0));
-  if (ip->mi) {
-    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(IPSlackViolation(tao, ip->at.c, force));
-    PetscCall(VecPointwiseMult(force, force, ip->pair[IP_SLACK].w));
-    PetscCall(MatMultTranspose(ip->jac->inequality, force, g));
-    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-  }
+  PetscCall(RestoreForces(tao, ip->pair[IP_SLACK].w, g));
   if (ip->me) {
     PetscCall(IPGetWork(tao, IP_EQUALITIES, &force));
     PetscCall(VecAXPBY(force, PetscSqr(ip->search->equality_weight), 0.0, ip->at.ce));
@@ -101,18 +111,10 @@ static PetscErrorCode RestoreAssemble(Tao tao)
 static PetscErrorCode RestoreRHS(Tao tao, Vec rhs)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           force;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(rhs, 0.0));
-  if (ip->mi) {
-    PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-    PetscCall(IPSlackViolation(tao, ip->at.c, force));
-    PetscCall(VecPointwiseMult(force, ip->restore->D, force));
-    PetscCall(VecScale(force, -1.0));
-    PetscCall(MatMultTranspose(ip->jac->inequality, force, rhs));
-    PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
-  }
+  PetscCall(RestoreForces(tao, ip->restore->D, rhs));
+  PetscCall(VecScale(rhs, -1.0));
   PetscCall(IPBoundsAddForces(tao, rhs));
   PetscFunctionReturn(0);
 }
