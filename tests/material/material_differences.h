@@ -42,4 +42,21 @@ static inline void RaiseDerivativeErrors(const MaterialLaw *law, const MaterialM
   }
 }
 
+#define YOUNG   2.6
+#define POISSON 0.3
+
+/* Prints the name of a material of a law of plasticity; sets its type and elastic constants; gets its law and moduli */
+static inline PetscErrorCode BeginPlastic(const char name[], MaterialType type, Material *material,
+  const MaterialLaw **law, MaterialModuli *m, MaterialModuli *isochoric)
+{
+  PetscFunctionBeginUser;
+  material->type    = type;
+  material->young   = YOUNG;
+  material->poisson = POISSON;
+  PetscCall(MaterialGetModuli(material, m, isochoric));
+  PetscCall(MaterialGetLaw(material, law));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", name));
+  PetscFunctionReturn(0);
+}
+
 #endif

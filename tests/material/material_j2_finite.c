@@ -5,9 +5,7 @@ static char help[] =
 
 #include "material_differences.h"
 
-#define YOUNG   2.6
-#define POISSON 0.3
-#define MU      1.0
+#define MU 1.0
 
 static const Material materials[] = {
   {.hardening = {.yield = 0.1}},
@@ -310,12 +308,7 @@ int main(int argc, char **argv)
     const MaterialLaw *law;
     MaterialModuli     m, isochoric;
 
-    material.type    = MATERIAL_J2_FINITE;
-    material.young   = YOUNG;
-    material.poisson = POISSON;
-    PetscCall(MaterialGetModuli(&material, &m, &isochoric));
-    PetscCall(MaterialGetLaw(&material, &law));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", names[t]));
+    PetscCall(BeginPlastic(names[t], MATERIAL_J2_FINITE, &material, &law, &m, &isochoric));
     PetscCall(CheckPoint(law, &m, &isochoric));
     PetscCall(CheckBar(law, &m, &material.hardening));
     PetscCall(CheckShear(law, &m, &material.hardening));

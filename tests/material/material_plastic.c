@@ -4,9 +4,6 @@ static char help[] =
 
 #include "material_differences.h"
 
-#define YOUNG   2.6
-#define POISSON 0.3
-
 static const Material materials[] = {
   {.hardening = {.yield = 0.1}},
   {.hardening = {.yield = 0.1, .modulus = 0.4}},
@@ -163,12 +160,7 @@ int main(int argc, char **argv)
     const MaterialLaw *law;
     MaterialModuli     m, isochoric;
 
-    material.type    = MATERIAL_J2;
-    material.young   = YOUNG;
-    material.poisson = POISSON;
-    PetscCall(MaterialGetModuli(&material, &m, &isochoric));
-    PetscCall(MaterialGetLaw(&material, &law));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", names[t]));
+    PetscCall(BeginPlastic(names[t], MATERIAL_J2, &material, &law, &m, &isochoric));
     PetscCall(CheckParts(law, &m, &isochoric));
     PetscCall(CheckDerivatives(law, &m));
     PetscCall(CheckBar(law, &m, &material.hardening));

@@ -1,19 +1,7 @@
 # Pictures of a run, without a display: bodies in front hide those behind, bodies are named, contact fields colour only the
 # faces of contact pairs, a status has one colour, and errors say what there is.
 unset DISPLAY
-cat > boxes.yaml <<'YAML'
-problem: boxes
-units: mm, N, MPa
-bodies:
-  - base: {lower: [0, 0, 0], upper: [10, 10, 4], cells: [4, 4, 2], young: 1000, poisson: 0.3}
-  - punch: {lower: [2, 2, 4], upper: [8, 8, 8], cells: [3, 3, 2], young: 1000, poisson: 0.3}
-displacements:
-  - ground: {face: base.zmin, value: [0, 0, 0]}
-  - press: {face: punch.zmax, value: [0, 0, -0.1]}
-contact:
-  - pair: {mortar: base.zmax, nonmortar: punch.zmin}
-load: {steps: 2}
-YAML
+cp "$AMGF_DIR/tests/lib/boxes.yaml" .
 "$AMGF_DIR/bin/contact" boxes.yaml -quiet -output boxes || echo "exit code $?"
 draw() { "$PYTHON" -B "$AMGF_DIR/share/plot/draw.py" "$@"; }
 

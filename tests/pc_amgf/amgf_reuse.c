@@ -310,56 +310,32 @@ static PetscErrorCode CheckFailure(void)
   PetscFunctionReturn(0);
 }
 
-/* A library that meets an error on the last rank alone, in its third application */
-static PetscErrorCode ApplyBroken(PC pc, Vec r, Vec z)
+/* A library that meets an error on the last rank alone, in call `at` */
+static PetscErrorCode Break(PC pc, PetscInt at)
 {
-  PetscInt   *napplies;
+  PetscInt   *ncalls;
   PetscMPIInt rank, size;
 
   PetscFunctionBeginUser;
-  PetscCall(PCShellGetContext(pc, &napplies));
+  PetscCall(PCShellGetContext(pc, &ncalls));
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCheck(++*napplies != 3 || rank < size - 1, PETSC_COMM_SELF, PETSC_ERR_LIB, "the library's own error");
+  PetscCheck(++*ncalls != at || rank < size - 1, PETSC_COMM_SELF, PETSC_ERR_LIB, "the library's own error");
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ApplyBroken(PC pc, Vec r, Vec z)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Break(pc, 3));
   PetscCall(VecCopy(r, z));
   PetscFunctionReturn(0);
 }
 
-/* An error inside the AMG that one rank has alone ends the solve on all of them; nobody waits */
-static PetscErrorCode CheckError(void)
-{
-  Context            c;
-  PC                 amg;
-  PetscInt           napplies = 0;
-  KSPConvergedReason reason;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error on one rank\n"));
-  PetscCall(ContextCreate(&c, 12));
-  PetscCall(PCAMGFGetAMGPC(c.pc, &amg));
-  PetscCall(PCSetType(amg, PCSHELL));
-  PetscCall(PCShellSetContext(amg, &napplies));
-  PetscCall(PCShellSetApply(amg, ApplyBroken));
-  PetscCall(KSPSolve(c.ksp, c.b, c.x));
-  PetscCall(KSPGetConvergedReason(c.ksp, &reason));
-  PetscCall(PetscPrintf(c.comm, "  first operator: %s\n", KSPConvergedReasons[reason]));
-  PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
-  PetscCall(Solve(&c, "recovered"));
-  PetscCall(ContextDestroy(&c));
-  PetscFunctionReturn(0);
-}
-
-/* The same in its first set-up */
 static PetscErrorCode SetUpBroken(PC pc)
 {
-  PetscInt   *nsetups;
-  PetscMPIInt rank, size;
-
   PetscFunctionBeginUser;
-  PetscCall(PCShellGetContext(pc, &nsetups));
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCheck(++*nsetups != 1 || rank < size - 1, PETSC_COMM_SELF, PETSC_ERR_LIB, "the library's own error");
+  PetscCall(Break(pc, 1));
   PetscFunctionReturn(0);
 }
 
@@ -371,22 +347,25 @@ static PetscErrorCode ApplyIdentity(PC pc, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* So does an error in the AMG's set-up, which begins anew with the next operator */
-static PetscErrorCode CheckSetUpError(void)
+/*
+   An error inside the AMG that one rank has alone ends the solve on all of them; nobody waits. After an error in the
+   set-up it begins anew with the next operator.
+*/
+static PetscErrorCode CheckError(const char where[], PetscErrorCode (*setup)(PC), PetscErrorCode (*apply)(PC, Vec, Vec))
 {
   Context            c;
   PC                 amg;
-  PetscInt           nsetups = 0;
+  PetscInt           ncalls = 0;
   KSPConvergedReason reason;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error in the set-up on one rank\n"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "an error %son one rank\n", where));
   PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFGetAMGPC(c.pc, &amg));
   PetscCall(PCSetType(amg, PCSHELL));
-  PetscCall(PCShellSetContext(amg, &nsetups));
-  PetscCall(PCShellSetSetUp(amg, SetUpBroken));
-  PetscCall(PCShellSetApply(amg, ApplyIdentity));
+  PetscCall(PCShellSetContext(amg, &ncalls));
+  if (setup) PetscCall(PCShellSetSetUp(amg, setup));
+  PetscCall(PCShellSetApply(amg, apply));
   PetscCall(KSPSolve(c.ksp, c.b, c.x));
   PetscCall(KSPGetConvergedReason(c.ksp, &reason));
   PetscCall(PetscPrintf(c.comm, "  first operator: %s\n", KSPConvergedReasons[reason]));
@@ -412,8 +391,8 @@ int main(int argc, char **argv)
   PetscCall(CheckReset());
   PetscCall(CheckAmat());
   PetscCall(CheckFailure());
-  PetscCall(CheckError());
-  PetscCall(CheckSetUpError());
+  PetscCall(CheckError("", NULL, ApplyBroken));
+  PetscCall(CheckError("in the set-up ", SetUpBroken, ApplyIdentity));
   PetscCall(PetscFinalize());
   return 0;
 }
