@@ -123,6 +123,8 @@ PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 /* prescribed_rows.c: distributes the rows of vertices at which both faces have the same prescribed displacement */
 PETSC_INTERN PetscErrorCode ContactPrescribedRowsDistribute(Contact);
 PETSC_INTERN PetscErrorCode ContactPrescribedRowsReset(Contact);
+PETSC_INTERN PetscReal      ContactDistanceAlongFacet(const PetscReal x[3], const PetscReal nx[3], const PetscReal y[3],
+       const PetscReal ny[3]);
 
 /* surface_normals.c: global numbers of the normals of smooth surfaces, and their derivatives at the current
    displacement */

@@ -1,14 +1,13 @@
 /*
    Determines the directions along which the rows of a pair with friction have no slip, and therefore no friction.
 
-   - If both faces end on the same symmetry plane, or if the same prescribed displacement drives both, no slip is
-     possible along that direction. The slip rows of these vertices are linearly dependent, so that the friction force
-     is not unique. It is set to zero.
+   - If both faces end on the same symmetry plane, or if the same prescribed displacement drives both at this place, no
+     slip is possible along that direction. The slip rows of these vertices are linearly dependent, so that the friction
+     force is not unique. It is set to zero.
    - If a vertex is held, and the other face is free or driven by another displacement, friction acts.
    - If the pair sticks, and different displacements drive both faces, no friction force can prevent the slip. The
      friction force is set to zero, and the rows are counted as frictionless for a warning.
 */
-#include <stdlib.h>
 #include <string.h>
 #include "assemblyimpl.h"
 #include "src/mesh/query/queryimpl.h"
@@ -18,51 +17,31 @@ static const PetscReal plane_rounding = 1e-6; /* tolerance for coordinates on on
 static const PetscReal held_normal = 0.95; /* an axis is the normal of a facet if the component of the unit normal along
                                               it is larger */
 
-/* The coordinate, along an axis, of vertices of a mortar face at which a displacement is prescribed. All fields are
-   real, so that an array of these structs can be sent as an array of reals. */
+/* A vertex of a facet at which a displacement is prescribed. All fields are real, so that an array of these structs can
+   be sent as an array of reals. */
 typedef struct {
-  PetscReal motion, place; /* number of the displacement that prescribes the motion, and coordinate along the axis
-                              [length] */
-} PrescribedPlace;
+  PetscReal motion;          /* number of the displacement that prescribes the motion along the axis */
+  PetscReal x[3], normal[3]; /* undeformed coordinates [length], unit normal of the facet */
+  PetscReal size;            /* diameter of the facet [length] */
+} NoSlipVertex;
+#define NO_SLIP_REALS (PetscInt)(sizeof(NoSlipVertex) / sizeof(PetscReal))
+
+/* The smallest or the largest coordinate of a mortar face along an axis */
+typedef struct {
+  PetscReal place;  /* [length] */
+  PetscInt  motion; /* the motion that holds all vertices there; CONTACT_FREE: no one motion holds all of them */
+} PrescribedEnd;
 
 /* The prescribed displacements of a mortar face along one axis */
 typedef struct {
-  PetscBool        whole;  /* whether all vertices of the face are held by the same motion */
-  PetscInt         motion; /* that motion, if whole is true */
-  PetscInt         n;      /* number of entries of `places` from all ranks, without repetition */
-  PrescribedPlace *places;
-  PetscReal        rounding; /* tolerance for equal coordinates [length] */
+  PetscBool     whole;  /* whether all vertices of the face are held by the same motion */
+  PetscInt      motion; /* that motion, if whole is true */
+  PetscInt      axis;
+  PrescribedEnd end[2]; /* such as symmetry planes: a vertex that slides along them remains opposite held ones */
+  PetscInt      n;      /* number of held vertices elsewhere, from all ranks */
+  NoSlipVertex *vertices;
+  PetscReal     rounding; /* tolerance for equal coordinates [length] */
 } PrescribedFace;
-
-static int PrescribedPlaceCompare(const void *a, const void *b)
-{
-  const PrescribedPlace *p = (const PrescribedPlace *)a, *q = (const PrescribedPlace *)b;
-
-  if (p->motion != q->motion) return p->motion < q->motion ? -1 : 1;
-  return (p->place > q->place) - (p->place < q->place);
-}
-
-/* Sorts the entries and removes those with equal motion and, up to rounding, equal coordinate */
-static void PrescribedPlacesUnite(PetscReal rounding, PetscInt *n, PrescribedPlace places[])
-{
-  PetscInt kept = 0;
-
-  if (*n) qsort(places, (size_t)*n, sizeof(*places), PrescribedPlaceCompare);
-  for (PetscInt i = 0; i < *n; ++i) {
-    if (!kept || places[kept - 1].motion != places[i].motion || places[i].place > places[kept - 1].place + rounding)
-      places[kept++] = places[i];
-  }
-  *n = kept;
-}
-
-/* Collective. Collects the entries of all ranks on every rank */
-static PetscErrorCode PrescribedPlacesGather(MPI_Comm comm, PrescribedFace *face)
-{
-  PetscFunctionBegin;
-  PetscCall(RecordsGather(comm, 2, &face->n, &face->places));
-  PrescribedPlacesUnite(face->rounding, &face->n, face->places);
-  PetscFunctionReturn(0);
-}
 
 /*
    Computes what prescribes the motion of a rigid body along an axis: the number of a displacement, CONTACT_AT_REST if
@@ -90,46 +69,110 @@ static PetscBool NoSlipRigidMotion(Contact contact, const char face[], PetscInt 
   return rigid;
 }
 
+/* Collective. Finds the two ends of the mortar face s along the axis, and what holds them */
+static PetscErrorCode PrescribedEndsFind(MPI_Comm comm, const ContactSurface *s, const PetscInt motion[],
+  PrescribedFace *face)
+{
+  /* the negative of the smallest coordinate, and the largest; the same of the motions at each end */
+  PetscReal place[2]  = {PETSC_MIN_REAL, PETSC_MIN_REAL};
+  PetscInt  bounds[4] = {PETSC_MIN_INT, PETSC_MIN_INT, PETSC_MIN_INT, PETSC_MIN_INT};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+    const PetscReal x = s->reference[3 * i + face->axis];
+
+    place[0] = PetscMax(place[0], -x);
+    place[1] = PetscMax(place[1], x);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, place, 2, MPIU_REAL, MPIU_MAX, comm));
+  for (PetscInt e = 0; e < 2; ++e) {
+    face->end[e].place = e ? place[1] : -place[0];
+    for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
+      if (PetscAbsReal(s->reference[3 * i + face->axis] - face->end[e].place) > face->rounding) continue;
+      bounds[2 * e]     = PetscMax(bounds[2 * e], -motion[i]);
+      bounds[2 * e + 1] = PetscMax(bounds[2 * e + 1], motion[i]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 4, MPIU_INT, MPI_MAX, comm));
+  for (PetscInt e = 0; e < 2; ++e)
+    face->end[e].motion = -bounds[2 * e] == bounds[2 * e + 1] ? bounds[2 * e + 1] : CONTACT_FREE;
+  PetscFunctionReturn(0);
+}
+
+/* Gets vertex i of the surface's facets, which this motion holds */
+static void NoSlipVertexGet(const ContactSurface *s, PetscInt i, PetscInt motion, NoSlipVertex *vertex)
+{
+  const PetscReal *x = &s->reference[12 * (i / 4)];
+
+  (void)ContactFacetNormal(x, vertex->normal);
+  vertex->size   = ContactFacetDiameter(x);
+  vertex->motion = (PetscReal)motion;
+  for (PetscInt c = 0; c < 3; ++c) vertex->x[c] = s->reference[3 * i + c];
+}
+
+/* Returns whether one motion holds the end of the face at which the vertex is. *motion: that motion */
+static PetscBool PrescribedEndHolds(const PrescribedFace *face, const NoSlipVertex *vertex, PetscInt *motion)
+{
+  for (PetscInt e = 0; e < 2; ++e) {
+    if (PetscAbsReal(vertex->x[face->axis] - face->end[e].place) > face->rounding) continue;
+    *motion = face->end[e].motion;
+    if (*motion != CONTACT_FREE) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* Collective. Determines the prescribed displacements of the mortar face s along an axis */
 static PetscErrorCode PrescribedFaceCreate(Contact contact, const ContactSurface *s, PetscInt axis,
   PrescribedFace *face)
 {
-  PetscInt *motion, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds of motion: the negative of the smallest,
-                                                                   and the largest */
+  PetscInt *motion, at, bounds[2] = {PETSC_MIN_INT, PETSC_MIN_INT}; /* bounds of motion: the negative of the smallest,
+                                                                       and the largest */
 
   PetscFunctionBegin;
-  *face       = (PrescribedFace){.rounding = plane_rounding * PetscSqrtReal(s->area)};
+  *face       = (PrescribedFace){.axis = axis, .rounding = plane_rounding * PetscSqrtReal(s->area)};
   face->whole = NoSlipRigidMotion(contact, s->name, axis, &face->motion);
   if (face->whole) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
-  PetscCall(PetscMalloc1(4 * s->nfacets, &face->places));
+  PetscCall(PetscMalloc1(4 * s->nfacets, &face->vertices));
   PetscCall(ContactSurfaceFindMotions(contact->dm, contact->ndisplacements, contact->displacements, axis, s, motion));
+  PetscCall(PrescribedEndsFind(contact->comm, s, motion, face));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     bounds[0] = PetscMax(bounds[0], -motion[i]);
     bounds[1] = PetscMax(bounds[1], motion[i]);
-    if (motion[i] != CONTACT_FREE)
-      face->places[face->n++] = (PrescribedPlace){(PetscReal)motion[i], s->reference[3 * i + axis]};
+    if (motion[i] == CONTACT_FREE) continue;
+    NoSlipVertexGet(s, i, motion[i], &face->vertices[face->n]);
+    if (!PrescribedEndHolds(face, &face->vertices[face->n], &at)) ++face->n;
   }
   PetscCall(PetscFree(motion));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPIU_INT, MPI_MAX, contact->comm));
   face->whole  = (PetscBool)(-bounds[0] == bounds[1]);
   face->motion = bounds[1];
-  PrescribedPlacesUnite(face->rounding, &face->n, face->places);
-  PetscCall(PrescribedPlacesGather(contact->comm, face));
+  PetscCall(RecordsGather(contact->comm, NO_SLIP_REALS, &face->n, &face->vertices));
   PetscFunctionReturn(0);
 }
 
-/* Compares the mortar face with a nonmortar vertex that has this prescribed motion, and this coordinate (place) along
-   the axis. *held: whether the mortar face is held at that coordinate; *alike: whether the same motion holds it */
-static void PrescribedFaceFind(const PrescribedFace *face, PetscInt motion, PetscReal place, PetscBool *no_slip,
+/* Compares the mortar face with a held nonmortar vertex. *no_slip: whether the mortar face is held opposite the vertex;
+   *alike: whether the same motion holds it */
+static void PrescribedFaceFind(const PrescribedFace *face, const NoSlipVertex *vertex, PetscBool *no_slip,
   PetscBool *alike)
 {
+  const PetscInt own = (PetscInt)vertex->motion, axis = face->axis;
+  PetscInt       motion;
+
   *no_slip = (PetscBool)(face->whole && face->motion != CONTACT_FREE);
-  *alike   = (PetscBool)(*no_slip && face->motion == motion);
-  for (PetscInt i = 0; !face->whole && i < face->n; ++i) {
-    if (PetscAbsReal(face->places[i].place - place) > face->rounding) continue;
+  *alike   = (PetscBool)(*no_slip && face->motion == own);
+  if (face->whole) return;
+  *no_slip = PrescribedEndHolds(face, vertex, &motion);
+  *alike   = (PetscBool)(*no_slip && motion == own);
+  for (PetscInt i = 0; i < face->n && !*alike; ++i) {
+    const NoSlipVertex *other = &face->vertices[i];
+
+    if (PetscAbsReal(other->x[axis] - vertex->x[axis]) > face->rounding) continue;
+    if (ContactDistanceAlongFacet(vertex->x, vertex->normal, other->x, other->normal) >
+        PetscMax(vertex->size, other->size))
+      continue;
     *no_slip = PETSC_TRUE;
-    if ((PetscInt)face->places[i].motion == motion) *alike = PETSC_TRUE;
+    *alike   = (PetscBool)((PetscInt)other->motion == own);
   }
 }
 
@@ -147,13 +190,14 @@ static PetscErrorCode NoSlipMarkAxis(Contact contact, ContactPairData *pair, con
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) free = free || motion[i] == CONTACT_FREE;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &free, 1, MPIU_INT, MPI_MAX, contact->comm));
   for (PetscInt i = 0; free && i < 4 * s->nfacets; ++i) {
-    PetscBool both, alike;
-    PetscReal normal[3];
+    PetscBool    both, alike;
+    NoSlipVertex vertex;
 
     if (motion[i] == CONTACT_FREE) continue;
+    NoSlipVertexGet(s, i, motion[i], &vertex);
     /* nothing slips along the normal */
-    if (ContactFacetNormal(&s->reference[12 * (i / 4)], normal) && PetscAbsReal(normal[axis]) > held_normal) continue;
-    PrescribedFaceFind(mortar, motion[i], s->reference[3 * i + axis], &both, &alike);
+    if (PetscAbsReal(vertex.normal[axis]) > held_normal) continue;
+    PrescribedFaceFind(mortar, &vertex, &both, &alike);
     if (!alike && !(both && pair->sticks)) continue;
     PetscCall(VecSetValue(no_slip, pair->row[i], 1.0, INSERT_VALUES));
     if (!alike) PetscCall(VecSetValue(frictionless, pair->row[i], 1.0, INSERT_VALUES));
@@ -279,7 +323,7 @@ PetscErrorCode ContactFindNoSlip(Contact contact)
       PetscCall(NoSlipMarkAxis(contact, pair, &mortar[c], c, no_slip[c], frictionless));
     }
     PetscCall(NoSlipMarkPlanes(contact, pair, mortar, no_slip[3]));
-    for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].places));
+    for (PetscInt c = 0; c < 3; ++c) PetscCall(PetscFree(mortar[c].vertices));
     PetscCall(VecAssemblyBegin(frictionless));
     PetscCall(VecAssemblyEnd(frictionless));
     PetscCall(VecSum(frictionless, &sum));

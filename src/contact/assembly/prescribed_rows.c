@@ -65,16 +65,23 @@ static PetscBool PrescribedVertexGet(const ContactSurface *s, const PrescribedMo
   return prescribed;
 }
 
-/* Returns the distance of two vertices along the facet of a; PETSC_INFINITY if their facets do not face each other */
-static PetscReal PrescribedVertexDistance(const PrescribedVertex *a, const PrescribedVertex *b)
+/* Returns the distance of the point y from x along the facet of x; PETSC_INFINITY if the facets of the two points do
+   not face each other. nx, ny: unit normals of the facets */
+PetscReal ContactDistanceAlongFacet(const PetscReal x[3], const PetscReal nx[3], const PetscReal y[3],
+  const PetscReal ny[3])
 {
   PetscReal d[3], along;
 
-  if (VectorDot(a->normal, b->normal) > CONTACT_NORMAL_COSINE) return PETSC_INFINITY;
-  for (PetscInt c = 0; c < 3; ++c) d[c] = b->x[c] - a->x[c];
-  along = VectorDot(d, a->normal);
-  for (PetscInt c = 0; c < 3; ++c) d[c] -= along * a->normal[c];
+  if (VectorDot(nx, ny) > CONTACT_NORMAL_COSINE) return PETSC_INFINITY;
+  for (PetscInt c = 0; c < 3; ++c) d[c] = y[c] - x[c];
+  along = VectorDot(d, nx);
+  for (PetscInt c = 0; c < 3; ++c) d[c] -= along * nx[c];
   return VectorNorm(d);
+}
+
+static PetscReal PrescribedVertexDistance(const PrescribedVertex *a, const PrescribedVertex *b)
+{
+  return ContactDistanceAlongFacet(a->x, a->normal, b->x, b->normal);
 }
 
 /* Returns whether the same displacements are prescribed at two vertices along the normal of a */
