@@ -46,6 +46,7 @@ struct _n_StepControl {
   KSP             ksp;     /* linear solver for quadratic load steps without contact; NULL until it is needed */
   Forecast        forecast;
   StepObserver    observer;
+  PetscBool       slipped;        /* true after a warning of a body that slips away */
   PetscInt        unsupported;    /* number of consecutive attempts at this load step that failed because contact cannot
                                  hold the loads; a proven failure counts 2 */
   char           *cause;          /* reason for which the first of these attempts failed; NULL if there was none */

@@ -144,6 +144,7 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   PetscCall(SimulationAttempt(sim, *increment == left ? end : sim->path->time + *increment, report));
   if (report->converged) {
     ++report->substeps;
+    PetscCall(SlippedAwayWarn(sim, report));
     if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
     *increment = SimulationLengthen(sim, *increment);
   }

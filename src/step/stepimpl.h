@@ -18,6 +18,9 @@ PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, Pets
 #define STEP_SHORTEST (1.0 / 1024.0)
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
+/* slipped_away.c: warns of bodies that leave the contact and move far away */
+PETSC_INTERN PetscErrorCode SlippedAwayWarn(Simulation, const StepReport *);
+
 /* step.c: its functions are declared in step.h */
 
 #endif
