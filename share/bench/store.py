@@ -12,7 +12,7 @@ from runner import execute, last_words, read_summary, user_seconds
 
 CONTACT = os.path.join(TOP, "bin", "contact")
 OPTIONS = os.path.join(TOP, "share", "options")
-SOURCES = ("include", "pc_amgf", "tao_ipfilter", "plugin", "src", "apps", "share/toolchain.mk")
+SOURCES = ("include", "pc_amgf", "tao_ipfilter", "src", "apps", "share/toolchain.mk")
 REPEATS = 3
 
 

@@ -6,7 +6,7 @@ import re
 import sys
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SOURCES = ("apps", "include", "pc_amgf", "plugin", "tao_ipfilter", "src")
+SOURCES = ("apps", "include", "pc_amgf", "tao_ipfilter", "src")
 NUMBER = 20
 WORDS = 5  # fewer make no sentence
 ABBREVIATIONS = r"(?<!\b[A-Z])(?<!e\.g)(?<!i\.e)(?<!\bal)"  # a dot after one of these ends no sentence

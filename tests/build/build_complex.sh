@@ -5,7 +5,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-for name in makefile pc_amgf tao_ipfilter plugin src include apps share; do ln -s "$AMGF_DIR/$name" .; done
+for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 make PETSC_DIR="$COMPLEX_PETSC" PETSC_ARCH= CFLAGS='-g -O1 -Werror=incompatible-pointer-types' all > log 2>&1 || cat log
 find lib bin ! -type d 2> /dev/null | sed 's/\.so\..*/.so/' | sort -u
 

@@ -35,14 +35,14 @@ try() {
   done
 }
 
-objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
+objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c apps/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'apps/plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
 
 # pretend WHAT DEFINITIONS...: a plugin whose library.c was compiled after them
 pretend() {
   local what=$1
   shift
   printf '%s\n' "$@" > pretend.h
-  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/plugin/library.c" -o library.o
+  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/apps/plugin/library.c" -o library.o
   mpicc -shared -Wl,-z,nodelete $objects library.o $(pkg-config --libs PETSc) -lm -o libpetscamgf.so
   try "$what" ./libpetscamgf.so
   rm -f library.o libpetscamgf.so
@@ -57,7 +57,7 @@ pretend "scalars of another type" "$(toggle PETSC_USE_COMPLEX)"
 pretend "another release" '#include <petscversion.h>' '#undef PETSC_VERSION_MINOR' '#define PETSC_VERSION_MINOR 17'
 
 [ -z "${PETSC_DIR:-}" ] || exit 0
-for name in makefile pc_amgf tao_ipfilter plugin src include apps share; do ln -s "$AMGF_DIR/$name" .; done
+for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 for other in /usr/lib/petscdir/petsc-complex /usr/lib/petscdir/petsc64-real; do
   [ -d $other ] || continue
   make PETSC_DIR=$other PETSC_ARCH= CFLAGS='-g -O0' lib/libpetscamgf.so > log 2>&1 || cat log

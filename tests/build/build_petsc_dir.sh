@@ -40,12 +40,12 @@ done
 
 # A compiler that only counts
 cd "$work" || exit 1
-for name in makefile pc_amgf tao_ipfilter plugin src include apps share; do ln -s "$AMGF_DIR/$name" .; done
+for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 for name in cc1 cc2; do
   printf '#!/bin/sh\ncase $1 in --version) echo %s ;; *) while [ "$1" != -o ]; do shift; done; touch "$2"; echo "$2" >> %s/made ;; esac\n' $name "$work" > $name
   chmod +x $name
 done
-objects=$(ls pc_amgf/*.c pc_amgf/*/*.c plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | wc -l)
+objects=$(ls pc_amgf/*.c pc_amgf/*/*.c apps/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | wc -l)
 again() {
   rm -f made
   sleep 0.01

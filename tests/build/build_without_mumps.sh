@@ -7,7 +7,7 @@ export PKG_CONFIG_PATH=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-for name in makefile pc_amgf tao_ipfilter plugin src include apps share; do ln -s "$AMGF_DIR/$name" .; done
+for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 make -k CPPFLAGS=-DAMGF_WITHOUT_MUMPS CFLAGS='-g -O0' lib/libpetscamgf.so > log 2>&1 || cat log
 for objects in build/pc_amgf build/tao_ipfilter "$AMGF_DIR/build/src" "$AMGF_DIR/build/apps"; do
   find "$objects" -name '*.o' | grep -q . || echo "no objects in $objects"
