@@ -7,7 +7,8 @@ typedef struct {
   PetscReal pair, depth, x[3], y[3]; /* number of the pair, penetration [length], coordinates of the nonmortar vertex
                                         and of its point on the mortar face [length] */
 } InitialOverlapRow;
-#define OVERLAP_REALS ((PetscInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+#define OVERLAP_REALS   ((PetscInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+#define OVERLAP_CENTERS 200 /* largest number of mortar facets of a rank that are tested */
 
 /* Returns whether the point x is inside a box */
 static PetscBool InitialOverlapBoxHolds(const PetscReal box[6], const PetscReal x[3])
@@ -47,7 +48,7 @@ static PetscReal InitialOverlapFarthestApart(Contact contact, PetscInt nbodies, 
   return any ? diagonal : 0.0;
 }
 
-/* Finds the rows of `wide` that `usual` does not contain, that penetrate deeper than the search depth, and whose vertex
+/* Finds the rows of `wide` that `usual` does not contain, that penetrate, and whose vertex
    or point is inside the other body's box. The caller frees *deep. */
 static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal box[], ContactLinearization usual,
   ContactLinearization wide, PetscInt *n, InitialOverlapRow **deep)
@@ -71,7 +72,7 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
     i = PetscMax(i, rows->first[p]);
     while (rows->vertex[i] != v) ++i;
     if (k < usual->nlocal && usual->pair[k] == p && usual->vertex[k] == v) continue;
-    if (pair->formula || gap >= -pair->depth || pair->mortar.body == pair->nonmortar.body) continue;
+    if (pair->formula || gap >= 0.0 || pair->mortar.body == pair->nonmortar.body) continue;
     for (PetscInt c = 0; c < 3; ++c) {
       row.x[c] = rows->x[3 * i + c];
       row.y[c] = row.x[c] + gap * rows->normal[3 * i + c];
@@ -103,6 +104,8 @@ static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBo
     const InitialOverlapRow *row  = &deep[k];
     PetscReal                behind[3], front[3];
 
+    for (PetscInt j = 0; j < 3; ++j) angle[3 * k + j] = 0.0;
+    if (row->depth <= pair->depth) continue;
     for (PetscInt c = 0; c < 3; ++c) {
       behind[c] = row->x[c] + pair->depth / row->depth * (row->y[c] - row->x[c]);
       front[c]  = row->y[c] + ahead * (row->x[c] - row->y[c]);
@@ -117,6 +120,91 @@ static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBo
       *deepest = deep[k];
   }
   PetscCall(PetscFree(angle));
+  PetscFunctionReturn(0);
+}
+
+/* Lists points of the pair's mortar face, on this rank, at which a mortar body may lie between the nonmortar vertices:
+   the centers x of facets in the box of the nonmortar body, and the points y behind them at the search depth */
+static void InitialOverlapListCenters(Contact contact, PetscInt p, const PetscReal box[], PetscInt *n,
+  InitialOverlapRow centers[])
+{
+  const ContactPairData *pair  = &contact->pairs[p];
+  const PetscInt         every = 1 + pair->mortar.nfacets / OVERLAP_CENTERS;
+
+  for (PetscInt f = 0; f < pair->mortar.nfacets; f += every) {
+    const PetscReal  *x  = &pair->mortar.reference[12 * f];
+    InitialOverlapRow at = {.pair = (PetscReal)p};
+    PetscReal         normal[3];
+
+    if (!ContactFacetNormal(x, normal)) continue;
+    for (PetscInt i = 0; i < 12; ++i) at.x[i % 3] += 0.25 * x[i];
+    for (PetscInt c = 0; c < 3; ++c) at.y[c] = at.x[c] - pair->depth * normal[c];
+    if (InitialOverlapBoxHolds(&box[6 * pair->nonmortar.body], at.y)) centers[(*n)++] = at;
+  }
+}
+
+/* Collective. Returns in *depth how far the body reaches behind the point x, against the normal of x [length] */
+static PetscErrorCode InitialOverlapMeasure(const ContactBoundary *boundary, PetscInt body, const PetscReal x[3],
+  const PetscReal behind[3], PetscReal reach, PetscReal *depth)
+{
+  PetscReal low = 1.0, high = 2.0; /* relative to the distance of `behind`, which is inside */
+  PetscBool bounded = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 30; ++k) {
+    const PetscReal at = bounded ? 0.5 * (low + high) : high;
+    PetscReal       y[3], angle;
+
+    for (PetscInt c = 0; c < 3; ++c) y[c] = x[c] + at * (behind[c] - x[c]);
+    angle = ContactBoundarySolidAngle(boundary, body, y);
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &angle, 1, MPIU_REAL, MPIU_SUM, boundary->comm));
+    if (angle < 2.0 * PETSC_PI) {
+      bounded = PETSC_TRUE;
+      high    = at;
+    } else {
+      low = at;
+      if (!bounded) high *= 2.0;
+    }
+  }
+  *depth = high * reach;
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Selects a row whose pair has a mortar facet deeper than the search depth in the nonmortar body, away from
+   the vertices. It is called if no vertex shows an overlap. */
+static PetscErrorCode InitialOverlapPickCenters(Contact contact, const ContactBoundary *boundary, const PetscReal box[],
+  PetscInt n, const InitialOverlapRow deep[], InitialOverlapRow *deepest)
+{
+  const PetscReal inside = 0.9 * 4.0 * PETSC_PI;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < contact->npairs && deepest->depth == 0.0; ++p) {
+    const PetscInt    body = contact->pairs[p].nonmortar.body;
+    InitialOverlapRow row  = {0}, *centers;
+    PetscInt          m    = 0;
+    PetscReal        *angle;
+
+    for (PetscInt k = 0; k < n; ++k)
+      if ((PetscInt)deep[k].pair == p && deep[k].depth > row.depth) row = deep[k];
+    if (row.depth == 0.0) continue;
+    PetscCall(PetscMalloc1(OVERLAP_CENTERS, &centers));
+    InitialOverlapListCenters(contact, p, box, &m, centers);
+    PetscCall(RecordsGather(contact->comm, OVERLAP_REALS, &m, &centers));
+    PetscCall(PetscMalloc1(2 * m, &angle));
+    for (PetscInt k = 0; k < m; ++k) {
+      angle[2 * k]     = ContactBoundarySolidAngle(boundary, body, centers[k].x);
+      angle[2 * k + 1] = ContactBoundarySolidAngle(boundary, body, centers[k].y);
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, (PetscMPIInt)(2 * m), MPIU_REAL, MPIU_SUM, contact->comm));
+    for (PetscInt k = 0; k < m; ++k)
+      if (PetscMin(angle[2 * k], angle[2 * k + 1]) > inside && deepest->depth == 0.0) {
+        *deepest = row;
+        PetscCall(
+          InitialOverlapMeasure(boundary, body, centers[k].x, centers[k].y, contact->pairs[p].depth, &deepest->depth));
+      }
+    PetscCall(PetscFree(angle));
+    PetscCall(PetscFree(centers));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -140,6 +228,7 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   PetscCall(ContactLinearizationDestroy(&wide));
   PetscCall(RecordsGather(contact->comm, OVERLAP_REALS, &n, &deep));
   PetscCall(InitialOverlapPickDeepest(contact, boundary, n, deep, deepest));
+  if (deepest->depth == 0.0) PetscCall(InitialOverlapPickCenters(contact, boundary, box, n, deep, deepest));
   PetscCall(PetscFree(deep));
   PetscFunctionReturn(0);
 }

@@ -19,3 +19,18 @@ YAML
 }
 echo "rollers that touch:"; rollers 5
 echo "a roller 2.5 deep in another one:"; rollers 2.5
+# A post whose top is inside a block, between the vertices of the block's facets
+post() {
+  cat > post.yaml <<YAML
+bodies:
+  - post: {lower: [0.4, 0.4, -1], upper: [0.6, 0.6, $1], cells: [1, 1, 3], young: 1000, poisson: 0.3}
+  - block: {lower: [0, 0, 0], upper: [1, 1, 2], cells: [1, 1, 2], young: 1000, poisson: 0.3}
+displacements: [foot: {face: post.zmin, value: [0, 0, 0]}, head: {face: block.zmax, value: [0, 0, -0.001]}]
+contact: [pair: {mortar: post.zmax, nonmortar: block.zmin}]
+YAML
+  mpiexec --oversubscribe -n $2 "$contact" post.yaml -scene_check > out 2>&1 || { echo "exit $?"; grep -o 'contact pair "pair".*overlap at the start' out; }
+}
+for ranks in 1 3; do
+  echo "a post under a block, $ranks ranks:"; post 0 $ranks
+  echo "1.2 deep in it:"; post 1.2 $ranks
+done
