@@ -1,7 +1,7 @@
 """A second set of scenes that were not used to find the rule of auto: choice.py makes second.md of them"""
 
-WORDS = """`auto` does not choose the best element for bodies of finite strain with a Poisson's ratio of at most
-0.4: they get `full`. Request `bbar` for them.
+WORDS = """`auto` does not choose the best element for bodies of finite strain with a Poisson's ratio of at
+most 0.4: they get `full`. Request `bbar` for them.
 """
 LAW = "material: neohookean, young: 1000, poisson: %s, E}"
 # A strip and a rigid roller that is pressed into it. To be filled in: the strip's material, the depth [length]
