@@ -15,9 +15,9 @@ PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
 PETSC_EXTERN PetscErrorCode OutputCheckWritable(MPI_Comm, const char file[]);
 
-/* A file of a run that does not belong to its Output */
+/* A file that a run reads or writes in addition to the results that OutputCreate() creates */
 typedef struct {
-  const char *role; /* what it is, for messages */
+  const char *role; /* what the file is for, or the option that names it; used in messages */
   const char *name; /* NULL: the run has no such file */
   PetscBool   written;
 } OutputFile;

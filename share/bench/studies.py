@@ -154,7 +154,8 @@ def solver_page(size):
     yield Study("amg", "AMG of the preconditioner", "AMG", turn(size, three, amg, always=BY_AMG), costs=costs)
     yield Study("threshold", "Strength threshold of the AMG", "threshold", turn(size, three, values(THRESHOLD, "0.25", "0.5", "0.7", "0.9"), always=BY_AMG), costs=costs)
     cycles = turn(size, three[:1], values(IP + "pc_amgf_cycle", "fbf", "bfb", "additive"), always=INTERIOR)
-    yield Study("cycle", "Order of AMG and filter in the interior point method", "cycle", cycles)
+    yield Study("cycle", "Order of AMG and filter in the interior point method", "cycle", cycles,
+                text="`fbf` applies the filter before and after the AMG, `bfb` the AMG before and after the filter.\nIn `additive` both are applied to the same residual, and the results are added.")
     panels = []
     for problem in three:
         if level := MESHES[size].get(problem):

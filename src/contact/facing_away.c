@@ -2,7 +2,7 @@
 #include "contactimpl.h"
 
 /* A facet looks away from a normal if the cosine of the angle between its own normal and that one is larger. */
-#define AWAY_COSINE -CONTACT_NORMAL_COSINE
+#define AWAY_COSINE (-CONTACT_NORMAL_COSINE)
 #define AWAY_STEPS  8 /* normals are rounded to multiples of 1 / AWAY_STEPS */
 #define AWAY_SIDE   (2 * AWAY_STEPS + 1)
 #define AWAY_BINS   (AWAY_SIDE * AWAY_SIDE * AWAY_SIDE)

@@ -1,7 +1,7 @@
 /*
-   Solves problems whose closed contacts stick (coefficients above IP_TERM_STICKS), by the path of stick_path.c. Such
-   problems may have several solutions. Newton's method finds one of them, which depends on rounding errors. Its
-   solution is therefore used only if no contact has opened.
+   Solves problems in which each closed contact sticks (coefficient of friction above IP_TERM_STICKS). They may have
+   several solutions, and rounding errors decide which of them Newton's method finds. Its solution is therefore used
+   only if no contact opens or closes. Otherwise the path of stick_path.c gives the solution.
 */
 #include "frictionimpl.h"
 
@@ -52,7 +52,7 @@ static PetscErrorCode StickBegin(const PetscReal force[], const PetscReal motion
   PetscFunctionReturn(0);
 }
 
-/* Sets the column of the load: the difference of the motions at the end and at the begin, both without forces */
+/* Sets the column of the load: the difference of the motions at the end and at the start, both without forces */
 static void StickLoad(const IPStickPath *w)
 {
   IPTableau *p    = w->p;
@@ -63,7 +63,7 @@ static void StickLoad(const IPStickPath *w)
     for (PetscInt r = 0; r < p->rows && w->x[j] != 0.0; r++) load[r] += IPTableauColumn(p, j)[r] * w->x[j];
 }
 
-/* Sets up the tableau and the begin of the path */
+/* Sets up the tableau and the start of the path */
 static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s, const PetscReal force[],
   const PetscReal motion[], IPTableau *p, IPStickPath *w, PetscBool *made)
 {

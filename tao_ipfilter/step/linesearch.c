@@ -326,7 +326,8 @@ PetscBool IPSearchIsLinear(const TAO_IPFILTER *ip)
     PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
 }
 
-/* Keeps the direction of the step if Newton's method converges only linearly. Steps of length zero change nothing. */
+/* If Newton's method converges only linearly, stores the direction of the step in ip->search->slow. Does nothing if the
+   step has length zero. */
 static PetscErrorCode SearchKeepSlow(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -150,8 +150,8 @@ static PetscErrorCode TestRelaxedUnits(void)
   PetscFunctionReturn(0);
 }
 
-/* Without scaling a gradient that is small only in the caller's units is no convergence: the answer is right, or said to
-   be none */
+/* Without scaling, a gradient that is small only because of the caller's units does not mean convergence. The answer
+   must be right, or the reason must be negative. */
 static PetscErrorCode TestUnscaled(void)
 {
   static const Case unscaled[] = {

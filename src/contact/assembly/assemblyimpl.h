@@ -50,11 +50,11 @@ typedef struct {
   PetscReal *normal;         /* [3 nlocal] averaged unit normals of the deformed nonmortar faces */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
   Vec        mass;        /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
-  Vec        weight;      /* mass after the masses of hanging vertices were distributed to the vertices on which they
-                        depend [length^2] */
+  Vec        weight;      /* masses after those of hanging and prescribed vertices were distributed to other rows
+                        [length^2] */
   Mat        hanging;     /* transposed, it distributes the sums of the rows of hanging and prescribed vertices to other
                              rows; NULL if there are none */
-  PetscBool  distributed; /* whether ContactPrescribedRowsDistribute() has distributed their rows */
+  PetscBool  distributed; /* whether ContactPrescribedRowsDistribute() has changed `hanging` */
 } ContactRows;
 
 /* Derivatives of the normals of all smooth surfaces with respect to the displacement. A rank stores the normals at the
@@ -117,6 +117,7 @@ PETSC_INTERN PetscErrorCode ContactGatherEntries(Vec, IS from, Vec *gathered);
 
 /* hanging_rows.c: distributes the sums of hanging vertices' rows to the rows of other vertices */
 PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
+PETSC_INTERN PetscErrorCode ContactHangingRowsWeigh(ContactRows *);
 PETSC_INTERN PetscErrorCode ContactHangingRowsVector(Contact, Vec sums);
 PETSC_INTERN PetscErrorCode ContactHangingRowsMatrix(Contact, Mat *sums);
 

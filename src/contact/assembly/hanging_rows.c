@@ -96,6 +96,16 @@ static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat s
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes rows->weight, the masses after their distribution by rows->hanging */
+PetscErrorCode ContactHangingRowsWeigh(ContactRows *rows)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&rows->weight));
+  PetscCall(VecDuplicate(rows->mass, &rows->weight));
+  PetscCall(MatMultTranspose(rows->hanging, rows->mass, rows->weight));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Creates rows->hanging, which is NULL if no vertex of the mesh hangs, and rows->weight, the masses after
    their distribution */
 PetscErrorCode ContactHangingRowsCreate(Contact contact)
@@ -121,9 +131,7 @@ PetscErrorCode ContactHangingRowsCreate(Contact contact)
   PetscCall(VecDestroy(&number));
   PetscCall(MatAssemblyBegin(rows->hanging, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(rows->hanging, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecDestroy(&rows->weight));
-  PetscCall(VecDuplicate(rows->mass, &rows->weight));
-  PetscCall(MatMultTranspose(rows->hanging, rows->mass, rows->weight));
+  PetscCall(ContactHangingRowsWeigh(rows));
   PetscFunctionReturn(0);
 }
 

@@ -165,8 +165,8 @@ static PetscBool PrescribedRowsMatch(const ContactPairData *pair, const Prescrib
   return PETSC_FALSE;
 }
 
-/* Collective. Adds to `weights` the entries of prescribed rows at their free neighbours, and their number to
-   `neighbours` */
+/* Collective. For each prescribed row, adds 1 to `weights` in the columns of its free neighbours, and adds the number
+   of these entries to `neighbours` */
 static PetscErrorCode PrescribedRowsAddWeights(Contact contact, const ContactPairData *pair, PetscInt n,
   const PrescribedVertex list[], Vec free, Vec neighbours, Mat weights)
 {
@@ -194,8 +194,8 @@ static PetscErrorCode PrescribedRowsAddWeights(Contact contact, const ContactPai
   PetscFunctionReturn(0);
 }
 
-/* Collective. Completes the weights: rows without entries keep their own sums, and the others are divided by the number
-   of their entries, or emptied if the gap of the pair is measured at nodes */
+/* Collective. Completes the weights. A row without entries gets the entry 1 on the diagonal. The others are divided by
+   their number of entries. If the gap of their pair is measured at nodes, they are set to zero instead. */
 static PetscErrorCode PrescribedRowsFinish(Contact contact, Vec neighbours, Mat weights)
 {
   const ContactRows *rows = &contact->rows;
@@ -220,7 +220,7 @@ static PetscErrorCode PrescribedRowsFinish(Contact contact, Vec neighbours, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Collective. Combines the weights with rows->hanging, and distributes the masses again */
+/* Collective. Multiplies rows->hanging by the weights, and computes rows->weight anew */
 static PetscErrorCode PrescribedRowsCombine(Contact contact, Mat weights)
 {
   ContactRows *rows = &contact->rows;
@@ -236,13 +236,12 @@ static PetscErrorCode PrescribedRowsCombine(Contact contact, Mat weights)
     PetscCall(PetscObjectReference((PetscObject)weights));
     rows->hanging = weights;
   }
-  PetscCall(VecDestroy(&rows->weight));
-  PetscCall(VecDuplicate(rows->mass, &rows->weight));
-  PetscCall(MatMultTranspose(rows->hanging, rows->mass, rows->weight));
+  PetscCall(ContactHangingRowsWeigh(rows));
   PetscFunctionReturn(0);
 }
 
-/* Collective. Distributes the prescribed rows, unless this is done already */
+/* Collective. Adds the sums of the rows of prescribed vertices to the rows of their free neighbours, by a change of
+   rows->hanging. Does nothing if this was done before. */
 PetscErrorCode ContactPrescribedRowsDistribute(Contact contact)
 {
   ContactRows *rows = &contact->rows;
