@@ -13,8 +13,8 @@ include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
-plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c apps/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
-library_objects := $(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c))
+plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
+library_objects := $(filter-out build/src/plugin/%,$(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c)))
 programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
@@ -64,7 +64,7 @@ bin/contact-mesh: share/python/contact-mesh.sh
 	$(Q)install -m 755 $< $@
 
 .PRECIOUS: build/%.o
--include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/apps/plugin/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)
+-include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)
 
 dependencies:
 	@./share/install-deps.sh

@@ -9,8 +9,8 @@ DEBUG_TESTS     ?= $(SANITIZE_TESTS) $(SANITIZE_ERRORS) amgf_* ipfilter_* mesh_*
 SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_TIME      ?= 600
-TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c apps/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
-FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* apps/plugin tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
+TIDY_FILES     ?= $(wildcard src/*/*.c src/*/*/*.c apps/*.c pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
+FORMAT_FILES   ?= $(wildcard $(foreach folder,include pc_amgf pc_amgf/* tao_ipfilter tao_ipfilter/* src/* src/*/* apps tests tests/* share/bench,$(folder)/*.c $(folder)/*.h))
 tree_parts     := $(wildcard *.md CITATION.cff .clang-format .clang-tidy .ci) makefile pc_amgf tao_ipfilter src include apps share tests
 copied_tree     = mkdir -p $(1) && rm -rf $(addprefix $(1)/,$(tree_parts)) && cp -a $(tree_parts) $(1)
 

@@ -51,7 +51,7 @@ def from_source(comment, synopsis):
     page(name, 3, description, "\n".join(body) + "\n")
 
 
-sources = [path for folder in ("pc_amgf", "apps/plugin", "tao_ipfilter") for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)]
+sources = [path for folder in ("pc_amgf", "src/plugin", "tao_ipfilter") for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)]
 for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
     with open(path) as file:
         text = file.read()

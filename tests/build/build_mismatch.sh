@@ -35,14 +35,14 @@ try() {
   done
 }
 
-objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c apps/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'apps/plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
+objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'src/plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
 
 # pretend WHAT DEFINITIONS...: a plugin whose library.c was compiled after them
 pretend() {
   local what=$1
   shift
   printf '%s\n' "$@" > pretend.h
-  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/apps/plugin/library.c" -o library.o
+  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/src/plugin/library.c" -o library.o
   mpicc -shared -Wl,-z,nodelete $objects library.o $(pkg-config --libs PETSc) -lm -o libpetscamgf.so
   try "$what" ./libpetscamgf.so
   rm -f library.o libpetscamgf.so

@@ -45,7 +45,7 @@ for name in cc1 cc2; do
   printf '#!/bin/sh\ncase $1 in --version) echo %s ;; *) while [ "$1" != -o ]; do shift; done; touch "$2"; echo "$2" >> %s/made ;; esac\n' $name "$work" > $name
   chmod +x $name
 done
-objects=$(ls pc_amgf/*.c pc_amgf/*/*.c apps/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | wc -l)
+objects=$(ls pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | wc -l)
 again() {
   rm -f made
   sleep 0.01

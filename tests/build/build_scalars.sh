@@ -9,7 +9,7 @@ headers=$(pkg-config --cflags PETSc)
 # compile FILE...: with PETSc's own headers, told that scalars are complex
 compile() { mpicc -std=c11 -Wall -Wextra -Werror=incompatible-pointer-types -fsyntax-only -DPETSC_USE_COMPLEX -I"$AMGF_DIR/include" -I"$AMGF_DIR" $headers "$@"; }
 
-compile "$AMGF_DIR"/pc_amgf/*.c "$AMGF_DIR"/apps/plugin/*.c && echo "PCAMGF compiles"
+compile "$AMGF_DIR"/pc_amgf/*.c "$AMGF_DIR"/src/plugin/*.c && echo "PCAMGF compiles"
 for file in tao_ipfilter/ipfilter.c src/run/simulation.c; do
   compile "$AMGF_DIR/$file" > refusal 2>&1 && echo "$file compiles"
   grep -o '[a-z]* needs a PETSc with real scalars' refusal | sort -u
@@ -26,5 +26,5 @@ Libs: -lpetsc_complex
 PC
 make -C "$AMGF_DIR" --no-print-directory -Bn V=1 PETSC_DIR="$work" PETSC_ARCH= all > commands
 grep -q -- '-c pc_amgf/amgf.c' commands && echo "make: compiles PCAMGF"
-grep -qE -- '-c (pc_amgf/blockamg/|tao_ipfilter/|src/|apps/main)' commands || echo "make: and nothing else"
+grep -E -- '-c (pc_amgf/blockamg/|tao_ipfilter/|src/|apps/main)' commands | grep -qv -- '-c src/plugin/' || echo "make: and nothing else"
 sed -n "s/^echo '\(.*\)'$/make: \1/p" commands

@@ -110,5 +110,5 @@ def check_functions(top, folder):
 
 for folder in ("pc_amgf", "tao_ipfilter"):
     check(sys.argv[1], folder)
-for folder in ("pc_amgf", "tao_ipfilter", "apps/plugin", "src"):
+for folder in ("pc_amgf", "tao_ipfilter", "src"):
     check_functions(sys.argv[1], folder)

@@ -13,7 +13,7 @@ def code(*patterns):
     return re.sub(r"/\*.*?\*/", "", "".join(open(path).read() for path in paths), flags=re.S)
 
 
-sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "apps/plugin/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c", "apps/*.c")
+sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c", "apps/*.c")
 asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"', sources)) | {"tao_ipfilter_" + name for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
 calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList)\([^"();]*"-(\w+)"', sources)
 known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]

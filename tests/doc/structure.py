@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 TOP = os.environ["AMGF_DIR"]
-FOLDERS = ("pc_amgf", "pc_amgf/*", "apps/plugin", "tao_ipfilter", "tao_ipfilter/*", "src/*", "src/*/*", "apps")
+FOLDERS = ("pc_amgf", "pc_amgf/*", "tao_ipfilter", "tao_ipfilter/*", "src/*", "src/*/*", "apps")
 COLUMNS = 120  # of a line of code
 FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
 FILES = 20  # of a folder, C sources
@@ -16,7 +16,7 @@ LAYERS = """
 pc_amgf pc_amgf/blockamg pc_amgf/cholesky
 tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear tao_ipfilter/step tao_ipfilter/driver
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
-apps/plugin
+src/plugin
 src/error src/options src/files src/material src/model src/report
 src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
 src/scene/format src/scene/sections src/scene
