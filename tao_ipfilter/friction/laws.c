@@ -104,18 +104,27 @@ PetscReal IPTermLawsCompliance(const IPTermSet *set, PetscInt row)
   return PetscMax(compliance[first], row < set->m ? 0.0 : compliance[first + 1]);
 }
 
+/*
+   Returns the compliance up to which neither row of a term can move. Tangents along held directions have a compliance
+   of the size of rounding errors.
+*/
+static PetscReal TermLawsHeld(const IPTermSet *set)
+{
+  const PetscReal rounding = 1e-14;
+
+  return rounding * TermLawsLargest(set->system.m, set->system.compliance);
+}
+
 /* Lists the active rows: closed constraints, and terms that can carry a force. Rows without compliance are left out. */
 void IPTermLawsList(IPTermSet *set, const IPReducedSystem *s)
 {
-  const PetscReal rounding = 1e-14; /* relative to the largest compliance; tangents along held directions have a
-                                       compliance of the size of rounding errors */
-  PetscReal       largest  = TermLawsLargest(s->m, set->system.compliance);
+  const PetscReal held = TermLawsHeld(set);
 
   set->na = 0;
   for (PetscInt r = 0; r < s->m; r++) {
     const PetscBool wanted = r < set->m ? set->closed[r] : TermLawsTakePart(set, (r - set->m) / 2);
 
-    set->active[r] = (PetscBool)(wanted && IPTermLawsCompliance(set, r) > (r < set->m ? 0.0 : rounding * largest));
+    set->active[r] = (PetscBool)(wanted && IPTermLawsCompliance(set, r) > (r < set->m ? 0.0 : held));
     set->na += set->active[r];
   }
   set->listed = PETSC_TRUE;
@@ -179,11 +188,13 @@ PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *set, const IPReducedSys
 
 /*
    Returns the violation of the laws [energy]: the sum of rho r^2 over all rows, with r = min(lambda / rho, v) for
-   constraints and r = |tau - P(tau - rho v)| / rho for terms
+   constraints and r = |tau - P(tau - rho v)| / rho for terms. Rows without compliance are left out: no force changes
+   their motion.
 */
 PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
 {
-  PetscReal merit = 0.0;
+  const PetscReal held  = TermLawsHeld(set);
+  PetscReal       merit = 0.0;
 
   for (PetscInt i = 0; i < set->m; i++) {
     const PetscReal compliance = set->system.compliance[i];
@@ -193,6 +204,7 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   for (PetscInt i = 0; i < set->n; i++) {
     PetscReal v[2];
 
+    if (!(IPTermLawsCompliance(set, IPTermLawsRow(set, i)) > held)) continue;
     IPTermLawsMotion(set, s, i, v);
     merit += set->rho[i] *
              PetscSqr(IPTermViolation(&s->lambda[IPTermLawsRow(set, i)], v, set->rho[i], IPTermLawsBound(set, s, i)));
