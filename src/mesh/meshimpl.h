@@ -50,6 +50,6 @@ PETSC_INTERN PetscErrorCode MeshOwnersDestroy(MeshOwners *);
 PETSC_INTERN PetscErrorCode MeshCreateLevel0(MPI_Comm, PetscInt nbodies, const SceneBody[], const MeshBody[],
   const MeshOwners *, DM *);
 
-/* surfaces.c, create.c and check_supports.c have public functions only. */
+/* surfaces.c and create.c have public functions only. */
 
 #endif

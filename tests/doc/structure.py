@@ -18,7 +18,7 @@ tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/syste
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
 src/plugin
 src/error src/options src/files src/material src/model src/report
-src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh
+src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh src/mesh/supports
 src/scene/format src/scene/sections src/scene
 src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
 src/contact/geometry src/contact/surface src/contact/search src/contact/self src/contact/detect src/contact/smooth src/contact/assembly src/contact/gaps src/contact

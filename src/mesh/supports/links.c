@@ -1,0 +1,72 @@
+/* Rigid body modes of the bodies, and the restraints of a link as rows of their coefficients */
+#include "supportsimpl.h"
+#include <vector3.h>
+
+/* Collective. Computes the centre, and half of the largest side, of every body's bounding box [length] */
+PetscErrorCode SupportMeasureBodies(Support *support)
+{
+  MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
+  PetscInt   cstart, cend;
+  PetscReal *bounds; /* for each body, the smallest x, y, z, -x, -y, -z [length] */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(support->n, &bounds));
+  for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
+  PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscInt  b, n, vertices[8];
+    PetscReal x[8][3];
+
+    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
+    PetscCall(MeshGetCellCorners(support->dm, c, &n, vertices));
+    PetscCall(MeshGetVertexCoordinates(support->dm, n, vertices, x));
+    for (PetscInt i = 0; i < 3 * n; ++i) {
+      bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
+      bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)support->n, MPIU_REAL, MPIU_MIN, comm));
+  for (PetscInt b = 0; b < support->nbodies; ++b) {
+    support->size[b] = 0;
+    for (PetscInt d = 0; d < 3; ++d) {
+      support->center[b][d] = (bounds[6 * b + d] - bounds[6 * b + 3 + d]) / 2;
+      support->size[b]      = PetscMax(support->size[b], -(bounds[6 * b + d] + bounds[6 * b + 3 + d]) / 2);
+    }
+  }
+  PetscCall(PetscFree(bounds));
+  PetscFunctionReturn(0);
+}
+
+/* Adds to the row: sign times the component along `direction` of the rigid motion t + r x (x - center)/size of body b
+   at the point x, as coefficients of t and r */
+void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
+{
+  PetscReal arm[3], moment[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
+
+  for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
+  VectorCross(arm, direction, moment);
+  for (PetscInt d = 0; d < 3; ++d) {
+    row[d] += sign * direction[d];
+    row[3 + d] += sign * moment[d];
+  }
+}
+
+/* Adds the outer product of the row, multiplied by a weight, to the link's matrix, and sets the row to zero */
+PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
+{
+  PetscReal *gram = support->gram[support->nlinks - 1];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < SUPPORT_BLOCK; ++i) {
+    for (PetscInt j = 0; support->row[i] != 0 && j < SUPPORT_BLOCK; ++j)
+      gram[i * SUPPORT_BLOCK + j] += weight * support->row[i] * support->row[j];
+  }
+  PetscCall(PetscArrayzero(support->row, SUPPORT_BLOCK));
+  PetscFunctionReturn(0);
+}
+
+/* Begins a link between bodies a and b. If b is negative or equal to a, the link is between body a and the ground. */
+void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
+{
+  support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
+}

@@ -1,0 +1,225 @@
+/*
+   The links that hold the bodies of a scene. A prescribed displacement restrains its component at the vertices of its
+   face. A contact pair, assumed closed, restrains the relative motion along the normals of its nonmortar facets, or
+   along that of a plane mortar face; with friction all relative motion.
+*/
+#include "supportsimpl.h"
+#include <vector3.h>
+
+static const PetscReal axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/* Adds the restraints of a displacement that is prescribed at a point or along an edge */
+static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement *point)
+{
+  IS              vertices;
+  const PetscInt *v;
+  PetscInt        n, total;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceVertices(support->dm, point->face, &vertices));
+  PetscCall(ISGetLocalSize(vertices, &n));
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
+  PetscCall(ISGetIndices(vertices, &v));
+  SupportBeginLink(support, point->body, PETSC_DECIDE);
+  for (PetscInt k = 0; k < 3 * n; ++k) {
+    PetscReal x[1][3];
+
+    if (!point->fixed[k % 3]) continue;
+    PetscCall(MeshGetVertexCoordinates(support->dm, 1, &v[k / 3], x));
+    SupportAddMotion(support, point->body, axes[k % 3], x[0], 1);
+    PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
+  }
+  PetscCall(ISRestoreIndices(vertices, &v));
+  PetscCall(ISDestroy(&vertices));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of a rigid body some of whose motions are released, on the first rank only. *released: whether
+   any motion is */
+static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
+  PetscBool *released)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  *released = SceneFreesMotion(displacement);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
+    if (displacement->released[m]) continue;
+    if (m < 3) SupportAddMotion(support, b, axes[m], displacement->center, 1);
+    else support->row[m] = 1;
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of a prescribed displacement */
+static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDisplacement *displacement)
+{
+  SupportFace face;
+  PetscReal   normal[3] = {displacement->normal[0], displacement->normal[1], displacement->normal[2]};
+  PetscBool   released;
+
+  PetscFunctionBegin;
+  if (displacement->at != DISPLACEMENT_FACE) {
+    PetscCall(SupportAddPoint(support, displacement));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SupportGetFace(support, displacement->face, &face));
+  SupportBeginLink(support, face.body, PETSC_DECIDE);
+  PetscCall(SupportAddRigid(support, displacement, face.body, &released));
+  if (displacement->inclined) VectorScaleToUnit(normal);
+  if (!released)
+    PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, displacement->inclined ? NULL : displacement->fixed,
+      normal, PETSC_FALSE));
+  PetscCall(SupportDestroyFace(&face));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether a face is plane, and its unit normal. A rigid surface without facets knows its normal. Collective. */
+static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, IS facets, PetscReal normal[3],
+  PetscBool *plane)
+{
+  const PetscReal rounding = 1e-10;
+  PetscReal       sums[4];
+
+  PetscFunctionBegin;
+  *plane = PETSC_FALSE;
+  if (SceneBodyIsSurface(body)) {
+    *plane = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
+    PetscCall(PetscArraycpy(normal, &body->own[SURFACE_AXIS], 3));
+  } else {
+    PetscCall(MeshSumFacetAreas(support->dm, facets, sums));
+    *plane = (PetscBool)(VectorNorm(sums) > (1.0 - rounding) * sums[3]);
+    PetscCall(PetscArraycpy(normal, sums, 3));
+  }
+  VectorScaleToUnit(normal);
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
+   or along that of a plane mortar face. With weak springs, a round body is free to rotate about its axis. */
+static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
+{
+  SupportFace mortar, nonmortar;
+  PetscReal   flat[3];
+  PetscBool   plane;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, pair->mortar, &mortar));
+  PetscCall(SupportGetFace(support, pair->nonmortar, &nonmortar));
+  PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
+  SupportBeginLink(support, nonmortar.body, mortar.body);
+  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, NULL, plane ? flat : NULL,
+    (PetscBool)(scene->weak_springs && !plane)));
+  PetscCall(SupportDestroyFace(&mortar));
+  PetscCall(SupportDestroyFace(&nonmortar));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraint of the relative motion along the given axes at the vertices of the nonmortar face. It represents a
+   tie, springs between faces, or a contact pair with friction. */
+static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
+  const PetscBool along[3])
+{
+  SupportFace mortar, nonmortar;
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, mortar_face, &mortar));
+  PetscCall(SupportGetFace(support, nonmortar_face, &nonmortar));
+  SupportBeginLink(support, nonmortar.body, mortar.body);
+  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, NULL, PETSC_FALSE));
+  PetscCall(SupportDestroyFace(&mortar));
+  PetscCall(SupportDestroyFace(&nonmortar));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of a cyclic symmetry, on the first rank: the only free motions of the body are the translation
+   along the axis and the rotation about it */
+static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
+{
+  SupportFace face;
+  PetscInt    least = 0;
+  PetscMPIInt rank;
+  PetscReal   axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]}, across[2][3];
+
+  PetscFunctionBegin;
+  PetscCall(SupportGetFace(support, cut->from, &face));
+  PetscCall(SupportDestroyFace(&face));
+  SupportBeginLink(support, face.body, PETSC_DECIDE);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  if (rank) PetscFunctionReturn(0);
+  (void)VectorScaleToUnit(axis);
+  for (PetscInt d = 1; d < 3; ++d) least = PetscAbsReal(axis[d]) < PetscAbsReal(axis[least]) ? d : least;
+  for (PetscInt d = 0; d < 3; ++d) across[0][d] = (d == least ? 1 : 0) - axis[least] * axis[d];
+  (void)VectorScaleToUnit(across[0]);
+  VectorCross(axis, across[0], across[1]);
+  for (PetscInt k = 0; k < 2; ++k) {
+    SupportAddMotion(support, face.body, across[k], cut->center, 1);
+    PetscCall(SupportAddRow(support, 1));
+    PetscCall(PetscArraycpy(support->row + 3, across[k], 3));
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of a spring between two points, on the first rank only */
+static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector *connector)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  SupportBeginLink(support, connector->body, connector->to);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  for (int m = 0; !rank && m < (connector->axial ? 1 : 3); ++m) {
+    PetscReal along[3] = {m == 0, m == 1, m == 2};
+
+    if (!connector->axial && connector->value[m] == 0.0) continue;
+    for (int d = 0; d < 3 && connector->axial; ++d) along[d] = connector->point[1][d] - connector->point[0][d];
+    (void)VectorScaleToUnit(along);
+    SupportAddMotion(support, connector->body, along, connector->point[0], 1);
+    if (connector->to >= 0) SupportAddMotion(support, connector->to, along, connector->point[1], -1);
+    PetscCall(SupportAddRow(support, 1));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of springs on a face, between the face and the ground or another face */
+static PetscErrorCode SupportAddSpring(Support *support, const SceneSpring *spring)
+{
+  const PetscBool along[3] = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0};
+  SupportFace     face;
+
+  PetscFunctionBegin;
+  if (spring->to) {
+    PetscCall(SupportAddJoint(support, spring->to, spring->face, along));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SupportGetFace(support, spring->face, &face));
+  SupportBeginLink(support, face.body, PETSC_DECIDE);
+  PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, along, NULL, PETSC_FALSE));
+  PetscCall(SupportDestroyFace(&face));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SupportAddScene(Support *support, Scene scene)
+{
+  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    PetscCall(SupportAddDisplacement(support, &scene->displacements[d]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddSpring(support, &scene->springs[s]));
+  for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(SupportAddConnector(support, &scene->connectors[c]));
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *pair = &scene->pairs[p];
+
+    if (pair->self) continue;
+    if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(support, pair->mortar, pair->nonmortar, all));
+    else PetscCall(SupportAddPair(support, scene, pair));
+  }
+  for (PetscInt t = 0; t < scene->nties; ++t)
+    PetscCall(SupportAddJoint(support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(support, &scene->cyclic[k]));
+  PetscFunctionReturn(0);
+}

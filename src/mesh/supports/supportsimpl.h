@@ -1,0 +1,60 @@
+/*
+   Private header of mesh/supports. Each body has six rigid body modes: a translation t and a rotation r, which move the
+   point x by t + r x (x - center)/size. Links between the bodies restrain them. A mode outside the span of the
+   restraints is free, and the stiffness is singular for it.
+*/
+#ifndef SUPPORTSIMPL_H
+#define SUPPORTSIMPL_H
+
+#include "src/mesh/meshimpl.h"
+
+#define SUPPORT_BLOCK 12 /* number of modes of the two bodies of a link */
+
+/* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, contact pair or tie */
+typedef struct {
+  PetscInt body[2]; /* The second body is -1 if the link is between the first body and the ground. */
+} SupportLink;
+
+typedef struct {
+  DM       dm;
+  PetscInt nbodies, n;           /* number of bodies; number of modes, 6 per body */
+  PetscReal (*center)[3], *size; /* centre, and half of the largest side, of each body's bounding box [length] */
+  PetscInt     nlinks;
+  SupportLink *links;
+  PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link, the sum of the outer products of its rows */
+  PetscReal row[SUPPORT_BLOCK];                     /* row of the last link that is being computed */
+} Support;
+
+/* links.c: sizes of the bodies (collective), and rows of the last link */
+PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
+PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b);
+PETSC_INTERN void           SupportAddMotion(Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+            PetscReal sign);
+PETSC_INTERN PetscErrorCode SupportAddRow(Support *, PetscReal weight);
+
+/* A face: its facets on this rank, its body, and the number of its facets on all ranks. The weights of its rows are
+   divided by this number, so that every face has equal weight. */
+typedef struct {
+  IS       facets;
+  PetscInt body, total;
+} SupportFace;
+
+/*
+   facets.c: rows at the facets of a face. SupportGetFace() is collective; SupportDestroyFace() frees the face.
+   SupportAddFacets() restrains the motion of the face's body relative to the body `other`, or to the ground if `other`
+   is negative. along: the axes of the restrained components; NULL: the component along `normal`, or along the normal of
+   each facet if `normal` is NULL. centres: at the centres of the facets instead of their vertices. A round body can
+   then rotate about its axis, since the normals at the centres meet the axis.
+*/
+PETSC_INTERN PetscErrorCode SupportGetFace(Support *, const char face[], SupportFace *);
+PETSC_INTERN PetscErrorCode SupportDestroyFace(SupportFace *);
+PETSC_INTERN PetscErrorCode SupportAddFacets(Support *, const SupportFace *, PetscInt other, const PetscBool along[3],
+  const PetscReal normal[3], PetscBool centres);
+
+/* restraints.c: the links of everything in the scene that holds bodies. Collective. */
+PETSC_INTERN PetscErrorCode SupportAddScene(Support *, Scene);
+
+/* free_modes.c: computes outside[6 b + k], the free part of mode k of body b. Collective. */
+PETSC_INTERN PetscErrorCode SupportGetFree(Support *, PetscReal outside[]);
+
+#endif
