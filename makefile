@@ -15,6 +15,7 @@ PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
 plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
 library_objects := $(filter-out build/src/plugin/%,$(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c)))
+program_objects := $(patsubst %.c,build/%.o,$(wildcard apps/*.c))
 programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
@@ -38,7 +39,7 @@ build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTAC
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
-	@echo '$(plugin_objects) $(library_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects)' > $@
+	@echo '$(plugin_objects) $(library_objects) $(program_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects) $(program_objects)' > $@
 
 # PETSc closes what it opened; nodelete keeps the registered types callable until the process ends
 $(PLUGIN): $(plugin_objects) $(source_list) $(configuration) include/petscamgf.h
@@ -54,10 +55,10 @@ $(LIBRARY): $(library_objects) $(source_list)
 	$(call say,AR,$@)
 	$(Q)$(AR) rcs $@ $(library_objects)
 
-bin/contact: build/apps/main.o $(LIBRARY) $(PLUGIN) $(configuration)
+bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $< $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
 bin/contact-mesh: share/python/contact-mesh.sh
 	@mkdir -p $(@D)

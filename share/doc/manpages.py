@@ -58,8 +58,8 @@ for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
     for match in re.finditer(r"/\*(@C?|MC|E)\n(.*?)\n(?:@|M|E)\*/\n([^\n]*)", text, flags=re.S):
         from_source(match[2], match[3] if match[1].startswith("@") else "")
 
-with open(os.path.join(TOP, "apps", "main.c")) as file:
-    help_text = re.search(r'help\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
+with open(os.path.join(TOP, "apps", "help.c")) as file:
+    help_text = re.search(r'AppHelp\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
 help_text = re.sub(r"\n {5,}(?=\S)", " ", help_text)  # what goes on in a line of its own
 summary, rest = help_text.split("\n", 1)
 options, codes = rest.split("Exit code\n")

@@ -26,5 +26,5 @@ Libs: -lpetsc_complex
 PC
 make -C "$AMGF_DIR" --no-print-directory -Bn V=1 PETSC_DIR="$work" PETSC_ARCH= all > commands
 grep -q -- '-c pc_amgf/amgf.c' commands && echo "make: compiles PCAMGF"
-grep -E -- '-c (pc_amgf/blockamg/|tao_ipfilter/|src/|apps/main)' commands | grep -qv -- '-c src/plugin/' || echo "make: and nothing else"
+grep -E -- '-c (pc_amgf/blockamg/|tao_ipfilter/|src/|apps/)' commands | grep -qv -- '-c src/plugin/' || echo "make: and nothing else"
 sed -n "s/^echo '\(.*\)'$/make: \1/p" commands

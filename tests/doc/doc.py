@@ -55,7 +55,7 @@ def unknown_options():
     petsc = ("ksp_", "log_", "tao_view", "dll_append", "pc_type", "options_file", "help", "n")
     for page in ("share/doc/guide.md", "share/doc/theory.md", "share/doc/scale.md"):
         for option in re.findall(r"(?<![\w-])-([a-z]\w*)", " ".join(re.findall(r"`([^`]*)`", text(page)))):
-            if option not in known and not option.startswith(petsc) and "-" + option not in text("apps/main.c"):
+            if option not in known and not option.startswith(petsc) and "-" + option not in text("apps/options.c"):
                 yield f"{page}: -{option}"
 
 

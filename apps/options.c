@@ -1,0 +1,84 @@
+/* The options of the program; those of the run are read by its parts */
+#include "appsimpl.h"
+#include <string.h>
+
+/*
+   Completes the options for -report. An HTML page needs fields and a summary. If the user has not named files for them,
+   their names are derived from that of the page.
+*/
+static PetscErrorCode AppCompleteReport(AppOptions *app)
+{
+  char  base[PETSC_MAX_PATH_LEN];
+  char *ending;
+
+  PetscFunctionBeginUser;
+  if (!app->page) PetscFunctionReturn(0);
+  PetscCall(PetscStrncpy(base, app->report, sizeof(base)));
+  PetscCall(PetscStrendswith(base, ".html", &app->page));
+  PetscCheck(app->page, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT, "-report takes the name of an HTML file, not \"%s\"",
+    app->report);
+  ending  = base + strlen(base) - strlen(".html");
+  *ending = '\0';
+  if (!app->write) PetscCall(PetscStrncpy(app->output, base, sizeof(app->output)));
+  if (!app->summarize) PetscCall(PetscSNPrintf(app->summary, sizeof(app->summary), "%s.json", base));
+  app->write = app->summarize = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/* Reads the program's options. With -help and without a scene, the help has been printed already. */
+PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
+{
+  PetscBool helped;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemzero(app, sizeof(*app)));
+  PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
+  PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output,
+    sizeof(app->output), &app->write));
+  PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
+    &app->gauss, NULL));
+  PetscCall(PetscOptionsInt("-checkpoint_every", "Load steps between two checkpoints", NULL, app->checkpoint_every,
+    &app->checkpoint_every, NULL));
+  PetscCheck(app->checkpoint_every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "-checkpoint_every must be at least 0, not %" PetscInt_FMT, app->checkpoint_every);
+  PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
+    sizeof(app->checkpoint), NULL));
+  PetscCall(PetscOptionsString("-restart", "Checkpoint to restart from", NULL, app->restart, app->restart,
+    sizeof(app->restart), &app->restarts));
+  PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
+    &app->summarize));
+  PetscCall(PetscOptionsString("-report", "HTML page of the run", NULL, app->report, app->report, sizeof(app->report),
+    &app->page));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
+    &app->contact_free, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and reached", NULL, app->accuracy,
+    &app->accuracy, NULL));
+  PetscCall(
+    PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
+  PetscCall(
+    PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
+  PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
+  PetscOptionsEnd();
+  if (argc > 1 && argv[1][0] != '-') PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
+  PetscCall(PetscOptionsHasHelp(NULL, &helped));
+  PetscCheck(app->scene[0] || helped, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "no scene given; usage: contact SCENE.yaml [options], see contact -help");
+  PetscCall(AppCompleteReport(app));
+  PetscFunctionReturn(0);
+}
+
+/* Rejects words that are neither an option nor the value of an option; PETSc would ignore them */
+PetscErrorCode AppCheckWords(int argc, char **argv)
+{
+  PetscFunctionBeginUser;
+  for (int i = 2; i < argc; ++i) {
+    PetscBool option, after;
+
+    PetscCall(PetscOptionsValidKey(argv[i], &option));
+    PetscCall(PetscOptionsValidKey(argv[i - 1], &after));
+    PetscCheck(option || (after && i > 2), PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+      "\"%s\" is neither an option nor the value of one; usage: contact SCENE.yaml [options], see contact -help",
+      argv[i]);
+  }
+  PetscFunctionReturn(0);
+}
