@@ -1,20 +1,37 @@
-# A flat wedge between a floor and an inclined lid that moves down by 0.002 slips out without friction, to a place where no force acts on it: a warning says so. Held at its thick end it remains
+# A flat wedge between a floor and an inclined lid that moves down by 0.002 slips out without friction, to a place where no force acts on it: a warning says so. Held at its thick end it remains. With friction it
+# slips out as well, since the vertex at its tip touches both planes and finds no place between them. Where only its thick end touches the lid, friction holds it, whatever its law
 contact=$AMGF_DIR/bin/contact
-for hold in "" ", hold: {face: wedge.side1, value: [0, free, free]}"; do
+wedge() { # law, friction, slope of the lid, further support
   cat > wedge.yaml <<YAML
 bodies:
-  - wedge: {shape: wedge, axis: y, corners: [0, 0, 0.1, 0, 0, 2], extent: [0, 1], side_cells: 2, length_cells: 1, young: 1000, poisson: 0.3, material: neohookean}
+  - wedge: {shape: wedge, axis: y, corners: [0, 0, 0.1, 0, 0, 2], extent: [0, 1], side_cells: 2, length_cells: 1, young: 1000, poisson: 0.3, material: $1}
   - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
-  - lid: {shape: rigid_plane, point: [0, 0, 0.1], normal: [-0.1, 0, -2]}
+  - lid: {shape: rigid_plane, point: [0, 0, 0.1], normal: [-$3, 0, -2]}
 symmetry: [wedge.lmin, wedge.lmax]
-displacements: [stay: {body: floor, value: [0, 0, 0]}, press: {body: lid, value: [0, 0, -0.002]}$hold]
+displacements: [stay: {body: floor, value: [0, 0, 0]}, press: {body: lid, value: [0, 0, -0.002]}$4]
 contact:
-  - low: {mortar: floor.surface, nonmortar: wedge.side3}
-  - high: {mortar: lid.surface, nonmortar: wedge.side2}
+  - low: {mortar: floor.surface, nonmortar: wedge.side3, friction: $2}
+  - high: {mortar: lid.surface, nonmortar: wedge.side2, friction: $2}
 load: {steps: 1}
 YAML
+}
+for hold in "" ", hold: {face: wedge.side1, value: [0, free, free]}"; do
+  wedge neohookean 0 0.1 "$hold"
   for ranks in 1 2; do
     mpiexec --oversubscribe -n $ranks "$contact" wedge.yaml -quiet -error_estimate 0 > out 2>&1
     echo "$([ "$hold" ] && echo held || echo free), $ranks ranks: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
   done
+done
+for law in linear neohookean; do
+  wedge $law 0.2 0.1
+  "$contact" wedge.yaml -quiet -error_estimate 0 > out 2>&1
+  echo "$law, friction 0.2, touches at the tip: exit $?"
+  wedge $law 0.2 0.08
+  "$contact" wedge.yaml -quiet -error_estimate 0 -summary wedge.json > out 2>&1
+  echo "$law, friction 0.2, touches at the thick end: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
+  "$PYTHON" - <<PYTHON
+from summaries import load, say
+forces = [pair["normal_force"] for pair in load("wedge")["steps"][-1]["pairs"]]
+say("the forces are those of a wedge that stays", all(1 < f < 10 for f in forces), forces)
+PYTHON
 done
