@@ -108,12 +108,14 @@ typedef enum {
 
 /* The path of stick_path.c */
 typedef struct {
-  IPTableau    *p;
-  PetscReal    *x, *rate; /* per variable: its value, and its rate */
-  IPStickState *contact;  /* state of each contact */
-  PetscInt     *slides;   /* number of times that each contact has slid or opened */
-  PetscBool    *moved;    /* whether a contact has slid or opened, so that it sticks where it is when it closes */
-  PetscReal     size[2];  /* size of forces and of motions, for tolerances [square root of energy] */
+  const IPTermSet *set;
+  IPTableau       *p;
+  PetscReal       *x, *rate;   /* per variable: its value, and its rate */
+  IPStickState    *contact;    /* state of each contact */
+  PetscInt        *slides;     /* number of times that each contact has slid or opened */
+  PetscBool       *moved;      /* whether a contact has slid or opened, so that it sticks where it is when it closes */
+  PetscInt         nexchanges; /* number of exchanges since the tableau was set up */
+  PetscReal        size[2];    /* size of forces and of motions, for tolerances [square root of energy] */
 } IPStickPath;
 
 static inline PetscReal *IPTableauColumn(const IPTableau *p, PetscInt column)
@@ -209,8 +211,9 @@ PETSC_INTERN PetscErrorCode IPTableauEnter(IPTableau *);
 PETSC_INTERN PetscErrorCode IPTableauTake(IPTermSet *, const IPReducedSystem *, const IPTableau *);
 
 /* stick_path.c */
-PETSC_INTERN PetscErrorCode IPStickPathCreate(IPTableau *, IPStickPath *);
+PETSC_INTERN PetscErrorCode IPStickPathCreate(const IPTermSet *, IPTableau *, IPStickPath *);
 PETSC_INTERN PetscErrorCode IPStickPathDestroy(IPStickPath *);
+PETSC_INTERN void           IPStickPathLoad(const IPStickPath *);
 PETSC_INTERN PetscErrorCode IPStickPathFollow(IPStickPath *, PetscInt *events, PetscBool *reached);
 
 /* stick.c */

@@ -52,17 +52,6 @@ static PetscErrorCode StickBegin(const PetscReal force[], const PetscReal motion
   PetscFunctionReturn(0);
 }
 
-/* Sets the column of the load: the difference of the motions at the end and at the start, both without forces */
-static void StickLoad(const IPStickPath *w)
-{
-  IPTableau *p    = w->p;
-  PetscReal *load = IPTableauColumn(p, p->rows);
-
-  for (PetscInt r = 0; r < p->rows; r++) load[r] = p->q[r] - w->x[r + p->rows];
-  for (PetscInt j = 0; j < p->rows; j++)
-    for (PetscInt r = 0; r < p->rows && w->x[j] != 0.0; r++) load[r] += IPTableauColumn(p, j)[r] * w->x[j];
-}
-
 /* Sets up the tableau and the start of the path */
 static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s, const PetscReal force[],
   const PetscReal motion[], IPTableau *p, IPStickPath *w, PetscBool *made)
@@ -81,11 +70,11 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
       p->sticks[2 * i + a] = (PetscBool)(!p->dropped[p->m + 2 * i + a] && p->closed[i]);
     }
   }
-  PetscCall(IPStickPathCreate(p, w));
+  PetscCall(IPStickPathCreate(set, p, w));
   PetscCall(IPTableauSetUp(set, s, p, made));
   if (!*made) PetscFunctionReturn(0);
   PetscCall(StickBegin(force, motion, w));
-  StickLoad(w);
+  IPStickPathLoad(w);
   PetscCall(IPTableauEnter(p));
   PetscFunctionReturn(0);
 }

@@ -19,12 +19,44 @@ PetscErrorCode IPStickPathDestroy(IPStickPath *w)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode IPStickPathCreate(IPTableau *p, IPStickPath *w)
+PetscErrorCode IPStickPathCreate(const IPTermSet *set, IPTableau *p, IPStickPath *w)
 {
   PetscFunctionBegin;
-  *w = (IPStickPath){.p = p};
+  *w = (IPStickPath){.set = set, .p = p};
   PetscCall(PetscCalloc2(2 * p->rows + 1, &w->x, 2 * p->rows + 1, &w->rate));
   PetscCall(PetscCalloc3(p->m, &w->contact, p->m, &w->slides, p->m, &w->moved));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the column of the load from the present forces and motions, which are those at the present load: the change of
+   the motions without forces until the end, divided by the load that is left. All motions must be basic.
+*/
+void IPStickPathLoad(const IPStickPath *w)
+{
+  IPTableau      *p    = w->p;
+  const PetscReal left = 1.0 - w->x[2 * p->rows];
+  PetscReal      *load = IPTableauColumn(p, p->rows);
+
+  for (PetscInt r = 0; r < p->rows; r++) load[r] = p->q[r] - w->x[r + p->rows];
+  for (PetscInt j = 0; j < p->rows; j++)
+    for (PetscInt r = 0; r < p->rows && w->x[j] != 0.0; r++) load[r] += IPTableauColumn(p, j)[r] * w->x[j];
+  for (PetscInt r = 0; r < p->rows; r++) load[r] = left > 0.0 ? load[r] / left : 0.0;
+}
+
+/* Sets up the tableau again, since each exchange adds rounding errors, with the same basic variables */
+static PetscErrorCode PathRenew(IPStickPath *w)
+{
+  IPTableau *p = w->p;
+  PetscBool  made;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < p->m; i++) p->closed[i] = (PetscBool)(p->place[i] >= 0);
+  for (PetscInt r = p->m; r < p->rows; r++) p->sticks[r - p->m] = (PetscBool)(p->place[r] >= 0);
+  PetscCall(IPTableauSetUp(w->set, p->s, p, &made));
+  IPStickPathLoad(w);
+  PetscCall(IPTableauEnter(p));
+  w->nexchanges = 0;
   PetscFunctionReturn(0);
 }
 
@@ -44,6 +76,7 @@ static PetscErrorCode PathHold(IPStickPath *w, PetscInt row, PetscBool held)
   if (p->dropped[row] || (p->place[row] >= 0) == held) PetscFunctionReturn(0);
   if (PetscAbsReal(IPTableauColumn(p, -1 - p->place[enters])[p->place[leaves]]) <= least) p->dropped[row] = held;
   else PetscCall(IPTableauExchange(p, p->place[leaves], -1 - p->place[enters]));
+  w->nexchanges++;
   PetscFunctionReturn(0);
 }
 
@@ -269,7 +302,7 @@ static void PathPress(IPStickPath *w)
 PetscErrorCode IPStickPathFollow(IPStickPath *w, PetscInt *events, PetscBool *reached)
 {
   IPTableau     *p    = w->p;
-  const PetscInt load = 2 * p->rows, most = 100 * p->m + 100;
+  const PetscInt load = 2 * p->rows, most = 100 * p->m + 100, few = 300;
 
   PetscFunctionBegin;
   *reached = PETSC_FALSE;
@@ -291,6 +324,7 @@ PetscErrorCode IPStickPathFollow(IPStickPath *w, PetscInt *events, PetscBool *re
     }
     if (reach < left) {
       PetscCall(PathChangeAll(w, reach, (PetscBool)(2 * k > most)));
+      if (w->nexchanges > PetscMax(few, p->rows)) PetscCall(PathRenew(w));
       ++*events;
       continue;
     }
