@@ -56,15 +56,18 @@ typedef struct {
 
 /*
    A level on this rank. A block vector has 4 entries per block row, followed by the ghosts. position[] has the position
-   of each unknown in a block vector. L is the strictly lower triangle without columns of other ranks, stored row by row
-   in blocks of B x B floats. The inverse of a diagonal block D is stored as W with D^-1 = W^T W, in B columns of 4
-   floats. Unused entries are zero.
+   of each unknown in a block vector. The matrix is C A C, where C has the scale 1/sqrt(|a_ii|) of each unknown. L is
+   its strictly lower triangle without columns of other ranks, stored block row by block row in blocks of B rows of 4
+   integers. An entry is an integer times the unit of its row. The inverse of a diagonal block D is stored as W with D^-1 = W^T W, in
+   B columns of 4 floats. Unused entries are zero.
 */
 typedef struct {
   int                n, nb, B; /* number of unknowns; number of block rows; block size, 3 or 4 */
   int               *position;
   int               *ptr, *col; /* start of each block row in col; position of the first column of each block */
-  float             *L, *W;
+  int16_t           *L;
+  float             *unit, *W;
+  float             *scale; /* of each unknown at its position, and of the ghosts of the matrix */
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
@@ -89,7 +92,7 @@ typedef struct {
   BlockLevel *levels;
   BlockLevel  bottom; /* block vectors of the dense level, and positions of its unknowns */
   BlockDense  dense;  /* N = 0: there is no dense level, and the coarsest level is only smoothed */
-  double      scale;  /* power of 2 by which all matrices are divided, so that floats can represent them */
+  double      scale;  /* power of 2 by which all matrices are divided, so that floats can represent their diagonals */
 } BlockHierarchy;
 
 typedef struct {
@@ -104,6 +107,8 @@ typedef struct {
 PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);
 PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
 PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
+/* operator.c */
+PETSC_INTERN PetscErrorCode BlockConvertToHypre_Private(Mat *, PetscInt bs, Mat *hypre);
 /* order.c */
 PETSC_INTERN PetscErrorCode BlockOrderNodes_Private(const BlockRows *, PetscInt bs, int position[]);
 PETSC_INTERN PetscErrorCode BlockOrderGroups_Private(const BlockRows *, int position[]);
@@ -132,8 +137,9 @@ PETSC_INTERN PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *, const Blo
 PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode BlockDenseDestroy_Private(BlockDense *);
 /* hierarchy.c */
-PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt nlevels, Mat coarse[], Mat interpolations[],
-  BlockHierarchy **);
+PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt bs, BlockHierarchy **);
+PETSC_INTERN PetscErrorCode BlockHierarchyAddLevels_Private(BlockHierarchy *, PetscInt nlevels, Mat coarse[],
+  Mat interpolations[]);
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* cycle.c */

@@ -148,11 +148,19 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   PetscCall(ApplyFindScale(h, fine->n, from, &scale));
   inverse = 1.0 / scale;
   mode    = CycleFlushTiny();
-  for (int u = 0; u < fine->n; u++) fine->b[fine->position[u]] = (float)(inverse * PetscRealPart(from[u]));
+  for (int u = 0; u < fine->n; u++) {
+    const int p = fine->position[u];
+
+    fine->b[p] = (float)(inverse * fine->scale[p] * PetscRealPart(from[u]));
+  }
   PetscCall(BlockCycle(h));
   CycleRestoreTiny(mode);
   scale /= h->scale;
-  for (int u = 0; u < fine->n; u++) to[u] = scale * fine->x[fine->position[u]];
+  for (int u = 0; u < fine->n; u++) {
+    const int p = fine->position[u];
+
+    to[u] = scale * fine->scale[p] * fine->x[p];
+  }
   PetscCall(VecRestoreArrayWrite(z, &to));
   PetscCall(VecRestoreArrayRead(r, &from));
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Apply, pc, r, z, 0));

@@ -37,6 +37,8 @@ PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *h, const BlockRows *rows
   PetscCall(PetscMalloc1(level->n, &level->position));
   for (int u = 0; u < level->n; u++) level->position[u] = u;
   level->nslots = 4 * level->nb;
+  PetscCall(PetscMalloc1(level->nslots, &level->scale));
+  for (int p = 0; p < level->nslots; p++) level->scale[p] = 1.0f;
   PetscCall(PetscMalloc2(h->size, &dense->counts, h->size, &dense->starts));
   for (PetscMPIInt r = 0; r < h->size; r++) {
     dense->starts[r] = (PetscMPIInt)rows->columns->range[r];

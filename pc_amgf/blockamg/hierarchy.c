@@ -28,34 +28,39 @@ static PetscErrorCode HierarchySetScale(BlockHierarchy *h, Mat A)
    Sets h->nlevels to the number of smoothed levels: all levels finer than the first one that is small enough for a
    dense inverse. *dense: there is such a level.
 */
-static PetscErrorCode HierarchyCountLevels(BlockHierarchy *h, Mat A, PetscInt nlevels, Mat coarse[], PetscBool *dense)
+static PetscErrorCode HierarchyCountLevels(BlockHierarchy *h, PetscInt nlevels, Mat coarse[], PetscBool *dense)
 {
   PetscFunctionBegin;
-  *dense = PETSC_FALSE;
-  for (h->nlevels = 0; h->nlevels < nlevels; h->nlevels++) {
+  *dense = (PetscBool)(h->dense.N > 0);
+  if (*dense) PetscFunctionReturn(0);
+  for (h->nlevels = 1; h->nlevels < nlevels; h->nlevels++) {
     PetscInt N;
 
-    PetscCall(MatGetSize(h->nlevels ? coarse[nlevels - 1 - h->nlevels] : A, &N, NULL));
+    PetscCall(MatGetSize(coarse[nlevels - 1 - h->nlevels], &N, NULL));
     *dense = (PetscBool)(N <= BLOCKAMG_DENSE);
     if (*dense) break;
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat P)
+static PetscErrorCode HierarchyConvertMatrix(BlockHierarchy *h, int i, Mat A, PetscInt bs)
 {
-  BlockLevel *level = i < h->nlevels ? &h->levels[i] : &h->bottom,
-             *next  = i + 1 < h->nlevels ? &h->levels[i + 1] : &h->bottom;
   BlockRows rows;
-  PetscInt  bs = 1;
 
   PetscFunctionBegin;
-  if (i == 0) PetscCall(MatGetBlockSize(A, &bs));
   PetscCall(BlockRowsGet_Private(A, &rows));
-  if (i < h->nlevels) PetscCall(BlockLevelSetMatrix_Private(level, &rows, bs, h->scale));
+  if (i < h->nlevels) PetscCall(BlockLevelSetMatrix_Private(&h->levels[i], &rows, bs, h->scale));
   else PetscCall(BlockDenseCreate_Private(h, &rows));
   PetscCall(BlockRowsRestore_Private(&rows));
-  if (!P) PetscFunctionReturn(0);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode HierarchyConvertInterpolation(BlockHierarchy *h, int i, Mat P)
+{
+  BlockLevel *level = &h->levels[i], *next = i + 1 < h->nlevels ? &h->levels[i + 1] : &h->bottom;
+  BlockRows   rows;
+
+  PetscFunctionBegin;
   PetscCall(BlockRowsGet_Private(P, &rows));
   PetscCall(BlockInterpolationCreate_Private(level, &rows, next));
   PetscCall(BlockRowsRestore_Private(&rows));
@@ -64,20 +69,16 @@ static PetscErrorCode HierarchyConvertLevel(BlockHierarchy *h, int i, Mat A, Mat
 }
 
 /*
-   BlockHierarchyCreate_Private - creates the hierarchy from the matrices of BoomerAMG, which are destroyed
+   BlockHierarchyCreate_Private - creates the hierarchy with its finest level alone
 
    Input Parameters:
-   + A              - the operator
-   . nlevels        - number of levels of BoomerAMG, including that of A
-   . coarse         - matrices of the other levels, the coarsest first; NULL afterwards
-   - interpolations - interpolation to each level from the next coarser one, the coarsest first; NULL afterwards
+   + A  - the operator
+   - bs - number of consecutive unknowns per node; 1 if that is not known
 */
-PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[], Mat interpolations[],
-  BlockHierarchy **created)
+PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt bs, BlockHierarchy **created)
 {
   BlockHierarchy *h;
-  PetscBool       dense;
-  int             last;
+  PetscInt        N;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&h));
@@ -85,8 +86,31 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
   PetscCall(PetscObjectGetComm((PetscObject)A, &h->comm));
   PetscCallMPI(MPI_Comm_size(h->comm, &h->size));
   PetscCall(HierarchySetScale(h, A));
-  PetscCall(HierarchyCountLevels(h, A, nlevels, coarse, &dense));
+  PetscCall(MatGetSize(A, &N, NULL));
+  h->nlevels = N > BLOCKAMG_DENSE;
   PetscCall(PetscCalloc1(h->nlevels, &h->levels));
+  PetscCall(HierarchyConvertMatrix(h, 0, A, bs));
+  PetscFunctionReturn(0);
+}
+
+/*
+   BlockHierarchyAddLevels_Private - adds the coarser levels from the matrices of BoomerAMG, which are destroyed
+
+   Input Parameters:
+   + h              - the hierarchy, with its finest level
+   . nlevels        - number of levels of BoomerAMG, including the finest one
+   . coarse         - matrices of the other levels, the coarsest first; NULL afterwards
+   - interpolations - interpolation to each level from the next coarser one, the coarsest first; NULL afterwards
+*/
+PetscErrorCode BlockHierarchyAddLevels_Private(BlockHierarchy *h, PetscInt nlevels, Mat coarse[], Mat interpolations[])
+{
+  PetscBool dense;
+  int       last, fine = h->nlevels;
+
+  PetscFunctionBegin;
+  PetscCall(HierarchyCountLevels(h, nlevels, coarse, &dense));
+  PetscCall(PetscRealloc((size_t)h->nlevels * sizeof(*h->levels), &h->levels));
+  PetscCall(PetscArrayzero(h->levels + fine, h->nlevels - fine));
   last = h->nlevels - (dense ? 0 : 1);
   for (int i = (int)nlevels - 1; i > last; i--) { /* levels coarser than the one with the dense inverse are not used */
     PetscCall(MatDestroy(&coarse[nlevels - 1 - i]));
@@ -95,9 +119,14 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt nlevels, Mat coarse[
   for (int i = last; i >= 0; i--) {
     const PetscInt k = nlevels - 1 - i;
 
-    PetscCall(HierarchyConvertLevel(h, i, i ? coarse[k] : A, i < last ? interpolations[k - 1] : NULL));
-    if (i) PetscCall(MatDestroy(&coarse[k]));
-    if (i < last) PetscCall(MatDestroy(&interpolations[k - 1]));
+    if (i) {
+      PetscCall(HierarchyConvertMatrix(h, i, coarse[k], 1));
+      PetscCall(MatDestroy(&coarse[k]));
+    }
+    if (i < last) {
+      PetscCall(HierarchyConvertInterpolation(h, i, interpolations[k - 1]));
+      PetscCall(MatDestroy(&interpolations[k - 1]));
+    }
   }
   PetscCall(BlockLevelCreateVectors_Private(h->nlevels ? &h->levels[0] : &h->bottom));
   PetscFunctionReturn(0);
@@ -119,7 +148,10 @@ PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool
       largest = PetscMax(largest, PetscAbs(l->W[k]));
       nan += 0.0f * l->W[k];
     }
-    for (size_t k = 0; k < (size_t)l->B * l->B * l->ptr[l->nb]; k++) nan += 0.0f * l->L[k];
+    for (size_t k = 0; k < 4 * (size_t)l->nb; k++) {
+      largest = PetscMax(largest, l->scale[k]);
+      nan += 0.0f * (l->unit[k] + l->scale[k]);
+    }
   }
   for (size_t k = 0; k < (size_t)h->dense.N * h->dense.N; k++) nan += 0.0f * h->dense.W[k];
   *finite = (PetscBool)(nan == 0.0f && largest < 1e15f);

@@ -1,6 +1,6 @@
 /*
    Stores the interpolation from the next coarser level, with rows and columns in the order of the two levels' block
-   vectors
+   vectors, and scaled like these
 */
 #include "blockamgimpl.h"
 
@@ -17,6 +17,7 @@ PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRo
 {
   BlockInterpolation *P     = &level->P;
   const PetscInt      ndiag = rows->n ? rows->ia[rows->n] : 0, noff = rows->n && rows->oia ? rows->oia[rows->n] : 0;
+  float              *scale;
 
   PetscFunctionBegin;
   PetscCheck(ndiag + noff <= 2147483647, PETSC_COMM_SELF, PETSC_ERR_SUP,
@@ -28,20 +29,25 @@ PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *level, const BlockRo
     P->ptr[level->position[u] + 1] =
       (int)(rows->ia[u + 1] - rows->ia[u] + (rows->oia ? rows->oia[u + 1] - rows->oia[u] : 0));
   for (int i = 0; i < 4 * level->nb; i++) P->ptr[i + 1] += P->ptr[i];
+  PetscCall(BlockHaloCreate_Private(rows->columns, rows->nghosts, rows->ghosts, next, &P->halo));
+  next->nslots = PetscMax(next->nslots, 4 * next->nb + P->halo.nghosts);
+  PetscCall(PetscMalloc1(4 * next->nb + P->halo.nghosts, &scale));
+  PetscCall(PetscArraycpy(scale, next->scale, 4 * next->nb));
+  PetscCall(BlockHaloFetch_Private(&P->halo, next, scale));
   for (int u = 0; u < level->n; u++) {
-    int p = P->ptr[level->position[u]];
+    const double inverse = 1.0 / level->scale[level->position[u]];
+    int          p       = P->ptr[level->position[u]];
 
     for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++, p++) {
       P->col[p] = next->position[rows->ja[k]];
-      P->val[p] = (float)PetscRealPart(rows->a[k]);
+      P->val[p] = (float)(inverse * scale[P->col[p]] * PetscRealPart(rows->a[k]));
     }
     for (PetscInt k = rows->oia ? rows->oia[u] : 0; k < (rows->oia ? rows->oia[u + 1] : 0); k++, p++) {
       P->col[p] = 4 * next->nb + (int)rows->oja[k];
-      P->val[p] = (float)PetscRealPart(rows->oa[k]);
+      P->val[p] = (float)(inverse * scale[P->col[p]] * PetscRealPart(rows->oa[k]));
     }
   }
-  PetscCall(BlockHaloCreate_Private(rows->columns, rows->nghosts, rows->ghosts, next, &P->halo));
-  next->nslots = PetscMax(next->nslots, 4 * next->nb + P->halo.nghosts);
+  PetscCall(PetscFree(scale));
   level->bytes += 8.0 * (double)(ndiag + noff) + 16.0 * level->nb;
   PetscFunctionReturn(0);
 }

@@ -1,23 +1,32 @@
 /*
-   Stores a matrix of the hierarchy in single precision: blocks of the strictly lower triangle, inverses of the diagonal
-   blocks, and entries in columns of other ranks
+   Stores a matrix of the hierarchy: blocks of the strictly lower triangle in integers of 16 bits, inverses of the
+   diagonal blocks and entries in columns of other ranks in single precision
 */
 #include "blockamgimpl.h"
+#include <float.h>
+#include <math.h>
 
-/* Blocks of L in the block rows processed so far; room: number of allocated blocks */
+/* Blocks of L in the block rows processed so far; capacity: number of allocated blocks */
 typedef struct {
-  int    n, capacity;
-  int   *col;
-  float *val;
+  int      n, capacity, row_capacity;
+  int     *col;
+  int16_t *val;
+  float   *row; /* the blocks of the current block row before they are rounded and sorted, 4 floats for each row */
 } LevelBlocks;
 
-static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int size, int more)
+/* Reserves memory for `more` blocks of another block row */
+static PetscErrorCode BlocksReserve(LevelBlocks *blocks, int B, int more)
 {
   PetscFunctionBegin;
+  if (more > blocks->row_capacity) {
+    blocks->row_capacity = 2 * more;
+    PetscCall(PetscFree(blocks->row));
+    PetscCall(PetscMalloc1(4 * (size_t)B * blocks->row_capacity, &blocks->row));
+  }
   if (blocks->n + more <= blocks->capacity) PetscFunctionReturn(0);
   blocks->capacity = blocks->n + more + blocks->n / 4;
   PetscCall(PetscRealloc((size_t)blocks->capacity * sizeof(*blocks->col), &blocks->col));
-  PetscCall(PetscRealloc(((size_t)blocks->capacity * size + 4) * sizeof(*blocks->val), &blocks->val));
+  PetscCall(PetscRealloc(((size_t)blocks->capacity * 4 * B + 4) * sizeof(*blocks->val), &blocks->val));
   PetscFunctionReturn(0);
 }
 
@@ -45,56 +54,80 @@ static void LevelSort(int n, int a[])
 }
 
 /*
-   Appends the blocks of block row i of L to `blocks`, with sorted columns. slot[j]: position in `blocks` of the block
-   in block column j.
+   Collects the blocks of block row i of L in blocks->row, scaled, and their columns in blocks->col, both in the order
+   in which they are found. D becomes the diagonal block, not scaled. slot[j]: number of the block in block column j.
 */
-static PetscErrorCode LevelFindBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
-  LevelBlocks *blocks, int slot[])
+static PetscErrorCode LevelCollectBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
+  double inverse_scale, LevelBlocks *blocks, int slot[], PetscScalar D[16])
 {
-  const int first = blocks->n, size = level->B * level->B;
+  const int B = level->B, first = blocks->n;
   PetscInt  most = 0;
 
   PetscFunctionBegin;
-  for (int r = 0; r < level->B; r++) {
+  for (int r = 0; r < B; r++) {
     const int u = unknown[4 * i + r];
 
     if (u >= 0) most += rows->ia[u + 1] - rows->ia[u];
   }
-  PetscCall(BlocksReserve(blocks, size, (int)PetscMin(most, i)));
-  for (int r = 0; r < level->B; r++) {
-    const int u = unknown[4 * i + r];
-
-    if (u < 0) continue;
-    for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
-      const int j = level->position[rows->ja[k]] / 4;
-
-      if (j >= i || slot[j] >= first) continue;
-      slot[j]                  = blocks->n;
-      blocks->col[blocks->n++] = 4 * j;
-    }
-  }
-  LevelSort(blocks->n - first, blocks->col + first);
-  for (int k = first; k < blocks->n; k++) slot[blocks->col[k] / 4] = k;
-  PetscCall(PetscArrayzero(blocks->val + (size_t)size * first, (size_t)size * (blocks->n - first)));
-  PetscFunctionReturn(0);
-}
-
-/* Fills the blocks of block row i of L, and its diagonal block D. slot: see LevelFindBlocks(). */
-static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, const int unknown[], int i,
-  double inverse_scale, const int slot[], float val[], PetscScalar D[16])
-{
-  const int B = level->B;
-
+  PetscCall(BlocksReserve(blocks, B, (int)PetscMin(most, i)));
   for (int k = 0; k < B * B; k++) D[k] = 0.0;
   for (int r = 0; r < B; r++) {
-    const int u = unknown[4 * i + r];
+    const int    u    = unknown[4 * i + r];
+    const double left = inverse_scale * level->scale[4 * i + r];
 
     if (u < 0) continue;
     for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
       const int p = level->position[rows->ja[k]], j = p / 4;
 
-      if (j < i) val[(size_t)B * B * slot[j] + B * r + p % 4] = (float)(inverse_scale * PetscRealPart(rows->a[k]));
-      else if (j == i) D[B * r + p % 4] = inverse_scale * rows->a[k];
+      if (j == i) D[B * r + p % 4] = inverse_scale * rows->a[k];
+      if (j >= i) continue;
+      if (slot[j] < first) {
+        for (int m = 0; m < 4 * B; m++) blocks->row[4 * B * (blocks->n - first) + m] = 0.0f;
+        slot[j]                  = blocks->n;
+        blocks->col[blocks->n++] = 4 * j;
+      }
+      blocks->row[4 * (B * (slot[j] - first) + r) + p % 4] =
+        (float)(left * level->scale[p] * PetscRealPart(rows->a[k]));
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sorts the blocks of block row i of L by their columns and rounds them to integers, with a unit for each row. first:
+   number of the row's first block. slot: see LevelCollectBlocks().
+*/
+static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks, const int slot[])
+{
+  const int B = level->B, n = blocks->n - first;
+  float     largest[16] = {0.0f}, inverse[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+
+  for (int k = 0; k < n; k++) {
+    for (int m = 0; m < 4 * B; m++) {
+      const float v = fabsf(blocks->row[4 * B * k + m]);
+
+      largest[m] = v <= largest[m] ? largest[m] : v; /* NaN if v is NaN */
+    }
+  }
+  for (int r = 0; r < B; r++) {
+    float unit = largest[4 * r];
+
+    for (int c = 1; c < 4; c++) unit = largest[4 * r + c] <= unit ? unit : largest[4 * r + c];
+    unit /= 32767.0f;
+    if (unit > FLT_MIN && unit <= FLT_MAX) inverse[r] = 1.0f / unit;
+    level->unit[4 * (size_t)i + r] = unit / 65536.0f; /* Vec8LoadShorts() multiplies by 65536 */
+  }
+  LevelSort(n, blocks->col + first);
+  for (int k = first; k < blocks->n; k++) {
+    const float *from = blocks->row + 4 * B * (slot[blocks->col[k] / 4] - first);
+    int16_t     *to   = blocks->val + 4 * (size_t)B * k;
+
+    for (int r = 0; r < B; r++) {
+      for (int c = 0; c < 4; c++) {
+        const float v = inverse[r] > 0.0f ? inverse[r] * from[4 * r + c] : 0.0f;
+
+        to[4 * r + c] = (int16_t)(int)(v < 0.0f ? v - 0.5f : v + 0.5f);
+      }
     }
   }
 }
@@ -104,7 +137,7 @@ static void LevelFillBlocks(const BlockLevel *level, const BlockRows *rows, cons
    the absolute values of a row's entries in those columns, and g the excess of its diagonal entry over the absolute
    values of the other entries in the diagonal block. S is the larger of (l - 0.9 g)/2 and l/4. The first value makes
    the sweeps of all ranks together converge and the cycle positive definite; the second smooths stiff couplings between
-   ranks.
+   ranks. S and D are not yet scaled by the scales of the unknowns.
    *next: first row of the border not yet processed.
 */
 static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar D[16])
@@ -126,12 +159,30 @@ static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar 
   }
 }
 
+/* Stores D^-1 of block row i as W^T W, where D becomes scaled */
+static PetscErrorCode LevelInvert(BlockLevel *level, int i, PetscScalar D[16])
+{
+  const int    B     = level->B;
+  const float *scale = level->scale + 4 * (size_t)i;
+  PetscScalar  W[16];
+
+  PetscFunctionBegin;
+  for (int r = 0; r < B; r++) {
+    for (int c = 0; c < B; c++) D[B * r + c] *= (double)scale[r] * scale[c];
+  }
+  PetscCall(BlockInvertRoot_Private(B, D, W));
+  for (int r = 0; r < B; r++) {
+    for (int c = 0; c < B; c++) level->W[4 * ((size_t)B * i + c) + r] = (float)PetscRealPart(W[B * r + c]);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, double scale)
 {
-  const int   B = level->B, size = B * B;
-  LevelBlocks blocks = {0, 0, NULL, NULL};
+  const int   B      = level->B;
+  LevelBlocks blocks = {0, 0, 0, NULL, NULL, NULL};
   int        *unknown, *slot, border = 0;
-  PetscScalar D[16], W[16];
+  PetscScalar D[16];
 
   PetscFunctionBegin;
   PetscCall(LevelGetUnknowns(level, &unknown));
@@ -139,25 +190,25 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
   for (int i = 0; i < level->nb; i++) slot[i] = -1;
   PetscCall(PetscMalloc1(level->nb + 1, &level->ptr));
   PetscCall(PetscCalloc1(4 * (size_t)B * level->nb, &level->W));
-  PetscCall(BlocksReserve(&blocks, size, (int)(rows->n ? rows->ia[rows->n] / (B == 3 ? 18 : 10) : 0)));
+  PetscCall(PetscCalloc1(4 * (size_t)level->nb, &level->unit));
   for (int i = 0; i < level->nb; i++) {
     level->ptr[i] = blocks.n;
-    PetscCall(LevelFindBlocks(level, rows, unknown, i, &blocks, slot));
-    LevelFillBlocks(level, rows, unknown, i, 1.0 / scale, slot, blocks.val, D);
+    PetscCall(LevelCollectBlocks(level, rows, unknown, i, 1.0 / scale, &blocks, slot, D));
+    LevelRound(level, i, level->ptr[i], &blocks, slot);
     LevelShiftDiagonal(level, &border, i, D);
-    PetscCall(BlockInvertRoot_Private(B, D, W));
-    for (int r = 0; r < B; r++) {
-      for (int c = 0; c < B; c++) level->W[4 * ((size_t)B * i + c) + r] = (float)PetscRealPart(W[B * r + c]);
-    }
+    PetscCall(LevelInvert(level, i, D));
   }
+  for (int b = 0; b < level->border.n; b++)
+    level->border.shift[b] *= level->scale[level->border.position[b]] * level->scale[level->border.position[b]];
   level->ptr[level->nb] = blocks.n;
   PetscCall(PetscRealloc((size_t)blocks.n * sizeof(*blocks.col), &blocks.col));
-  PetscCall(PetscRealloc(((size_t)blocks.n * size + 4) * sizeof(*blocks.val), &blocks.val));
+  PetscCall(PetscRealloc(((size_t)blocks.n * 4 * B + 4) * sizeof(*blocks.val), &blocks.val));
   if (blocks.val)
-    /* Sweeps read the last row of a block of 9 as 4 floats. One float more than the last block must therefore exist. */
-    PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * size, 4));
+    /* Sweeps read 16 numbers of each block. Blocks of 3 x 3 have 12, so 4 more than the last block must exist. */
+    PetscCall(PetscArrayzero(blocks.val + (size_t)blocks.n * 4 * B, 4));
   level->col = blocks.col;
   level->L   = blocks.val;
+  PetscCall(PetscFree(blocks.row));
   PetscCall(PetscFree(slot));
   PetscCall(PetscFree(unknown));
   PetscFunctionReturn(0);
@@ -165,11 +216,12 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
 
 /*
    Stores the entries in columns of other ranks, row by row in the order of the positions. border->shift becomes half
-   the sum of a row's absolute values.
+   the sum of a row's absolute values, not scaled.
 */
 static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, double scale)
 {
   BlockBorder *border = &level->border;
+  const float *ghosts = level->scale + 4 * (size_t)level->nb;
   int         *unknown, n = 0;
 
   PetscFunctionBegin;
@@ -186,12 +238,12 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   for (int i = 0; i < 4 * level->nb; i++) {
     const int u = unknown[i];
     int       k = border->ptr[n];
-    double    s = 0.0;
+    double    s = 0.0, left = level->scale[i] / scale;
 
     if (u < 0 || rows->oia[u + 1] == rows->oia[u]) continue;
     for (PetscInt m = rows->oia[u]; m < rows->oia[u + 1]; m++, k++) {
       border->col[k] = (int)rows->oja[m];
-      border->val[k] = (float)(PetscRealPart(rows->oa[m]) / scale);
+      border->val[k] = (float)(left * ghosts[rows->oja[m]] * PetscRealPart(rows->oa[m]));
       s += PetscAbsScalar(rows->oa[m]) / scale;
     }
     border->position[n] = i;
@@ -214,13 +266,30 @@ static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
   sums[0] = level->n;
   sums[1] = rows->n ? (double)rows->ia[rows->n] + border : 0.0;
   sums[2] = (double)B * B * (2.0 * level->ptr[level->nb] + level->nb) + border;
-  sums[3] = (4.0 * B * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 4.0) * level->nb + 4.0 * level->n + 8.0 * border +
+  sums[3] = (8.0 * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 36.0) * level->nb + 4.0 * level->n + 8.0 * border +
             12.0 * level->border.n;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, rows->columns->comm));
   level->unknowns = sums[0];
   level->entries  = sums[1];
   level->blocks   = sums[2];
   level->bytes    = sums[3];
+  PetscFunctionReturn(0);
+}
+
+/* Sets the scales of the unknowns and of the ghosts of the matrix. Unused positions, and zero diagonals, have 1. */
+static PetscErrorCode LevelSetScale(BlockLevel *level, const BlockRows *rows, double scale)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(level->nslots, &level->scale));
+  for (int p = 0; p < level->nslots; p++) level->scale[p] = 1.0f;
+  for (PetscInt u = 0; u < rows->n; u++) {
+    PetscInt k = rows->ia[u];
+
+    while (k < rows->ia[u + 1] && rows->ja[k] < u) k++; /* columns are sorted */
+    if (k < rows->ia[u + 1] && rows->ja[k] == u && rows->a[k] != 0.0)
+      level->scale[level->position[u]] = (float)(1.0 / PetscSqrtReal(PetscAbsScalar(rows->a[k]) / scale));
+  }
+  PetscCall(BlockHaloFetch_Private(&level->halo, level, level->scale));
   PetscFunctionReturn(0);
 }
 
@@ -248,10 +317,11 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
   else PetscCall(BlockOrderGroups_Private(rows, level->position));
   level->nb = 0;
   for (int u = 0; u < level->n; u++) level->nb = PetscMax(level->nb, level->position[u] / 4 + 1);
-  PetscCall(LevelSetBorder(level, rows, scale));
-  PetscCall(LevelSetBlocks(level, rows, scale));
   PetscCall(BlockHaloCreate_Private(rows->columns, rows->nghosts, rows->ghosts, level, &level->halo));
   level->nslots = 4 * level->nb + level->halo.nghosts;
+  PetscCall(LevelSetScale(level, rows, scale));
+  PetscCall(LevelSetBorder(level, rows, scale));
+  PetscCall(LevelSetBlocks(level, rows, scale));
   PetscCall(LevelCount(level, rows));
   PetscFunctionReturn(0);
 }
@@ -277,7 +347,9 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->ptr));
   PetscCall(PetscFree(level->col));
   PetscCall(PetscFree(level->L));
+  PetscCall(PetscFree(level->unit));
   PetscCall(PetscFree(level->W));
+  PetscCall(PetscFree(level->scale));
   PetscCall(PetscFree(level->border.position));
   PetscCall(PetscFree(level->border.ptr));
   PetscCall(PetscFree(level->border.col));

@@ -40,27 +40,20 @@ static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 }
 
 /*
-   Gets the operator in a format that PETSc passes to hypre efficiently. PETSc would pass SBAIJ entry by entry, which
-   takes twice as long as hypre's set-up. SBAIJ is therefore converted to AIJ and then to hypre's format.
+   Gets the operator in hypre's format, and creates the finest level. Both are made of the operator in format AIJ, which
+   is a copy for other formats. It is freed before hypre's set-up, which needs the most memory.
 */
-static PetscErrorCode SetUpGetOperator(Mat A, Mat *operator)
+static PetscErrorCode SetUpConvertOperator(PC pc, Mat *operator)
 {
-  PetscBool half;
-  PetscInt  bs;
-  Mat       aij;
+  PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
+  PetscInt     bs;
+  Mat          aij;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &half, MATSEQSBAIJ, MATMPISBAIJ, ""));
-  if (half) {
-    PetscCall(MatGetBlockSize(A, &bs));
-    PetscCall(BlockConvertToAIJ_Private(A, &aij));
-    PetscCall(MatConvert(aij, MATHYPRE, MAT_INITIAL_MATRIX, operator));
-    PetscCall(MatSetBlockSize(*operator, bs));
-    PetscCall(MatDestroy(&aij));
-  } else {
-    PetscCall(PetscObjectReference((PetscObject)A));
-    *operator= A;
-  }
+  PetscCall(MatGetBlockSize(pc->pmat, &bs));
+  PetscCall(BlockConvertToAIJ_Private(pc->pmat, &aij));
+  PetscCall(BlockHierarchyCreate_Private(aij, bs, &amg->h));
+  PetscCall(BlockConvertToHypre_Private(&aij, bs, operator));
   PetscFunctionReturn(0);
 }
 
@@ -80,7 +73,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(SetUpGetOperator(pc->pmat, &operator));
+  PetscCall(SetUpConvertOperator(pc, &operator));
   PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* the Pmat carries the near null space, which its copy
                                                                 does not */
   PetscCall(MatDestroy(&operator));
@@ -108,7 +101,7 @@ static PetscErrorCode SetUpConvert(PC pc)
   PetscCall(PCGetCoarseOperators(amg->hypre, &ncoarse, &coarse));
   PetscCall(PCGetInterpolations(amg->hypre, &nlevels, &interpolations));
   PetscCall(PCDestroy(&amg->hypre));
-  PetscCall(BlockHierarchyCreate_Private(pc->pmat, nlevels, coarse, interpolations, &amg->h));
+  PetscCall(BlockHierarchyAddLevels_Private(amg->h, nlevels, coarse, interpolations));
   PetscCall(PetscFree(coarse));
   PetscCall(PetscFree(interpolations));
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Convert, pc, 0, 0, 0));
@@ -142,6 +135,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
   if (failed) {
     PetscCall(PCDestroy(&amg->hypre));
+    PetscCall(BlockHierarchyDestroy_Private(&amg->h));
     PetscCall(SetUpFail(pc, PC_SUBPC_ERROR, "the set-up of hypre's BoomerAMG failed"));
     PetscFunctionReturn(0);
   }

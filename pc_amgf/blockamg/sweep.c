@@ -7,35 +7,54 @@
 
 /*
    Processes block row i of a sweep: x_i = W^T W (f - sum_j L_ij x_j), and then t_j += L_ij^T x_i. f: right-hand side of
-   the row. step: 1 for a forward, -1 for a backward sweep. Blocks are read in this direction, since processors prefetch
-   memory that is read in one direction. For B = 3 the fourth entry of x_i is zero and the fourth entry of t_j is
-   unused.
+   the row. A row of L is a row of integers times its unit. step: 1 for a forward, -1 for a backward sweep. Blocks are
+   read in this direction, since processors prefetch memory that is read in one direction. For B = 3 the fourth entry of
+   x_i is zero and the fourth entry of t_j is unused.
 */
 VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
 {
-  const int          k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
-  const float *const W    = l->W + 4 * B * (size_t)i;
-  const Vec4         zero = Vec4Same(0.0f);
-  Vec4               a[4] = {zero, zero, zero, zero}, y = zero, xi, copies[4];
+  const int            k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
+  const float *const   W   = l->W + 4 * B * (size_t)i;
+  const int16_t *const L   = l->L;
+  const int *const     col = l->col;
+  float *const x = l->x, *const t = l->t;
+  const Vec4 zero = Vec4Same(0.0f), unit = Vec4Load(l->unit + 4 * (size_t)i);
+  Vec4       a[4] = {zero, zero, zero, zero}, y = zero, xi;
+  Vec8       a02 = Vec8Join(zero, zero), a13 = a02, x02, x13;
 
   for (int k = first; k != end; k += step) {
-    const float *v  = l->L + B * B * (size_t)k;
-    const Vec4   xj = Vec4Load(l->x + l->col[k]);
+    const Vec4 xj = Vec4Load(x + col[k]);
+    Vec8       v02, v13;
 
-    for (int r = 0; r < B; r++) a[r] = Vec4MultiplyAdd(a[r], Vec4Load(v + B * r), xj);
+    Vec8LoadShorts(L + 4 * B * (size_t)k, &v02, &v13);
+    a02 = Vec8MultiplyAdd(a02, v02, Vec8Join(xj, xj));
+    if (B == 4) a13 = Vec8MultiplyAdd(a13, v13, Vec8Join(xj, xj));
+    else a[1] = Vec4MultiplyAdd(a[1], Vec8Low(v13), xj);
   }
-  f = Vec4Subtract(f, Vec4Sums(a));
+  a[0] = Vec8Low(a02);
+  a[2] = Vec8High(a02);
+  if (B == 4) {
+    a[1] = Vec8Low(a13);
+    a[3] = Vec8High(a13);
+  }
+  f = Vec4Subtract(f, Vec4Multiply(unit, Vec4Sums(a)));
   for (int c = 0; c < B; c++) y = Vec4MultiplyAdd(y, Vec4Load(W + 4 * c), Vec4Same(Vec4Get(f, c)));
   for (int c = 0; c < B; c++) a[c] = Vec4Multiply(Vec4Load(W + 4 * c), y);
+  if (B == 3) a[3] = zero;
   xi = Vec4Sums(a);
-  Vec4Store(l->x + 4 * (size_t)i, xi);
-  for (int r = 0; r < B; r++) copies[r] = Vec4Same(Vec4Get(xi, r));
+  Vec4Store(x + 4 * (size_t)i, xi);
+  xi  = Vec4Multiply(unit, xi);
+  x02 = Vec8Join(Vec4Same(Vec4Get(xi, 0)), Vec4Same(Vec4Get(xi, 2)));
+  x13 = Vec8Join(Vec4Same(Vec4Get(xi, 1)), Vec4Same(Vec4Get(xi, 3)));
   for (int k = k0; k < k1; k++) { /* the second pass reads the row from the cache */
-    const float *v = l->L + B * B * (size_t)k;
-    Vec4         s = Vec4Load(l->t + l->col[k]);
+    Vec8 v02, v13;
+    Vec4 tj = Vec4Load(t + col[k]);
 
-    for (int r = 0; r < B; r++) s = Vec4MultiplyAdd(s, Vec4Load(v + B * r), copies[r]);
-    Vec4Store(l->t + l->col[k], s);
+    Vec8LoadShorts(L + 4 * B * (size_t)k, &v02, &v13);
+    v02 = Vec8Multiply(v02, x02);
+    if (B == 4) v02 = Vec8MultiplyAdd(v02, v13, x13);
+    else tj = Vec4MultiplyAdd(tj, Vec8Low(v13), Vec8Low(x13));
+    Vec4Store(t + col[k], Vec4Add(tj, Vec4Add(Vec8Low(v02), Vec8High(v02))));
   }
 }
 

@@ -175,6 +175,41 @@ static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
   PetscFunctionReturn(0);
 }
 
+/* Stiff parts in a soft one: every fourth edge of the grid in direction x is a million times as stiff as the others */
+static PetscErrorCode CheckContrast(void)
+{
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  Mat            A;
+  KSP            ksp = NULL, hypre = NULL;
+  PetscInt       its[2], start, end, n = 8;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(comm, "stiff and soft parts\n"));
+  PetscCall(CubeCreate(comm, MATAIJ, n, 3, 1.0, &A));
+  PetscCall(MatGetOwnershipRange(A, &start, &end));
+  for (PetscInt node = start / 3; node < end / 3; node++) { /* an edge to the next node in x */
+    const PetscInt x = node % n, from = 3 * node, to = 3 * (node + 1);
+
+    if (x % 4 != 1) continue;
+    for (PetscInt c = 0; c < 3; c++) {
+      const PetscInt    rows[2] = {from + c, to + c};
+      const PetscScalar edge[4] = {1e6, -1e6, -1e6, 1e6};
+
+      PetscCall(MatSetValues(A, 2, rows, 2, rows, edge, ADD_VALUES));
+    }
+  }
+  PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  PetscCall(Solve(A, PCBLOCKAMG, 1.0, &ksp, &its[0]));
+  PetscCall(Solve(A, PCHYPRE, 1.0, &hypre, &its[1]));
+  PetscCall(CheckCounts(comm, "counts", its[0], its[1]));
+  PetscCall(CheckSymmetry(ksp, A));
+  PetscCall(KSPDestroy(&hypre));
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
+
 /* What is not positive definite: a row whose diagonal entry is this */
 static PetscErrorCode CheckRefusal(PetscScalar entry)
 {
@@ -227,6 +262,7 @@ int main(int argc, char **argv)
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(sizes); i++) PetscCall(CheckMatrix(MATAIJ, 10, sizes[i]));
   for (size_t i = 1; i < PETSC_STATIC_ARRAY_LENGTH(types); i++) PetscCall(CheckMatrix(types[i], 8, 3));
   PetscCall(CheckMatrix(MATAIJ, 2, 1)); /* one level */
+  PetscCall(CheckContrast());
   PetscCall(CheckRefusal(0.0));
   PetscCall(CheckRefusal(-5.0));
   PetscCall(PetscFinalize());
