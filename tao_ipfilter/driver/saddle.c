@@ -14,7 +14,8 @@
 /*
    Finds whether the matrix might be indefinite without anyone having noticed. A factorization that the user has chosen
    solves with any matrix. After a relaxation of constraints the inertia of factors is not tested. Before negative
-   curvature has been noticed, that of the filter's factors is tested only here.
+   curvature has been noticed, that of the filter's factors is tested only here. With equality constraints each step
+   tests it, and shifts an indefinite Hessian; a shift does not leave a stationary point.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
@@ -22,7 +23,11 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 
   PetscFunctionBegin;
   *unknown = PETSC_FALSE;
-  if (ip->me || ip->hess->products) PetscFunctionReturn(0);
+  if (ip->hess->products) PetscFunctionReturn(0);
+  if (ip->me) {
+    *unknown = (PetscBool)(!tao->niter || ip->shift->delta > 0.0);
+    PetscFunctionReturn(0);
+  }
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
   *unknown = (PetscBool)(*unknown || ip->relax->times);
   if (!*unknown && ip->lin->filtered && !ip->bar->curved) PetscCall(IPKrylovIndefinite(tao, unknown));

@@ -246,7 +246,7 @@ static PetscErrorCode DirectionPrintWeights(Tao tao, Vec D)
 }
 
 /* Assembles the matrix with the present delta */
-static PetscErrorCode DirectionAssemble(Tao tao)
+PetscErrorCode IPDirectionAssemble(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           D;
@@ -341,79 +341,7 @@ PetscErrorCode IPComputeDirection(Tao tao, PetscBool *ok)
   PetscFunctionBegin;
   ip->aug->delta    = 0.0;
   ip->aug->centered = PETSC_FALSE;
-  PetscCall(IPRegularize(tao, 0.0, DirectionAssemble, DirectionSolveNewton, ok));
+  PetscCall(IPRegularize(tao, 0.0, IPDirectionAssemble, DirectionSolveNewton, ok));
   if (*ok) IPRegularized(ip);
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the vector b of a test solve, which has a component along every eigenvector of A, whatever the units are:
-   b_j = sqrt(sizes_j) times the sine of an irregular angle, with sizes_j = |A_jj|, but at least a small fraction of the
-   largest entry
-*/
-static PetscErrorCode DirectionProbe(Mat A, Vec sizes, Vec b)
-{
-  const PetscReal trace = 1e-12;
-  PetscScalar    *v, *d;
-  PetscReal       largest;
-  PetscInt        rstart, rend;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetDiagonal(A, sizes));
-  PetscCall(VecAbs(sizes));
-  PetscCall(VecMax(sizes, NULL, &largest));
-  PetscCall(VecGetOwnershipRange(b, &rstart, &rend));
-  PetscCall(VecGetArray(sizes, &d));
-  PetscCall(VecGetArrayWrite(b, &v));
-  for (PetscInt j = 0; j < rend - rstart; j++) {
-    d[j] = PetscMax(PetscRealPart(d[j]), largest > 0.0 ? trace * largest : 1.0);
-    v[j] = PetscSqrtReal(PetscRealPart(d[j])) * PetscSinReal(1.0 + 1.7 * (PetscReal)(rstart + j));
-  }
-  PetscCall(VecRestoreArrayWrite(b, &v));
-  PetscCall(VecRestoreArray(sizes, &d));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Looks for a direction p of negative curvature, p^T A p < 0, by conjugate gradients with diagonal scaling M, and
-   stores it in dir.x
-*/
-PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
-{
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt  most     = 200;
-  const PetscReal rounding = 1e-10;
-  Vec             p        = ip->dir.x, v[4]; /* v: residual r, M^-1 r, A p, diagonal of M */
-  PetscScalar     rz, before, pAp, pMp;
-  PetscReal       first, norm;
-
-  PetscFunctionBegin;
-  *found           = PETSC_FALSE;
-  ip->shift->delta = 0.0;
-  PetscCall(IPHessianEvaluate(tao));
-  PetscCall(DirectionAssemble(tao));
-  for (PetscInt k = 0; k < 4; k++) PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v[k]));
-  PetscCall(DirectionProbe(ip->cond->A, v[3], v[0]));
-  PetscCall(IPFixedZero(tao, v[0]));
-  PetscCall(VecPointwiseDivide(v[1], v[0], v[3]));
-  PetscCall(VecCopy(v[1], p));
-  PetscCall(VecDot(v[0], v[1], &rz));
-  PetscCall(VecNorm(v[0], NORM_2, &first));
-  norm = first;
-  for (PetscInt k = 0; k < most && norm > rounding * first && !*found; k++) {
-    PetscCall(MatMult(ip->cond->A, p, v[2]));
-    PetscCall(VecDot(p, v[2], &pAp));
-    PetscCall(VecPointwiseMult(v[1], v[3], p));
-    PetscCall(VecDot(p, v[1], &pMp));
-    *found = (PetscBool)(PetscRealPart(pAp) < -rounding * PetscRealPart(pMp));
-    if (PetscRealPart(pAp) <= 0.0) break;
-    PetscCall(VecAXPY(v[0], -rz / pAp, v[2]));
-    PetscCall(VecPointwiseDivide(v[1], v[0], v[3]));
-    before = rz;
-    PetscCall(VecDot(v[0], v[1], &rz));
-    PetscCall(VecAYPX(p, rz / before, v[1]));
-    PetscCall(VecNorm(v[0], NORM_2, &norm));
-  }
-  for (PetscInt k = 3; k >= 0; k--) PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v[k]));
   PetscFunctionReturn(0);
 }

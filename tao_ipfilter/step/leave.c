@@ -66,43 +66,6 @@ static PetscErrorCode LeaveRaiseSlacks(Tao tao, PetscReal *theta, PetscReal *phi
 #define IP_LEAVE_MET 1e-2 /* largest violation, in units of theta_ref, of a point that leaves the path */
 
 /*
-   Leaves a stationary point along dir.x, a direction of negative curvature. The longest step is taken for which the
-   barrier function falls and the constraints remain satisfied. *left: false if there is none.
-*/
-PetscErrorCode IPLeaveStationary(Tao tao, PetscBool *left)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal part = 0.1, least = 1e-6;
-  PetscReal       alpha = 1.0, norm, size, slope;
-
-  PetscFunctionBegin;
-  *left = PETSC_FALSE;
-  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size = PetscMax(size, ip->first->x);
-  PetscCall(VecScale(ip->dir.x, (size > 0.0 ? part * size : 1.0) / norm));
-  PetscCall(LeaveFollow(tao));
-  PetscCall(IPMeritMeasure(tao));
-  PetscCall(IPMeritSlope(tao, &slope));
-  if (slope > 0.0) {
-    PetscCall(VecScale(ip->dir.x, -1.0));
-    PetscCall(LeaveFollow(tao));
-  }
-  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &alpha, NULL));
-  for (; alpha > least && !*left; alpha *= 0.5) {
-    PetscReal theta = 0.0, phi = 0.0;
-    PetscBool finite = PETSC_FALSE;
-
-    PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
-    if (finite) PetscCall(LeaveRaiseSlacks(tao, &theta, &phi));
-    *left = (PetscBool)(finite && phi < ip->search->phi - ip->search->rounding &&
-                        theta <= IP_LEAVE_MET * ip->search->theta_ref);
-    if (*left) PetscCall(LeaveStartAgain(tao, alpha));
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
    Computes the Lagrangian at the iterate `at` with the present multipliers, and adds its rounding error to *rounding.
    trial: whether distances to bounds are those of the trial point
 */
@@ -145,6 +108,46 @@ static PetscErrorCode LeaveLagrangian(Tao tao, const IPIterate *at, PetscBool tr
     terms += PetscAbsScalar(product);
   }
   *rounding += 10.0 * PETSC_MACHINE_EPSILON * terms;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Leaves a stationary point along dir.x, a direction of negative curvature. The longest step is taken for which the
+   barrier function falls and the constraints remain satisfied. With equality constraints, from which the step departs,
+   the Lagrangian must fall instead. *left: false if there is none.
+*/
+PetscErrorCode IPLeaveStationary(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 0.1, least = 1e-6;
+  PetscReal       alpha = 1.0, norm, size, slope, here, rounding = 0.0;
+
+  PetscFunctionBegin;
+  *left = PETSC_FALSE;
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  size = PetscMax(size, ip->first->x);
+  PetscCall(VecScale(ip->dir.x, (size > 0.0 ? part * size : 1.0) / norm));
+  PetscCall(LeaveFollow(tao));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(IPMeritSlope(tao, &slope));
+  if (slope > 0.0) {
+    PetscCall(VecScale(ip->dir.x, -1.0));
+    PetscCall(LeaveFollow(tao));
+  }
+  here = ip->search->phi - ip->search->rounding;
+  if (ip->me) PetscCall(LeaveLagrangian(tao, &ip->at, PETSC_FALSE, &here, &rounding));
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, &alpha, NULL));
+  for (; alpha > least && !*left; alpha *= 0.5) {
+    PetscReal theta = 0.0, phi = 0.0;
+    PetscBool finite = PETSC_FALSE;
+
+    PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
+    if (finite) PetscCall(LeaveRaiseSlacks(tao, &theta, &phi));
+    if (finite && ip->me) PetscCall(LeaveLagrangian(tao, &ip->trial, PETSC_TRUE, &phi, &rounding));
+    *left = (PetscBool)(finite && phi < here - rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
+    if (*left) PetscCall(LeaveStartAgain(tao, alpha));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -34,6 +34,9 @@ PETSC_INTERN PetscErrorCode IPRegularize(Tao, PetscReal, PetscErrorCode (*)(Tao)
 /* direction.c */
 PETSC_INTERN PetscErrorCode IPComputeDirection(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPCorrectDirection(Tao, Vec, Vec, PetscBool *);
+PETSC_INTERN PetscErrorCode IPDirectionAssemble(Tao);
+
+/* curvature.c */
 PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
 /* watchdog.c */

@@ -261,6 +261,11 @@ static const NLP problems[] = {
   {"ralph1", "2*x1-x2", "x2; x2-x1; -(x2)*(x2-x1)", "", "0: :", "1 0", 0.0, NLP_REACHED, NULL},
   /* from a symmetric start to a symmetric point that is a saddle */
   {"scale4", "(100*x1-1)^2+(100*x2-1)^2", "x1; x2; -x1*x2", "", "", "0.01 0.01", 1.0, NLP_REACHED, NULL},
+  /* starts that are stationary, but maxima or saddles on the equality constraints */
+  {"circle from its maximum", "x1", "", "x1^2+x2^2-1", "", "1 0", -1.0, NLP_SOLVED, NULL},
+  {"sphere from its maximum", "-x1^2-2*x2^2-3*x3^2", "", "x1^2+x2^2+x3^2-1", "", "1 0 0", -3.0, NLP_SOLVED, NULL},
+  {"line from its maximum", "-(x1-x2)^2+x3^2+x1+x2", "", "x1+x2-2", "-3:3 -3:3 :", "1 1 0", -14.0, NLP_SOLVED, NULL},
+  {"circle and half-plane from the maximum", "x1+0.1*x2^2", "x2+2", "x1^2+x2^2-1", "", "1 0", -1.0, NLP_SOLVED, NULL},
   /* beside kinks there is no curvature, steps are far too long, and bounds or the line search cut them */
   {"zigzag",
     "sqrt((x1+0.845)^2+1e-6)+sqrt((x2-0.057)^2+1e-6)+sqrt((x3+1.12)^2+1e-6)+sqrt((x4+0.166)^2+1e-6)"
