@@ -30,6 +30,10 @@
 /* The key under which an IS (filtered unknowns) or a Mat (filter interpolation) is composed on the Pmat */
 #define PCAMGF_FILTER_KEY "amgf_filter"
 
+/* The key under which a Vec of the coordinates of the nodes, three for each, may be composed on the Pmat. A
+   factorization on one rank then finds its order in less time. */
+#define PCAMGF_COORDINATES_KEY "amgf_coordinates"
+
 /*E
   PCAMGFCycle - order in which the AMG application B and the filter Q = P (P^T A P)^-1 P^T are combined
 

@@ -77,6 +77,9 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without a subspace, or if it is empty, the preconditioner is B. If no
    subspace was given or detected, one warning is printed; `PCAMGFSetFilterOptional()` turns it off.
 
+   A factorization on one rank (`PCAMGFSetFactor()`) finds its order in less time if a `Vec` of the nodes' coordinates,
+   three for each, is composed on the Pmat under "amgf_coordinates".
+
    If PETSc has hypre, the default AMG has the hierarchy of hypre's BoomerAMG: HMIS coarsening, ext+i interpolation of
    at most 4 entries per row, no aggressive level, strength threshold 0.25, or 0.7 for block size 3. Its V-cycle has one
    sweep of Gauss-Seidel, forward on the way down and backward on the way up. With real scalars and an operator of type

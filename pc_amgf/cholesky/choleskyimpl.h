@@ -45,6 +45,9 @@ PETSC_INTERN PetscErrorCode CholeskyGraphCreate(Mat A, CholeskyGraph *);
 PETSC_INTERN PetscErrorCode CholeskyGraphOrder(const CholeskyGraph *, PetscInt perm[]);
 PETSC_INTERN PetscErrorCode CholeskyGraphDestroy(CholeskyGraph *);
 
+/* dissect.c */
+PETSC_INTERN PetscErrorCode CholeskyDissect(const CholeskyGraph *, const PetscScalar coordinates[], PetscInt perm[]);
+
 /* tree.c */
 PETSC_INTERN PetscErrorCode CholeskyTree(const CholeskyGraph *, PetscInt perm[], PetscInt parent[]);
 

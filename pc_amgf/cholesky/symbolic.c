@@ -1,5 +1,6 @@
 /* Order of the unknowns, and the rows of the supernodes */
 #include "choleskyimpl.h"
+#include <petscamgf.h>
 
 /* Supernodes of nodes: first[], and the rows of each, its own columns included */
 typedef struct {
@@ -180,6 +181,26 @@ static PetscErrorCode SymbolicExpand(const CholeskyGraph *g, const PetscInt perm
   PetscFunctionReturn(0);
 }
 
+/* Orders the nodes by their coordinates if they are composed with A, otherwise by the graph alone */
+static PetscErrorCode SymbolicOrder(Mat A, const CholeskyGraph *g, PetscInt perm[])
+{
+  PetscObject        given;
+  const PetscScalar *x;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectQuery((PetscObject)A, PCAMGF_COORDINATES_KEY, &given));
+  if (given && g->block == 3) {
+    PetscCall(VecGetLocalSize((Vec)given, &n));
+    PetscCheck(n == 3 * g->n, PETSC_COMM_SELF, PETSC_ERR_ARG_SIZ,
+      "The matrix has %" PetscInt_FMT " nodes, but %" PetscInt_FMT " coordinates are composed with it", g->n, n);
+    PetscCall(VecGetArrayRead((Vec)given, &x));
+    PetscCall(CholeskyDissect(g, x, perm));
+    PetscCall(VecRestoreArrayRead((Vec)given, &x));
+  } else PetscCall(CholeskyGraphOrder(g, perm));
+  PetscFunctionReturn(0);
+}
+
 /* Orders the unknowns by nested dissection, and finds the supernodes */
 PetscErrorCode CholeskySymbolic(Mat A, Cholesky *c)
 {
@@ -191,7 +212,7 @@ PetscErrorCode CholeskySymbolic(Mat A, Cholesky *c)
   PetscCall(CholeskyDestroy(c));
   PetscCall(CholeskyGraphCreate(A, &g));
   PetscCall(PetscMalloc1(g.n, &perm));
-  PetscCall(CholeskyGraphOrder(&g, perm));
+  PetscCall(SymbolicOrder(A, &g, perm));
   PetscCall(SymbolicFind(&g, perm, &blocks));
   PetscCall(SymbolicExpand(&g, perm, &blocks, c));
   PetscCall(NodeBlocksDestroy(&blocks));

@@ -88,6 +88,72 @@ static PetscErrorCode Residual(Mat A, Mat F, PetscInt k, PetscReal *residual)
   PetscFunctionReturn(0);
 }
 
+/* Composes coordinates with A: those of the n x n nodes, rolled up to a ring; or all zero */
+static PetscErrorCode ComposeCoordinates(Mat A, PetscInt n, PetscBool zero)
+{
+  PetscScalar *x;
+  Vec          coordinates;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateVecs(A, &coordinates, NULL));
+  PetscCall(VecGetArray(coordinates, &x));
+  for (PetscInt i = 0; i < n * n && !zero; i++) {
+    const PetscReal angle = 1.5 * PETSC_PI * (PetscReal)(i % n) / (PetscReal)n, radius = 1.0 + (PetscReal)(i / n);
+
+    x[3 * i]     = radius * PetscCosReal(angle);
+    x[3 * i + 1] = radius * PetscSinReal(angle);
+  }
+  PetscCall(VecRestoreArray(coordinates, &x));
+  PetscCall(PetscObjectCompose((PetscObject)A, PCAMGF_COORDINATES_KEY, (PetscObject)coordinates));
+  PetscCall(VecDestroy(&coordinates));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode GetOperations(Mat A, PetscReal *flops)
+{
+  MatFactorInfo info;
+  Mat           F;
+  PetscReal     entries, memory;
+  PetscErrorCode (*costs)(Mat, PetscReal *, PetscReal *, PetscReal *);
+
+  PetscFunctionBeginUser;
+  PetscCall(MatFactorInfoInitialize(&info));
+  PetscCall(MatGetFactor(A, "amgf", MAT_FACTOR_CHOLESKY, &F));
+  PetscCall(MatCholeskyFactorSymbolic(F, A, NULL, &info));
+  PetscCall(PetscObjectQueryFunction((PetscObject)F, "AMGFCholeskyGetCosts_C", &costs));
+  PetscCheck(costs, PETSC_COMM_SELF, PETSC_ERR_SUP, "The factors do not tell their costs");
+  PetscCall((*costs)(F, flops, &entries, &memory));
+  PetscCall(MatDestroy(&F));
+  PetscFunctionReturn(0);
+}
+
+/* Tests the order by coordinates: the solutions, and that the factorization takes about as few operations */
+static PetscErrorCode TestCoordinates(void)
+{
+  const PetscInt  n    = 40;
+  const PetscReal most = 1.3; /* ratio of the operations to those of the order without coordinates */
+  PetscReal       flops[2], residual;
+  PetscBool       positive;
+  Mat             A, F;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateMembrane(n, 3, 0, 0.0, &A));
+  PetscCall(GetOperations(A, &flops[0]));
+  for (PetscInt zero = 1; zero >= 0; zero--) {
+    PetscCall(ComposeCoordinates(A, n, (PetscBool)zero));
+    PetscCall(Factor(A, "amgf", &F, &positive));
+    PetscCall(Residual(A, F, 7, &residual));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", zero ? "all nodes at one place" : "coordinates of a ring",
+      positive && residual <= 1e-12 ? "solved" : "RESIDUAL TOO LARGE"));
+    PetscCall(MatDestroy(&F));
+  }
+  PetscCall(GetOperations(A, &flops[1]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "coordinates of a ring: %s operations\n",
+    flops[1] <= most * flops[0] ? "about as many" : "TOO MANY"));
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Test(const char name[], PetscInt n, PetscInt block, PetscInt alone, PetscReal shift)
 {
   const MatSolverType type[]   = {"amgf", "amgf_single"};
@@ -123,6 +189,7 @@ int main(int argc, char **argv)
   PetscCall(Test("blocks of 3 and unknowns without neighbours", 9, 3, 5, 0.0));
   PetscCall(Test("unknowns without neighbours alone", 0, 1, 11, 0.0));
   PetscCall(Test("an indefinite matrix", 12, 2, 0, -3.0));
+  PetscCall(TestCoordinates());
   PetscCall(PetscFinalize());
   return 0;
 }
