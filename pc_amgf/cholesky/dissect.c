@@ -6,7 +6,7 @@
 */
 #include "choleskyimpl.h"
 
-#define DISSECT_LEAST     4    /* sets of fewer nodes are not divided */
+#define DISSECT_LEAST     8    /* sets of fewer nodes are not divided */
 #define DISSECT_DIVISIONS 6    /* number of divisions that are compared */
 #define DISSECT_END       0.01 /* fraction of the nodes from which layers are counted */
 #define DISSECT_ROUNDING  1e-6 /* distance of nodes in one plane, in mean distances of neighbours */
