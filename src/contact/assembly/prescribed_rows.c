@@ -5,12 +5,16 @@
    rows of the free neighbours along the edges of the facets, with equal weights. Neighbours that match a vertex of the
    mortar face get nothing. The test functions of the remaining rows still sum to 1. If the gap is measured at nodes,
    the row is removed.
+   The rows beside these measure the same, but a force bends the two bodies apart, the less the farther it is from the
+   prescribed vertices: by the third power of the distance for beams. Therefore mean gaps of the next rows are added to
+   their neighbours too, up to `beyond` facets away.
 */
 #include "assemblyimpl.h"
 #include "src/mesh/query/queryimpl.h"
 
 /* an axis counts as normal to a facet if the unit normal has a larger component along it */
 static const PetscReal normal_component = 0.1;
+static const PetscInt  beyond           = 3;
 /* tolerance for vertices that match, relative to the diameter of the facet */
 static const PetscReal match_tolerance = 1e-3;
 
@@ -153,22 +157,55 @@ static PetscErrorCode PrescribedRowsGather(const ContactPairData *pair, Vec rows
   PetscFunctionReturn(0);
 }
 
-/* Returns whether vertex i of the nonmortar facets matches one of the n mortar vertices */
+/*
+   Returns whether vertex i of the nonmortar facets matches one of the n mortar vertices. If so, the mean gaps of the
+   facets beside it vanish while both faces bend alike. Other formulations of the gap do not have this property when the
+   faces slide.
+*/
 static PetscBool PrescribedRowsMatch(const ContactPairData *pair, const PrescribedMotions *m, PetscInt i, PetscInt n,
   const PrescribedVertex list[])
 {
   PrescribedVertex vertex;
 
+  if (pair->gap != GAP_MORTAR) return PETSC_FALSE;
   (void)PrescribedVertexGet(&pair->nonmortar, m, i, &vertex);
   for (PetscInt k = 0; k < n; ++k)
     if (PrescribedVertexDistance(&vertex, &list[k]) <= match_tolerance * vertex.size) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
+/* Collective. Sets `free` to zero on the free neighbours of rows where it is zero, unless they match a mortar vertex */
+static PetscErrorCode PrescribedRowsMarkBeside(Contact contact, const ContactPairData *pair, PetscInt n,
+  const PrescribedVertex list[], Vec free)
+{
+  Vec                gathered;
+  PrescribedMotions  m;
+  const PetscScalar *at;
+
+  PetscFunctionBegin;
+  PetscCall(PrescribedMotionsCreate(contact, &pair->nonmortar, &m));
+  PetscCall(PrescribedRowsGather(pair, free, &gathered));
+  PetscCall(VecGetArrayRead(gathered, &at));
+  for (PetscInt i = 0; i < 4 * pair->nonmortar.nfacets; ++i) {
+    const PetscInt edge[2] = {4 * (i / 4) + (i + 1) % 4, 4 * (i / 4) + (i + 3) % 4};
+
+    for (PetscInt e = 0; e < 2 && PetscRealPart(at[i]) == 0.0; ++e) {
+      if (PetscRealPart(at[edge[e]]) == 0.0 || PrescribedRowsMatch(pair, &m, edge[e], n, list)) continue;
+      PetscCall(VecSetValue(free, pair->row[edge[e]], 0.0, INSERT_VALUES));
+    }
+  }
+  PetscCall(VecAssemblyBegin(free));
+  PetscCall(VecAssemblyEnd(free));
+  PetscCall(VecRestoreArrayRead(gathered, &at));
+  PetscCall(VecDestroy(&gathered));
+  PetscCall(PrescribedMotionsDestroy(&m));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. For each prescribed row, adds 1 to `weights` in the columns of its free neighbours, and adds the number
    of these entries to `neighbours` */
 static PetscErrorCode PrescribedRowsAddWeights(Contact contact, const ContactPairData *pair, PetscInt n,
-  const PrescribedVertex list[], Vec free, Vec neighbours, Mat weights)
+  const PrescribedVertex list[], PetscInt beside, Vec free, Vec neighbours, Mat weights)
 {
   Vec                gathered;
   PrescribedMotions  m;
@@ -177,6 +214,7 @@ static PetscErrorCode PrescribedRowsAddWeights(Contact contact, const ContactPai
   PetscFunctionBegin;
   PetscCall(PrescribedMotionsCreate(contact, &pair->nonmortar, &m));
   PetscCall(PrescribedRowsMarkFree(pair, &m, n, list, free));
+  for (PetscInt k = 0; k < beside; ++k) PetscCall(PrescribedRowsMarkBeside(contact, pair, n, list, free));
   PetscCall(PrescribedRowsGather(pair, free, &gathered));
   PetscCall(VecGetArrayRead(gathered, &at));
   for (PetscInt i = 0; i < 4 * pair->nonmortar.nfacets; ++i) {
@@ -240,18 +278,18 @@ static PetscErrorCode PrescribedRowsCombine(Contact contact, Mat weights)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the sums of the rows of prescribed vertices to the rows of their free neighbours, by a change of
-   rows->hanging. Does nothing if this was done before. */
-PetscErrorCode ContactPrescribedRowsDistribute(Contact contact)
+/*
+   Collective. Distributes the rows of vertices that are `beside` facets away from prescribed ones among their
+   neighbours. *any: whether there are such rows
+*/
+static PetscErrorCode PrescribedRowsDistribute(Contact contact, PetscInt beside, PetscBool *any)
 {
   ContactRows *rows = &contact->rows;
   Vec          free, neighbours;
   Mat          weights;
-  PetscReal    any;
+  PetscReal    most;
 
   PetscFunctionBegin;
-  if (rows->distributed || !contact->ndisplacements) PetscFunctionReturn(0);
-  rows->distributed = PETSC_TRUE;
   PetscCall(VecDuplicate(rows->mass, &free));
   PetscCall(VecDuplicate(rows->mass, &neighbours));
   PetscCall(VecZeroEntries(neighbours));
@@ -263,21 +301,38 @@ PetscErrorCode ContactPrescribedRowsDistribute(Contact contact)
     PrescribedVertex      *list;
     PetscInt               n;
 
-    if (pair->formula || pair->nonmortar.self) continue;
+    if (pair->formula || pair->nonmortar.self || (beside && pair->gap == GAP_NODE)) continue;
     PetscCall(PrescribedVerticesGather(contact, &pair->mortar, &n, &list));
-    if (n) PetscCall(PrescribedRowsAddWeights(contact, pair, n, list, free, neighbours, weights));
+    if (n) PetscCall(PrescribedRowsAddWeights(contact, pair, n, list, beside, free, neighbours, weights));
     PetscCall(PetscFree(list));
   }
   PetscCall(VecAssemblyBegin(neighbours));
   PetscCall(VecAssemblyEnd(neighbours));
-  PetscCall(VecNorm(neighbours, NORM_INFINITY, &any));
-  if (any > 0.0) {
+  PetscCall(VecNorm(neighbours, NORM_INFINITY, &most));
+  *any = (PetscBool)(most > 0.0);
+  if (*any) {
     PetscCall(PrescribedRowsFinish(contact, neighbours, weights));
     PetscCall(PrescribedRowsCombine(contact, weights));
   }
   PetscCall(MatDestroy(&weights));
   PetscCall(VecDestroy(&neighbours));
   PetscCall(VecDestroy(&free));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Adds the sums of the rows of prescribed vertices to the rows of vertices beside them, by a change of
+   rows->hanging. Does nothing if this was done before.
+*/
+PetscErrorCode ContactPrescribedRowsDistribute(Contact contact)
+{
+  ContactRows *rows = &contact->rows;
+  PetscBool    any  = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  if (rows->distributed || !contact->ndisplacements) PetscFunctionReturn(0);
+  rows->distributed = PETSC_TRUE;
+  for (PetscInt k = 0; k <= beyond && any; ++k) PetscCall(PrescribedRowsDistribute(contact, k, &any));
   PetscFunctionReturn(0);
 }
 
