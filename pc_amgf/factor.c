@@ -169,15 +169,15 @@ static PetscErrorCode FactorEstimate(PC pc, PetscBool built, AMGFCosts *costs)
 {
   const PC_AMGF    *amgf   = (PC_AMGF *)pc->data;
   const AMGFFactor *f      = &amgf->factor;
-  const PetscReal   setup  = 1.5e-7;                  /* time of the AMG set-up per entry of the matrix [s] */
-  const PetscReal   single = 8e-10, other = 1e-8;     /* time of one AMG application per entry of the matrix [s]:
+  const PetscReal   setup  = 1e-7;                    /* time of the AMG set-up per entry of the matrix [s] */
+  const PetscReal   single = 5.5e-10, other = 1e-8;   /* time of one AMG application per entry of the matrix [s]:
                                                            PCBLOCKAMG; BoomerAMG */
-  const PetscReal   product = 1.3e-9, contact = 2e-3; /* time of the caller's work [s]: per entry of the matrix;
+  const PetscReal   product = 1.3e-9, contact = 1e-3; /* time of the caller's work [s]: per entry of the matrix;
                                                            per application */
-  const PetscReal   cached    = 2e6;                  /* entries beyond which the matrix does not fit into the
+  const PetscReal   cached    = 1e7;                  /* entries beyond which the matrix does not fit into the
                                                            cache: with far more entries the time per entry doubles */
-  const PetscReal   factor[2] = {4e-8, 7e-9};         /* time per entry of the factors [s], by MUMPS and by */
-  const PetscReal   solve[2]  = {3.3e-9, 7e-10};      /* cholesky/: factorization; one solve */
+  const PetscReal   factor[2] = {4e-8, 5.5e-9};       /* time per entry of the factors [s], by MUMPS and by */
+  const PetscReal   solve[2]  = {3.3e-9, 5e-10};      /* cholesky/: factorization; one solve */
   const PetscReal   held      = 1e7;                  /* the same for the entries of the factors and a solve */
   MatInfo           info;
   PetscReal         rate, caller;

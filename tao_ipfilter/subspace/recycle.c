@@ -165,7 +165,7 @@ static PetscErrorCode RecycleSetUpPC(Tao tao, IPRecycle *recycle, Mat A, Mat K, 
 */
 static PetscErrorCode RecycleForesee(Tao tao, IPRecycle *recycle, PetscReal *n)
 {
-  const PetscReal usual = 35.0, model = 12.0, share = 0.5;
+  const PetscReal usual = 30.0, model = 12.0, share = 0.5;
   PetscBool       amgf, factored = PETSC_FALSE;
 
   PetscFunctionBegin;
