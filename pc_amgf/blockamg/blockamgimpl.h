@@ -58,8 +58,8 @@ typedef struct {
    A level on this rank. A block vector has 4 entries per block row, followed by the ghosts. position[] has the position
    of each unknown in a block vector. The matrix is C A C, where C has the scale 1/sqrt(|a_ii|) of each unknown. L is
    its strictly lower triangle without columns of other ranks, stored block row by block row in blocks of B rows of 4
-   integers. An entry is an integer times the unit of its row. The inverse of a diagonal block D is stored as W with D^-1 = W^T W, in
-   B columns of 4 floats. Unused entries are zero.
+   integers. An entry is an integer times the unit of its row. The inverse of a diagonal block D is stored as W with
+   D^-1 = W^T W, in B columns of 4 floats. Unused entries are zero.
 */
 typedef struct {
   int                n, nb, B; /* number of unknowns; number of block rows; block size, 3 or 4 */
