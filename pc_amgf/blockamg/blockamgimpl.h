@@ -10,9 +10,29 @@
 #include <petsc/private/pcimpl.h>
 #include <petscsf.h>
 #include <petscamgf.h>
+#include <float.h>
+#include <stdint.h>
 
 /* Largest number of unknowns, on all ranks, of a level that is solved by a dense inverse */
 #define BLOCKAMG_DENSE 256
+
+/* hypre does not get entries up to this times the square roots of the absolute diagonal entries of row and column */
+#define BLOCKAMG_TINY 1e-13
+
+/* Largest absolute integer of a rounded row */
+#define BLOCKAMG_LARGEST 32767.0f
+
+/* Returns 1/unit, or 0 if the unit is zero, tiny or not finite */
+static inline float BlockInverseUnit(float unit)
+{
+  return unit > FLT_MIN && unit <= FLT_MAX ? 1.0f / unit : 0.0f;
+}
+
+/* Returns the nearest integer, or 0 for what is not in the range of int16_t or not a number */
+static inline int16_t BlockRound(float v)
+{
+  return (int16_t)(v > -32768.0f && v < 32768.0f ? (int)(v < 0.0f ? v - 0.5f : v + 0.5f) : 0);
+}
 
 /*
    The rows of a matrix that this rank owns, in compressed row format: ia, ja, a for columns of this rank, with local
@@ -123,6 +143,13 @@ PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockL
 PETSC_INTERN PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *, const BlockRows *, PetscInt bs, double scale);
 PETSC_INTERN PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockLevelDestroy_Private(BlockLevel *);
+PETSC_INTERN PetscErrorCode BlockLevelCheckSize_Private(PetscInt n);
+PETSC_INTERN PetscErrorCode BlockLevelInvert_Private(BlockLevel *, int i, PetscScalar D[16]);
+PETSC_INTERN PetscErrorCode BlockLevelCount_Private(BlockLevel *, MPI_Comm, double entries);
+/* half.c */
+PETSC_INTERN PetscErrorCode BlockHalfSupports_Private(Mat, PetscBool *);
+PETSC_INTERN PetscErrorCode BlockHalfConvertToHypre_Private(Mat, Mat *hypre);
+PETSC_INTERN PetscErrorCode BlockHalfSetLevel_Private(BlockLevel *, Mat, double scale);
 /* interpolation.c */
 PETSC_INTERN PetscErrorCode BlockInterpolationCreate_Private(BlockLevel *, const BlockRows *, BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation *);
@@ -137,7 +164,8 @@ PETSC_INTERN PetscErrorCode BlockDenseCreate_Private(BlockHierarchy *, const Blo
 PETSC_INTERN PetscErrorCode BlockDenseSolve_Private(BlockHierarchy *);
 PETSC_INTERN PetscErrorCode BlockDenseDestroy_Private(BlockDense *);
 /* hierarchy.c */
-PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, PetscInt bs, BlockHierarchy **);
+PETSC_INTERN PetscErrorCode BlockHierarchyCreate_Private(Mat, BlockHierarchy **);
+PETSC_INTERN PetscErrorCode BlockHierarchySetFinest_Private(BlockHierarchy *, Mat, PetscInt bs);
 PETSC_INTERN PetscErrorCode BlockHierarchyAddLevels_Private(BlockHierarchy *, PetscInt nlevels, Mat coarse[],
   Mat interpolations[]);
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);

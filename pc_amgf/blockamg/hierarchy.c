@@ -68,14 +68,8 @@ static PetscErrorCode HierarchyConvertInterpolation(BlockHierarchy *h, int i, Ma
   PetscFunctionReturn(0);
 }
 
-/*
-   BlockHierarchyCreate_Private - creates the hierarchy with its finest level alone
-
-   Input Parameters:
-   + A  - the operator
-   - bs - number of consecutive unknowns per node; 1 if that is not known
-*/
-PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt bs, BlockHierarchy **created)
+/* BlockHierarchyCreate_Private - creates the hierarchy of the operator A without any level */
+PetscErrorCode BlockHierarchyCreate_Private(Mat A, BlockHierarchy **created)
 {
   BlockHierarchy *h;
   PetscInt        N;
@@ -89,7 +83,25 @@ PetscErrorCode BlockHierarchyCreate_Private(Mat A, PetscInt bs, BlockHierarchy *
   PetscCall(MatGetSize(A, &N, NULL));
   h->nlevels = N > BLOCKAMG_DENSE;
   PetscCall(PetscCalloc1(h->nlevels, &h->levels));
-  PetscCall(HierarchyConvertMatrix(h, 0, A, bs));
+  PetscFunctionReturn(0);
+}
+
+/*
+   BlockHierarchySetFinest_Private - creates the finest level
+
+   Input Parameters:
+   + h  - the hierarchy
+   . A  - the operator, of type AIJ or supported by BlockHalfSetLevel_Private()
+   - bs - number of consecutive unknowns per node; 1 if that is not known
+*/
+PetscErrorCode BlockHierarchySetFinest_Private(BlockHierarchy *h, Mat A, PetscInt bs)
+{
+  PetscBool half;
+
+  PetscFunctionBegin;
+  PetscCall(BlockHalfSupports_Private(A, &half));
+  if (half) PetscCall(BlockHalfSetLevel_Private(&h->levels[0], A, h->scale));
+  else PetscCall(HierarchyConvertMatrix(h, 0, A, bs));
   PetscFunctionReturn(0);
 }
 

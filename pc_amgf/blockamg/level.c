@@ -3,7 +3,6 @@
    diagonal blocks and entries in columns of other ranks in single precision
 */
 #include "blockamgimpl.h"
-#include <float.h>
 #include <math.h>
 
 /* Blocks of L in the block rows processed so far; capacity: number of allocated blocks */
@@ -113,8 +112,8 @@ static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks,
     float unit = largest[4 * r];
 
     for (int c = 1; c < 4; c++) unit = largest[4 * r + c] <= unit ? unit : largest[4 * r + c];
-    unit /= 32767.0f;
-    if (unit > FLT_MIN && unit <= FLT_MAX) inverse[r] = 1.0f / unit;
+    unit /= BLOCKAMG_LARGEST;
+    inverse[r]                     = BlockInverseUnit(unit);
     level->unit[4 * (size_t)i + r] = unit / 65536.0f; /* Vec8LoadShorts() multiplies by 65536 */
   }
   LevelSort(n, blocks->col + first);
@@ -123,11 +122,7 @@ static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks,
     int16_t     *to   = blocks->val + 4 * (size_t)B * k;
 
     for (int r = 0; r < B; r++) {
-      for (int c = 0; c < 4; c++) {
-        const float v = inverse[r] > 0.0f ? inverse[r] * from[4 * r + c] : 0.0f;
-
-        to[4 * r + c] = (int16_t)(int)(v < 0.0f ? v - 0.5f : v + 0.5f);
-      }
+      for (int c = 0; c < 4; c++) to[4 * r + c] = BlockRound(inverse[r] * from[4 * r + c]);
     }
   }
 }
@@ -159,8 +154,8 @@ static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar 
   }
 }
 
-/* Stores D^-1 of block row i as W^T W, where D becomes scaled */
-static PetscErrorCode LevelInvert(BlockLevel *level, int i, PetscScalar D[16])
+/* BlockLevelInvert_Private - stores D^-1 of block row i as W^T W, where D becomes scaled */
+PetscErrorCode BlockLevelInvert_Private(BlockLevel *level, int i, PetscScalar D[16])
 {
   const int    B     = level->B;
   const float *scale = level->scale + 4 * (size_t)i;
@@ -196,7 +191,7 @@ static PetscErrorCode LevelSetBlocks(BlockLevel *level, const BlockRows *rows, d
     PetscCall(LevelCollectBlocks(level, rows, unknown, i, 1.0 / scale, &blocks, slot, D));
     LevelRound(level, i, level->ptr[i], &blocks, slot);
     LevelShiftDiagonal(level, &border, i, D);
-    PetscCall(LevelInvert(level, i, D));
+    PetscCall(BlockLevelInvert_Private(level, i, D));
   }
   for (int b = 0; b < level->border.n; b++)
     level->border.shift[b] *= level->scale[level->border.position[b]] * level->scale[level->border.position[b]];
@@ -255,8 +250,8 @@ static PetscErrorCode LevelSetBorder(BlockLevel *level, const BlockRows *rows, d
   PetscFunctionReturn(0);
 }
 
-/* Computes the sums over all ranks that PCView() prints */
-static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
+/* BlockLevelCount_Private - computes the sums over all ranks that PCView() prints. entries: those of this rank. */
+PetscErrorCode BlockLevelCount_Private(BlockLevel *level, MPI_Comm comm, double entries)
 {
   const int    B      = level->B;
   const double border = level->border.n ? level->border.ptr[level->border.n] : 0;
@@ -264,11 +259,11 @@ static PetscErrorCode LevelCount(BlockLevel *level, const BlockRows *rows)
 
   PetscFunctionBegin;
   sums[0] = level->n;
-  sums[1] = rows->n ? (double)rows->ia[rows->n] + border : 0.0;
+  sums[1] = entries;
   sums[2] = (double)B * B * (2.0 * level->ptr[level->nb] + level->nb) + border;
   sums[3] = (8.0 * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 36.0) * level->nb + 4.0 * level->n + 8.0 * border +
             12.0 * level->border.n;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, rows->columns->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, comm));
   level->unknowns = sums[0];
   level->entries  = sums[1];
   level->blocks   = sums[2];
@@ -293,6 +288,18 @@ static PetscErrorCode LevelSetScale(BlockLevel *level, const BlockRows *rows, do
   PetscFunctionReturn(0);
 }
 
+/* BlockLevelCheckSize_Private - checks that positions of n unknowns, or of as many ghosts, are integers of 32 bits */
+PetscErrorCode BlockLevelCheckSize_Private(PetscInt n)
+{
+  const PetscInt largest = PETSC_MAX_INT < 2147483647 ? PETSC_MAX_INT : 2147483647;
+
+  PetscFunctionBegin;
+  PetscCheck(n <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
+    "PCBLOCKAMG supports at most %" PetscInt_FMT " unknowns per rank, not %" PetscInt_FMT ": use more ranks",
+    largest / 8, n);
+  PetscFunctionReturn(0);
+}
+
 /*
    BlockLevelSetMatrix_Private - chooses the positions of the level's unknowns, and stores the matrix divided by `scale`
 
@@ -304,12 +311,8 @@ static PetscErrorCode LevelSetScale(BlockLevel *level, const BlockRows *rows, do
 */
 PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *rows, PetscInt bs, double scale)
 {
-  const PetscInt largest = PETSC_MAX_INT < 2147483647 ? PETSC_MAX_INT : 2147483647;
-
   PetscFunctionBegin;
-  PetscCheck(rows->n <= largest / 8 && rows->nghosts <= largest / 8, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "PCBLOCKAMG supports at most %" PetscInt_FMT " unknowns per rank, not %" PetscInt_FMT ": use more ranks",
-    largest / 8, rows->n);
+  PetscCall(BlockLevelCheckSize_Private(PetscMax(rows->n, rows->nghosts)));
   level->n = (int)rows->n;
   level->B = bs % 3 == 0 ? 3 : 4;
   PetscCall(PetscMalloc1(level->n, &level->position));
@@ -322,7 +325,8 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
   PetscCall(LevelSetScale(level, rows, scale));
   PetscCall(LevelSetBorder(level, rows, scale));
   PetscCall(LevelSetBlocks(level, rows, scale));
-  PetscCall(LevelCount(level, rows));
+  PetscCall(BlockLevelCount_Private(level, rows->columns->comm,
+    rows->n ? (double)rows->ia[rows->n] + (rows->oia ? (double)rows->oia[rows->n] : 0.0) : 0.0));
   PetscFunctionReturn(0);
 }
 

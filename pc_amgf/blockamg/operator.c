@@ -4,9 +4,6 @@
 */
 #include "blockamgimpl.h"
 
-/* Largest entry to drop, divided by the square roots of the absolute diagonal entries of its row and column */
-#define OPERATOR_TINY 1e-13
-
 /* Creates the square roots of the absolute diagonal entries */
 static PetscErrorCode OperatorGetRoots(const BlockRows *rows, PetscReal **root)
 {
@@ -30,7 +27,7 @@ static void OperatorKeep(const BlockRows *rows, const PetscReal root[], PetscInt
 
   i[0] = 0;
   for (PetscInt u = 0; u < rows->n; u++) {
-    const PetscReal tiny = OPERATOR_TINY * root[u];
+    const PetscReal tiny = BLOCKAMG_TINY * root[u];
 
     for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
       if (PetscAbsScalar(rows->a[k]) <= tiny * root[rows->ja[k]] && rows->ja[k] != u) continue;
@@ -78,6 +75,7 @@ static PetscErrorCode OperatorDropTiny(Mat A, PetscInt **i, PetscInt **j, PetscS
 */
 PetscErrorCode BlockConvertToHypre_Private(Mat *A, PetscInt bs, Mat *hypre)
 {
+  MPI_Comm     comm;
   PetscInt     n, *i = NULL, *j = NULL;
   PetscScalar *a = NULL;
   PetscBool    sequential;
@@ -87,8 +85,9 @@ PetscErrorCode BlockConvertToHypre_Private(Mat *A, PetscInt bs, Mat *hypre)
   if (sequential) PetscCall(OperatorDropTiny(*A, &i, &j, &a));
   if (i) {
     PetscCall(MatGetLocalSize(*A, &n, NULL));
+    PetscCall(PetscObjectGetComm((PetscObject)*A, &comm));
     PetscCall(MatDestroy(A));
-    PetscCall(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, i, j, a, A));
+    PetscCall(MatCreateSeqAIJWithArrays(comm, n, n, i, j, a, A));
   }
   PetscCall(MatConvert(*A, MATHYPRE, MAT_INITIAL_MATRIX, hypre));
   PetscCall(MatSetBlockSize(*hypre, bs));

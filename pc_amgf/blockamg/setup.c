@@ -40,25 +40,31 @@ static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
 }
 
 /*
-   Gets the operator in hypre's format, and creates the finest level. Both are made of the operator in format AIJ, which
-   is a copy for other formats. It is freed before hypre's set-up, which needs the most memory.
+   Gets the operator in hypre's format, and creates the hierarchy. Its finest level is made of the same copy in format
+   AIJ, which is freed before hypre's set-up, since this needs the most memory. *later: the finest level needs no such
+   copy and is not yet created.
 */
-static PetscErrorCode SetUpConvertOperator(PC pc, Mat *operator)
+static PetscErrorCode SetUpConvertOperator(PC pc, Mat *operator, PetscBool * later)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
   PetscInt     bs;
   Mat          aij;
 
   PetscFunctionBegin;
-  PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(BlockConvertToAIJ_Private(pc->pmat, &aij));
-  PetscCall(BlockHierarchyCreate_Private(aij, bs, &amg->h));
-  PetscCall(BlockConvertToHypre_Private(&aij, bs, operator));
+  PetscCall(BlockHierarchyCreate_Private(pc->pmat, &amg->h));
+  PetscCall(BlockHalfSupports_Private(pc->pmat, later));
+  if (*later) PetscCall(BlockHalfConvertToHypre_Private(pc->pmat, operator));
+  else {
+    PetscCall(MatGetBlockSize(pc->pmat, &bs));
+    PetscCall(BlockConvertToAIJ_Private(pc->pmat, &aij));
+    PetscCall(BlockHierarchySetFinest_Private(amg->h, aij, bs));
+    PetscCall(BlockConvertToHypre_Private(&aij, bs, operator));
+  }
   PetscFunctionReturn(0);
 }
 
-/* Lets hypre set up its hierarchy. *failed: hypre reported an error on some rank. */
-static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
+/* Lets hypre set up its hierarchy. *failed: hypre reported an error on some rank. later: see SetUpConvertOperator(). */
+static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
 {
   PC_BlockAMG   *amg = (PC_BlockAMG *)pc->data;
   AMGFGuard      guard;
@@ -73,7 +79,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(SetUpConvertOperator(pc, &operator));
+  PetscCall(SetUpConvertOperator(pc, &operator, later));
   PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* the Pmat carries the near null space, which its copy
                                                                 does not */
   PetscCall(MatDestroy(&operator));
@@ -88,9 +94,9 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *failed)
 
 /*
    Converts hypre's hierarchy. hypre's own memory is freed first, so that both hierarchies do not exist at the same
-   time.
+   time. later: the finest level is not yet created.
 */
-static PetscErrorCode SetUpConvert(PC pc)
+static PetscErrorCode SetUpConvert(PC pc, PetscBool later)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
   PetscInt     ncoarse, nlevels;
@@ -101,6 +107,7 @@ static PetscErrorCode SetUpConvert(PC pc)
   PetscCall(PCGetCoarseOperators(amg->hypre, &ncoarse, &coarse));
   PetscCall(PCGetInterpolations(amg->hypre, &nlevels, &interpolations));
   PetscCall(PCDestroy(&amg->hypre));
+  if (later) PetscCall(BlockHierarchySetFinest_Private(amg->h, pc->pmat, 3));
   PetscCall(BlockHierarchyAddLevels_Private(amg->h, nlevels, coarse, interpolations));
   PetscCall(PetscFree(coarse));
   PetscCall(PetscFree(interpolations));
@@ -112,7 +119,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
   PetscInt     M, N, row = -1;
-  PetscBool    failed, finite;
+  PetscBool    later, failed, finite;
   char         why[160];
 
   PetscFunctionBegin;
@@ -131,7 +138,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
     PetscFunctionReturn(0);
   }
   PetscCall(PetscLogEventBegin(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
-  PetscCall(SetUpHypre(pc, &failed));
+  PetscCall(SetUpHypre(pc, &later, &failed));
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
   if (failed) {
     PetscCall(PCDestroy(&amg->hypre));
@@ -139,7 +146,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
     PetscCall(SetUpFail(pc, PC_SUBPC_ERROR, "the set-up of hypre's BoomerAMG failed"));
     PetscFunctionReturn(0);
   }
-  PetscCall(SetUpConvert(pc));
+  PetscCall(SetUpConvert(pc, later));
   PetscCall(BlockHierarchyIsFinite_Private(amg->h, &finite));
   if (finite) PetscFunctionReturn(0);
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
