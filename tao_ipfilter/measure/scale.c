@@ -80,13 +80,14 @@ static PetscErrorCode EqualityScale(Tao tao)
 /*
    Computes the force scale, from the forces that cancel in the gradient. If none cancel it is the gradient at the
    start, limited by its present terms, so that a distant start does not make every gradient look small. A gradient
-   below ten rounding errors of its terms is meaningless.
+   below ten rounding errors of its terms is meaningless, and without constraints one below a hundred, since a start
+   near the solution has a small gradient itself.
 */
 static PetscErrorCode DualScale(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscBool limited  = (PetscBool)(ip->mi || ip->me || ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n);
-  const PetscReal rounding = 10.0 * PETSC_MACHINE_EPSILON;
+  const PetscReal rounding = (limited ? 10.0 : 100.0) * PETSC_MACHINE_EPSILON;
   PetscReal       norm, terms, stiffness;
   const PetscReal least = PetscSqr(
     PETSC_MACHINE_EPSILON); /* fraction of the first gradient below which a gradient is small even if the unknowns

@@ -126,6 +126,8 @@ def judge(title, end, inside):
     for name in ("press", "glued"):
         moved, force = steps[name][0]["probes"][0]["displacement"][2], steps[name][0]["faces"][2]["reaction"][2]
         say(title + name + ": two blocks, the force of the stretched face", abs(moved - 2 * (along - 1)) < 1e-6 and abs(force - 0.1 * across**2) < 1e-7, (moved, force))
+    its = [step["ip_iterations"] for step in steps["free"]]
+    say(title + "free: at most 40 Newton steps in a load step, although a body on weak springs turns about almost without force", max(its) <= 40, its)
     moved = steps["sphere"][0]["probes"][0]["displacement"][0]
     say(title + "sphere: as the radial problem has it, to 0.2 %", abs(moved - inside) < 2e-3 * inside, (moved, inside))
     say(title + "in equilibrium and in balance", all(step["equilibrium"] < 1e-7 and (step["balance"] < 1e-7 or name == "free") for name in steps for step in steps[name]), {name: [(s["equilibrium"], s["balance"]) for s in steps[name]] for name in steps})
