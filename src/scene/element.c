@@ -46,6 +46,9 @@ static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, 
   } else if (body->material.type == MATERIAL_SAINT_VENANT) {
     *element = ELEMENT_FULL;
     *reason  = "the only element for its law";
+  } else if (nnodes == 8) {
+    *element = ELEMENT_BBAR;
+    *reason  = "finite strain, hexahedra of order 1";
   } else if (poisson > INCOMPRESSIBLE) {
     *element = ELEMENT_BBAR;
     *reason  = "Poisson's ratio above 0.4";

@@ -56,7 +56,7 @@ echo "exit code ${PIPESTATUS[0]}"
 # A smaller one, beside which the cube turns over instead
 cat > over.yaml << 'SCENE'
 bodies:
-  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 10, poisson: 0.3}
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 10, poisson: 0.3, element: full}
   - lid: {lower: [0.2, 0.2, 1], upper: [0.8, 0.8, 1.3], cells: [2, 2, 1], material: rigid}
 displacements:
   - foot: {face: cube.zmin, value: [0, 0, 0]}

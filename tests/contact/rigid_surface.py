@@ -43,7 +43,7 @@ BESIDE = DRIVEN.replace("cells: [8, 8, 4], young: 1000, poisson: 0.3", "cells: [
 BOTTOM = "displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]}\n  - pin: {point: [-1, -1, 0], body: block, value: [0, 0, 0]}\n  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n"
 RUBBER = """problem: rubber
 bodies:
-  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4, order: {order}}}
+  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4, element: full, order: {order}}}
   - tool: {{{tool}, material: rigid}}
 load_steps: 3
 displacements:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the element that auto chooses with all others, on scenes that were not used to find its rule: choice.md, second.md
+"""Compares the element that auto chooses with all others, on scenes that were not used for its rule: {choice,second,third}.md
 
     share/bench/elements/choice.py [--only NAME] [--limit SECONDS] [--folder build/bench]
 """
@@ -12,6 +12,7 @@ TOP = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.join(TOP, "share", "bench")]
 import machine  # noqa: E402
 import second  # noqa: E402
+import third  # noqa: E402
 from runs import Runs  # noqa: E402
 
 ELEMENTS = {"auto": "", "full": "element: full", "bbar": "element: bbar", "incompatible": "element: incompatible", "order 2": "element: full, order: 2", "order 2, bbar": "element: bbar, order: 2"}
@@ -109,12 +110,12 @@ ties:
 }
 
 
-SETS = {"choice": (SCENES, ""), "second": (second.SCENES, second.WORDS)}  # page: scenes, and what it says of them
+SETS = {"choice": (SCENES, ""), "second": (second.SCENES, second.WORDS), "third": (third.SCENES, third.WORDS)}  # page: scenes, and what it says of them
 
 
 def run(title, element, level, runs):
     """Unknowns, quantity, user seconds; in their place why there is no answer"""
-    quantity, text = {**SCENES, **second.SCENES}[title]
+    quantity, text = {**SCENES, **second.SCENES, **third.SCENES}[title]
     text = text.replace(", E}", f", {ELEMENTS[element]}}}" if ELEMENTS[element] else "}") + f"refine: {level}\n"
     record = runs.get(f"{title}, {element}, {level}", text, ("-contact_updates", "20"))
     return record["failed"] or (record["unknowns"], record[quantity], record["seconds"])
@@ -156,7 +157,7 @@ INTRODUCTION = """If a scene names no element, the program chooses one (`element
 chosen element with all others on scenes that were not used to find the rule of `auto`. Errors are
 those of the contact force, or of the energy if there is no contact. The reference is the mean of
 `full` and `bbar` of order 2 on the mesh refined once; half of their difference is its uncertainty.
-Times are user seconds on one core. `refused`: the element does not exist for the law of the body.
+Times are user seconds on one core, the least of several runs if a run takes less than 0.5 s. `refused`: the element does not exist for the law of the body.
 Two criteria say whether the choice was good:
 
 | column | meaning |

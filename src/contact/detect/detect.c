@@ -24,11 +24,32 @@ static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
   PetscFunctionReturn(0);
 }
 
+/* Computes the masses of the bodies from their volumes, and the size of the box of all bodies */
+static void ModelWeigh(PetscInt nbodies, DetectModel *m)
+{
+  PetscReal diagonal[3];
+
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    const SceneBody *body = &m->bodies[b];
+
+    m->mass[b] = SceneBodyIsSurface(body) ? body->own[SURFACE_MASS] : body->material.density * m->volume[b];
+  }
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscReal lower = PETSC_MAX_REAL, upper = PETSC_MIN_REAL;
+
+    for (PetscInt b = 0; b < nbodies; ++b) {
+      lower = PetscMin(lower, m->box[6 * b + c]);
+      upper = PetscMax(upper, m->box[6 * b + 3 + c]);
+    }
+    diagonal[c] = upper - lower;
+  }
+  m->size = VectorNorm(diagonal);
+}
+
 /* Collective. Collects the facets of all bodies and computes the sizes of surfaces and bodies */
 static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 {
   MeshSurfaces *s = &m->surfaces;
-  PetscReal    *volume;
 
   PetscFunctionBegin;
   m->comm   = comm;
@@ -38,7 +59,7 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
   PetscCall(PetscMalloc1(12 * s->n, &m->normal));
   PetscCall(DetectNormals(s, m->normal));
   PetscCall(PetscCalloc3(scene->nbodies, &m->thickness, 6 * scene->nbodies, &m->box, scene->nbodies, &m->fine));
-  PetscCall(PetscCalloc1(scene->nbodies, &volume));
+  PetscCall(PetscCalloc2(scene->nbodies, &m->volume, scene->nbodies, &m->mass));
   for (PetscInt i = 0; i < 6 * scene->nbodies; ++i) m->box[i] = i % 6 < 3 ? PETSC_MAX_REAL : PETSC_MIN_REAL;
   for (PetscInt f = 0; f < s->n; ++f) {
     const PetscReal *x    = &s->x[12 * f];
@@ -49,7 +70,7 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 
     ContactFacetAreaVector(x, n);
     for (PetscInt c = 0; c < 3; ++c)
-      volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
+      m->volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
     m->thickness[body] += ContactFacetMass(x, mass); /* the sum of the areas, converted to a thickness below */
     m->area[s->surface[f]] += ContactFacetMass(x, mass);
     ++m->nfacets[s->surface[f]];
@@ -62,8 +83,8 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
     }
   }
   PetscCall(ModelAddRigidSurfaces(scene->nbodies, m));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * volume[b] / m->thickness[b];
-  PetscCall(PetscFree(volume));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * m->volume[b] / m->thickness[b];
+  ModelWeigh(scene->nbodies, m);
   PetscFunctionReturn(0);
 }
 
@@ -74,6 +95,7 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
   PetscCall(PetscFree3(m->area, m->nfacets, m->bulge));
   PetscCall(PetscFree(m->normal));
   PetscCall(PetscFree3(m->thickness, m->box, m->fine));
+  PetscCall(PetscFree2(m->volume, m->mass));
   PetscCall(PetscFree(m->tool));
   PetscFunctionReturn(0);
 }
@@ -242,7 +264,8 @@ static PetscErrorCode RulesDestroy(Scene scene)
   From five points of each facet at refinement level 0 a ray goes along the normal. The first facet that it hits, of
   another body and with an opposing normal, makes a pair of the two surfaces if it is within the distance. The distance
   of a rigid surface without facets is that from the start of the ray. This is done for the undeformed bodies, and for
-  up to 32 states of the load program with the bodies moved as prescribed. Bodies in between hide what is behind them.
+  up to 32 states of the load program with the bodies moved as prescribed, or in dynamics as in free flight. Bodies in
+  between hide what is behind them.
   The cost is O(N log N) in the number of facets, divided by the number of ranks.
 
   With `self` each body of finite strain, too, gets a pair in contact with itself.

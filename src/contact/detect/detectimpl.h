@@ -6,15 +6,13 @@
 
 #include "src/contact/search/searchimpl.h"
 
-/* moves.c: the rigid motion of each body that the scene prescribes, at one time of the load program */
+/* The rigid motion of a body at one time of the load program */
 typedef struct {
-  /* whether the motion is not zero */
-  PetscBool moves;
+  /* whether the motion is not zero; whether it is, at least partly, that of free flight */
+  PetscBool moves, falls;
   PetscReal shift[3], rotation[3], center[3]; /* shift [length], rotation vector [rad] and a point on its axis
                                                  [length] */
 } DetectMove;
-PETSC_INTERN PetscErrorCode DetectMoves(Scene, PetscReal time, DetectMove moves[]);
-PETSC_INTERN void           DetectMovePoints(const DetectMove *, PetscInt n, const PetscReal from[], PetscReal to[]);
 
 /* The facets of all bodies, and sizes of surfaces and bodies; equal on all ranks */
 typedef struct {
@@ -26,6 +24,9 @@ typedef struct {
   PetscReal   *bulge;     /* [surfaces] largest distance between the curved surface and its facets [length] */
   PetscReal   *thickness; /* [bodies] mean thickness of each body: 2 volume / area [length] */
   PetscReal   *box;       /* [6 bodies] bounding box of each undeformed body */
+  PetscReal    size;      /* diagonal of the box of all bodies [length] */
+  PetscReal   *volume;    /* [bodies] volume of each body inside its facets [length^3] */
+  PetscReal   *mass;      /* [bodies] mass of each body; 0 if it has no density */
   PetscReal   *fine; /* [bodies] area of a facet's parts in the contact search relative to the facet: 1/4 if the body
                         has order 2, or unspecified order and triangular facets; else 1 */
 
@@ -34,6 +35,19 @@ typedef struct {
   PetscInt         ntools, *tool; /* number of rigid surfaces without facets; for each of them, the facet that
                                      represents it */
 } DetectModel;
+
+/* fall.c: the motion in free flight; the body to which a face belongs */
+PETSC_INTERN PetscErrorCode DetectFall(const DetectModel *, Scene, PetscReal time, DetectMove moves[]);
+PETSC_INTERN PetscInt       DetectFindBody(Scene, const char face[]);
+
+/* moves.c: the motion that the scene prescribes, or else the motion in free flight */
+PETSC_INTERN PetscErrorCode DetectMoves(const DetectModel *, Scene, PetscReal time, DetectMove moves[]);
+PETSC_INTERN void           DetectMovePoints(const DetectMove *, PetscInt n, const PetscReal from[], PetscReal to[]);
+
+/* times.c: the times at which the bodies are tested [load steps] */
+#define DETECT_STATES 32 /* largest number of times */
+PETSC_INTERN PetscErrorCode DetectChooseTimes(const DetectModel *, Scene, PetscReal *extent, PetscInt *nstates,
+  PetscReal time[DETECT_STATES]);
 
 /* rules.c: the rule that applies to two surfaces. It is NULL if they get no contact. The public function is in
    detect.c. */

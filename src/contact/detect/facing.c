@@ -3,7 +3,6 @@
 #include "src/mesh/query/queryimpl.h"
 #include <stdlib.h>
 
-#define FACING_STATES   32   /* largest number of times at which the bodies are tested */
 #define FACING_FRACTION 0.25 /* default search distance, relative to the square root of the smaller surface's area */
 
 /* What the rays between two surfaces have found. The fields, also the numbers of surfaces and the counts, are real, so
@@ -108,6 +107,21 @@ static PetscBool FacingIsTied(const DetectState *state, PetscReal tie, PetscInt 
                      tie + estimate * (PetscAbsReal(height[0]) + PetscAbsReal(height[1])));
 }
 
+/* Returns whether two facets face each other only because bodies in free flight have moved through each other: in the
+   undeformed state the second facet is deep behind the first one */
+static PetscBool FacingHasPassed(const DetectState *state, const DetectHit *hit)
+{
+  const MeshSurfaces *s    = &state->model->surfaces;
+  const PetscInt      from = s->body[s->surface[hit->from]], to = s->body[s->surface[hit->to]];
+  const PetscReal    *x = &s->x[12 * hit->from], *y = &s->x[12 * hit->to];
+  PetscReal           normal[3], way[3]             = {0, 0, 0};
+
+  if (!state->moves[from].falls && !state->moves[to].falls) return PETSC_FALSE;
+  if (SceneBodyIsSurface(&state->model->bodies[to]) || !ContactFacetNormal(x, normal)) return PETSC_FALSE;
+  for (PetscInt i = 0; i < 12; ++i) way[i % 3] += 0.25 * (y[i] - x[i]);
+  return (PetscBool)(VectorDot(way, normal) < -PetscMin(state->model->thickness[from], state->model->thickness[to]));
+}
+
 /* Sends the rays of facet f, and appends a record for each surface that it faces. start: whether the bodies are
    undeformed; only then distances and ties are measured */
 static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLimits *limits, PetscInt f,
@@ -131,6 +145,7 @@ static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLim
       PetscInt                k;
 
       if (!rule || hits[h].distance > FacingReach(model, limits, rule, mine, its)) continue;
+      if (FacingHasPassed(state, &hits[h])) continue;
       for (k = 0; k < n && found[k].surface[1 - side] != (PetscReal)its;) ++k;
       if (k == n) {
         found[n]                   = (FacingRecord){.apart = PETSC_MAX_REAL};
@@ -194,42 +209,6 @@ static PetscErrorCode FacingShoot(const DetectState *state, const FacingLimits *
   PetscFunctionReturn(0);
 }
 
-/* Computes the largest motion of a corner of the bodies' boxes during the load program [length], and the number of
-   times to test */
-static PetscErrorCode FacingMeasureMoves(const DetectModel *model, Scene scene, PetscReal *extent, PetscInt *nstates)
-{
-  DetectMove *moves;
-  PetscReal   way = 0.0, size = PETSC_MAX_REAL;
-
-  PetscFunctionBegin;
-  *extent = 0.0;
-  PetscCall(PetscMalloc1(scene->nbodies, &moves));
-  for (PetscInt k = 1; k <= FACING_STATES; ++k) {
-    PetscReal most = 0.0;
-
-    PetscCall(DetectMoves(scene, (PetscReal)(k * scene->nsteps) / FACING_STATES, moves));
-    for (PetscInt b = 0; b < scene->nbodies; ++b) {
-      PetscReal diagonal[3];
-
-      for (PetscInt c = 0; c < 3; ++c) diagonal[c] = model->box[6 * b + 3 + c] - model->box[6 * b + c];
-      size = PetscMin(size, VectorNorm(diagonal));
-      for (PetscInt i = 0; i < 8 && moves[b].moves; ++i) {
-        PetscReal x[3], y[3];
-
-        for (PetscInt c = 0; c < 3; ++c) x[c] = model->box[6 * b + c + (i >> c & 1 ? 3 : 0)];
-        DetectMovePoints(&moves[b], 1, x, y);
-        for (PetscInt c = 0; c < 3; ++c) y[c] -= x[c];
-        most = PetscMax(most, VectorNorm(y));
-      }
-    }
-    *extent = PetscMax(*extent, most);
-    way += most / FACING_STATES;
-  }
-  PetscCall(PetscFree(moves));
-  *nstates = *extent > 0.0 ? PetscMax(2, PetscMin(FACING_STATES, 1 + (PetscInt)(16.0 * way / size))) : 0;
-  PetscFunctionReturn(0);
-}
-
 /* Finds the bodies all of whose displacement components are prescribed, on any of their faces */
 static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
 {
@@ -285,11 +264,12 @@ PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, 
   FacingLimits limits  = {.scene = scene};
   FacingList   list    = {0, 0, NULL};
   PetscInt     nstates = 0;
+  PetscReal    time[DETECT_STATES];
   PetscBool   *prescribed;
   DetectMove  *moves;
 
   PetscFunctionBegin;
-  PetscCall(FacingMeasureMoves(model, scene, &limits.extent, &nstates));
+  PetscCall(DetectChooseTimes(model, scene, &limits.extent, &nstates, time));
   PetscCall(PetscMalloc2(scene->nbodies, &moves, scene->nbodies, &prescribed));
   PetscCall(FacingFindPrescribed(scene, prescribed));
   limits.prescribed = prescribed;
@@ -297,7 +277,7 @@ PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, 
   for (PetscInt k = 0; k <= nstates; ++k) {
     DetectState state;
 
-    if (k) PetscCall(DetectMoves(scene, (PetscReal)(k * scene->nsteps) / (PetscReal)nstates, moves));
+    if (k) PetscCall(DetectMoves(model, scene, time[k - 1], moves));
     else PetscCall(PetscArrayzero(moves, scene->nbodies));
     PetscCall(DetectStateCreate(model, moves, &state));
     PetscCall(FacingShoot(&state, &limits, moves, (PetscBool)!k, &list));

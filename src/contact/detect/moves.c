@@ -1,34 +1,17 @@
 /*
    Positions of the bodies under prescribed motions. A body moves with its faces: along each axis by the largest of
-   their displacements, and by the first of their rotations. In dynamics, bodies start with their initial velocity, and
-   a larger prescribed displacement replaces the motion at that velocity.
+   their displacements, and by the first of their rotations. In dynamics a larger prescribed motion replaces that of the
+   body in free flight.
 */
 #include "detectimpl.h"
-#include <string.h>
 
-/* Returns the body whose displacement is prescribed, or PETSC_DECIDE if there is none */
-static PetscInt MoveFindBody(Scene scene, const SceneDisplacement *d)
-{
-  if (d->at != DISPLACEMENT_FACE) return d->body;
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const size_t length = strlen(scene->bodies[b].name);
-
-    if (!strncmp(scene->bodies[b].name, d->face, length) && d->face[length] == '.') return b;
-  }
-  return PETSC_DECIDE;
-}
-
-PetscErrorCode DetectMoves(Scene scene, PetscReal time, DetectMove moves[])
+PetscErrorCode DetectMoves(const DetectModel *model, Scene scene, PetscReal time, DetectMove moves[])
 {
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(moves, scene->nbodies));
-  for (PetscInt b = 0; b < scene->nbodies && SceneIsDynamic(scene); ++b) {
-    for (PetscInt c = 0; c < 3; ++c) moves[b].shift[c] = time * SceneTimeStep(scene) * scene->bodies[b].velocity[c];
-    moves[b].moves = (PetscBool)(VectorNorm(moves[b].shift) > 0.0);
-  }
+  PetscCall(DetectFall(model, scene, time, moves));
   for (PetscInt i = 0; i < scene->ndisplacements; ++i) {
     const SceneDisplacement *d     = &scene->displacements[i];
-    const PetscInt           b     = MoveFindBody(scene, d);
+    const PetscInt           b     = d->at == DISPLACEMENT_FACE ? DetectFindBody(scene, d->face) : d->body;
     const PetscBool          turns = (PetscBool)(VectorNorm(d->rotation) > 0.0);
     PetscReal                factor;
 
@@ -39,7 +22,7 @@ PetscErrorCode DetectMoves(Scene scene, PetscReal time, DetectMove moves[])
 
       if (PetscAbsReal(shift) > PetscAbsReal(moves[b].shift[c])) moves[b].shift[c] = shift;
     }
-    if (turns && VectorNorm(moves[b].rotation) == 0.0) {
+    if (turns && (moves[b].falls || VectorNorm(moves[b].rotation) == 0.0)) {
       for (PetscInt c = 0; c < 3; ++c) {
         moves[b].rotation[c] = factor * d->rotation[c] * PETSC_PI / 180.0;
         moves[b].center[c]   = d->center[c];
