@@ -13,6 +13,7 @@ typedef struct {
   PetscReal   moment[3];        /* [force length] */
   PetscReal   mortar_force[3];  /* on the mortar side [force] */
   PetscReal   mortar_moment[3]; /* [force length] */
+  PetscReal   size;             /* sum of the magnitudes of the components of the nodal forces [force] */
   PetscReal   normal_force;     /* sum of the magnitudes of the rows' forces, which is the integral of the pressure
                                    [force] */
   PetscReal   area;             /* area around the vertices in contact that the other side covers [length^2] */
@@ -37,6 +38,7 @@ typedef struct {
   const char *name;
   PetscReal   reaction[3]; /* on the body [force] */
   PetscReal   moment[3];   /* [force length] */
+  PetscReal   size;        /* sum of the magnitudes of the components of the nodal forces [force] */
 } FaceReport;
 
 /* Position of a rigid body: that of its centre of rotation if the scene gives one, otherwise that of its middle. The
@@ -84,7 +86,8 @@ typedef struct {
   const char *name;
   PetscReal   contact[3], reaction[3], springs[3], ties[3], load[3]; /* [force] */
   PetscReal   residual[3];                                           /* their sum [force] */
-  PetscReal   balance;        /* magnitude of `residual` divided by the sum of the magnitudes of all forces */
+  PetscReal   balance; /* magnitude of `residual` divided by the sum of the magnitudes of all forces; of contact and
+                          reactions those at the nodes, whose sum may vanish, as in a press fit */
   PetscReal   plastic_strain; /* largest equivalent plastic strain at any quadrature point */
 } BodyReport;
 
@@ -201,6 +204,7 @@ typedef struct {
   PetscLogDouble   step_time;  /* time of the load step, without the time to write its results [s] */
   PetscBool        converged;
   const char      *reason;
+  PetscReal        force_rounding; /* rounding error of forces on bodies without stress [force] */
 } StepReport;
 
 /*

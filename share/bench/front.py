@@ -375,6 +375,7 @@ def page(found, loads, folder):
 FURTHER = (
     ("elements/choice.md", "how good the element is that `auto` chooses, for eleven scenes"),
     ("elements/second.md", "the same for eleven other scenes: finite strain, friction, plasticity, torsion"),
+    ("elements/third.md", "the same for five scenes that were chosen after the rule had changed"),
     ("elements/sharp.md", "order 1 and 2 where contact ends at an edge"),
     *((f"knobs/{name}.md", title) for name, (title, _) in PAGES.items()),
     ("calculix.md", "comparison with CalculiX: times, forces, and why they differ"),

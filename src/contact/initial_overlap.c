@@ -8,6 +8,7 @@ typedef struct {
                                         and of its point on the mortar face [length] */
 } InitialOverlapRow;
 #define OVERLAP_REALS   ((PetscInt)(sizeof(InitialOverlapRow) / sizeof(PetscReal)))
+#define OVERLAP_POINTS  6   /* points between a vertex and the mortar face that must be inside the nonmortar body */
 #define OVERLAP_CENTERS 200 /* largest number of mortar facets of a rank that are tested */
 
 /* Returns whether the point x is inside a box */
@@ -88,36 +89,40 @@ static PetscErrorCode InitialOverlapFindRows(Contact contact, const PetscReal bo
 /*
    Collective. Selects the deepest row at which the bodies overlap. deepest->depth stays 0 if there is none. They
    overlap if the point behind the vertex, at the search depth, is inside the mortar body; or if the point of the mortar
-   face is inside the nonmortar body, and the mortar body is in front of it. The gap alone does not show an overlap: it
-   is a mean that also counts facets on the far side of round bodies that touch.
+   face is inside the nonmortar body, the mortar body is in front of it, and the line from there to the vertex does not
+   leave the nonmortar body. The gap alone does not show an overlap: it is a mean that also counts facets on the far
+   side of round bodies that touch, or across the hole of a ring.
 */
 static PetscErrorCode InitialOverlapPickDeepest(Contact contact, const ContactBoundary *boundary, PetscInt n,
   const InitialOverlapRow deep[], InitialOverlapRow *deepest)
 {
-  const PetscReal inside = 0.9 * 4.0 * PETSC_PI, ahead = 0.1;
+  const PetscReal inside = 0.9 * 4.0 * PETSC_PI, ahead[OVERLAP_POINTS] = {0.0, 0.1, 0.3, 0.5, 0.7, 0.9};
+  const PetscInt  m = 2 + OVERLAP_POINTS;
   PetscReal      *angle;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(3 * n, &angle));
+  PetscCall(PetscMalloc1(m * n, &angle));
   for (PetscInt k = 0; k < n; ++k) {
     const ContactPairData   *pair = &contact->pairs[(PetscInt)deep[k].pair];
     const InitialOverlapRow *row  = &deep[k];
-    PetscReal                behind[3], front[3];
+    PetscReal                x[3];
 
-    for (PetscInt j = 0; j < 3; ++j) angle[3 * k + j] = 0.0;
+    for (PetscInt j = 0; j < m; ++j) angle[m * k + j] = 0.0;
     if (row->depth <= pair->depth) continue;
-    for (PetscInt c = 0; c < 3; ++c) {
-      behind[c] = row->x[c] + pair->depth / row->depth * (row->y[c] - row->x[c]);
-      front[c]  = row->y[c] + ahead * (row->x[c] - row->y[c]);
+    for (PetscInt c = 0; c < 3; ++c) x[c] = row->x[c] + pair->depth / row->depth * (row->y[c] - row->x[c]);
+    angle[m * k] = ContactBoundarySolidAngle(boundary, pair->mortar.body, x);
+    for (PetscInt j = 0; j < OVERLAP_POINTS; ++j) {
+      for (PetscInt c = 0; c < 3; ++c) x[c] = row->y[c] + ahead[j] * (row->x[c] - row->y[c]);
+      if (j == 1) angle[m * k + 1] = ContactBoundarySolidAngle(boundary, pair->mortar.body, x);
+      angle[m * k + 2 + j] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, x);
     }
-    angle[3 * k]     = ContactBoundarySolidAngle(boundary, pair->mortar.body, behind);
-    angle[3 * k + 1] = ContactBoundarySolidAngle(boundary, pair->nonmortar.body, row->y);
-    angle[3 * k + 2] = ContactBoundarySolidAngle(boundary, pair->mortar.body, front);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, 3 * n, MPIU_REAL, MPIU_SUM, contact->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, angle, (PetscMPIInt)(m * n), MPIU_REAL, MPIU_SUM, contact->comm));
   for (PetscInt k = 0; k < n; ++k) {
-    if (PetscMax(angle[3 * k], PetscMin(angle[3 * k + 1], angle[3 * k + 2])) > inside && deep[k].depth > deepest->depth)
-      *deepest = deep[k];
+    PetscReal along = angle[m * k + 1];
+
+    for (PetscInt j = 0; j < OVERLAP_POINTS; ++j) along = PetscMin(along, angle[m * k + 2 + j]);
+    if (PetscMax(angle[m * k], along) > inside && deep[k].depth > deepest->depth) *deepest = deep[k];
   }
   PetscCall(PetscFree(angle));
   PetscFunctionReturn(0);

@@ -44,7 +44,10 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
     const PetscInt        end     = density->body < 0 ? scene->nbodies : first + 1;
 
     PetscCall(DeadLoadsGetRamp(dm, loads, density->ramp, &force));
-    for (PetscInt b = first; b < end; ++b) PetscCall(ElasticityAddBodyForce(elasticity, b, density->value, force));
+    for (PetscInt b = first; b < end; ++b) {
+      if (SceneBodyIsSurface(&scene->bodies[b])) continue; /* its cells are for pictures: it has no volume */
+      PetscCall(ElasticityAddBodyForce(elasticity, b, density->value, force));
+    }
   }
   PetscFunctionReturn(0);
 }

@@ -4,10 +4,11 @@
 #include <string.h>
 #include "src/state/contact_state.h"
 
-/* A force [force] and its moment about the origin [force length] */
+/* A force [force], its moment about the origin [force length], and the sum of the magnitudes of its parts [force] */
 typedef struct {
-  PetscReal force[3], moment[3];
+  PetscReal force[3], moment[3], size;
 } ForceSum;
+#define FORCE_SUM_REALS ((PetscMPIInt)(sizeof(ForceSum) / sizeof(PetscReal)))
 
 /* Undeformed coordinates and displacements of the owned vertices, and the forces at them */
 typedef struct {
@@ -42,6 +43,7 @@ static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt share
   const PetscReal f = PetscRealPart(field->force[i]) / (PetscReal)sharers;
 
   sum->force[c] += f;
+  sum->size += PetscAbsReal(f);
   sum->moment[d] += PetscRealPart(field->x[v + e] + field->u[v + e]) * f;
   sum->moment[e] -= PetscRealPart(field->x[v + d] + field->u[v + d]) * f;
 }
@@ -74,7 +76,7 @@ static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, c
 static PetscErrorCode ForceSumReduce(MPI_Comm comm, PetscInt n, ForceSum sums[])
 {
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(6 * n), MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, FORCE_SUM_REALS * (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -205,6 +207,7 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear
     PetscCall(PetscArraycpy(pair->force, sides[2 * p].force, 3));
     PetscCall(PetscArraycpy(pair->moment, sides[2 * p].moment, 3));
     PetscCall(PetscArraycpy(pair->mortar_force, sides[2 * p + 1].force, 3));
+    pair->size = PetscMax(sides[2 * p].size, sides[2 * p + 1].size);
     PetscCall(PetscArraycpy(pair->mortar_moment, sides[2 * p + 1].moment, 3));
     for (PetscInt c = 0; c < 3; ++c) report->contact_force[c] += pair->force[c];
   }
@@ -298,6 +301,7 @@ PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties,
   PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {
     PetscCall(PetscArraycpy(report->faces[f].reaction, sums[f].force, 3));
+    report->faces[f].size = sums[f].size;
     PetscCall(PetscArraycpy(report->faces[f].moment, sums[f].moment, 3));
   }
   PetscCall(PetscFree2(sums, sharers));
@@ -335,17 +339,17 @@ static PetscErrorCode ForcesMeasureConnectors(Simulation sim, Vec u, StepReport 
 }
 
 /*
-   Adds a force to one of the body's sums and to its residual. The magnitude is added to body->balance, which is
-   normalized at the end.
+   Adds a force to one of the body's sums and to its residual. Its size is added to body->balance, which is normalized
+   at the end: the magnitude, or `size` if that is larger because the parts of the force cancel.
 */
-static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3])
+static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const PetscReal force[3], PetscReal size)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
     sum[c] += force[c];
     body->residual[c] += force[c];
   }
-  body->balance += VectorNorm(force);
+  body->balance += PetscMax(VectorNorm(force), size);
   PetscFunctionReturn(0);
 }
 
@@ -357,7 +361,7 @@ static PetscErrorCode ForcesAddToBodies(StepReport *report, size_t offset, Petsc
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 
-    PetscCall(ForcesAddToBody(body, (PetscReal *)((char *)body + offset), &(*forces)[3 * b]));
+    PetscCall(ForcesAddToBody(body, (PetscReal *)((char *)body + offset), &(*forces)[3 * b], 0.0));
   }
   PetscCall(PetscFree(*forces));
   PetscFunctionReturn(0);
@@ -418,13 +422,13 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
     BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar),
                *mortar    = ForcesFindBody(report, sim->scene->pairs[p].mortar);
 
-    PetscCall(ForcesAddToBody(nonmortar, nonmortar->contact, report->pairs[p].force));
-    PetscCall(ForcesAddToBody(mortar, mortar->contact, report->pairs[p].mortar_force));
+    PetscCall(ForcesAddToBody(nonmortar, nonmortar->contact, report->pairs[p].force, report->pairs[p].size));
+    PetscCall(ForcesAddToBody(mortar, mortar->contact, report->pairs[p].mortar_force, report->pairs[p].size));
   }
   for (PetscInt f = 0; f < report->nfaces; ++f) {
     BodyReport *body = ForcesFindBody(report, report->faces[f].name);
 
-    PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction));
+    PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction, report->faces[f].size));
   }
   if (load) PetscCall(ForcesSumLoads(sim, load, report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));

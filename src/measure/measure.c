@@ -200,6 +200,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
   rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding error of the forces on bodies without stress */
+  report->force_rounding = rounding;
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));

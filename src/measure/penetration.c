@@ -8,6 +8,12 @@
 
 #define PENETRATION_SHARE 0.01 /* a warning is printed above this fraction of the largest displacement of the run */
 
+/* Returns whether the pair carries a force that is not a rounding error */
+static PetscBool PenetrationHasForce(const StepReport *report, PetscInt p)
+{
+  return (PetscBool)(PetscAbsReal(report->pairs[p].normal_force) > report->force_rounding);
+}
+
 /* Measures penetration at the last state. After the last load step, pairs without force are measured in their facets as
    well. Collective. */
 PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
@@ -19,7 +25,7 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   if (!report->npairs) PetscFunctionReturn(0);
   PetscCall(PetscMalloc3(report->npairs, &depth, report->npairs, &rounding, report->npairs, &within));
   for (PetscInt p = 0; p < report->npairs; ++p)
-    within[p] = (PetscBool)(report->step == sim->scene->nsteps && report->pairs[p].normal_force == 0.0);
+    within[p] = (PetscBool)(report->step == sim->scene->nsteps && !PenetrationHasForce(report, p));
   PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
   PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &report->motion));
   for (PetscInt p = 0; p < report->npairs; ++p) {
@@ -74,13 +80,13 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
   char            reason[512];
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim) || motion == 0.0) PetscFunctionReturn(0);
   if (report->step < sim->scene->nsteps) PetscFunctionReturn(0);
   for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
     const PairReport       *its  = &report->pairs[p];
 
-    if (its->normal_force != 0.0 || PenetrationIsMeant(pair, report)) continue;
+    if (PenetrationHasForce(report, p) || PenetrationIsMeant(pair, report)) continue;
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% "
@@ -108,7 +114,8 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
   PetscFunctionBegin;
   if (p >= report->npairs || pair->self || PenetrationIsMeant(pair, report)) PetscFunctionReturn(0);
   its = &report->pairs[p];
-  if (its->normal_force != 0.0 || its->penetration <= most * motion || its->penetration > its->penetration_rounding)
+  if (PenetrationHasForce(report, p) || its->penetration <= most * motion ||
+      its->penetration > its->penetration_rounding)
     PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report,
     "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% of "
@@ -143,7 +150,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
       if (report->pairs[p].penetration <= PetscMax(depth, report->pairs[p].penetration_rounding)) continue;
       depth = report->pairs[p].penetration;
       step  = report->step;
-      open  = (PetscBool)(report->pairs[p].normal_force == 0.0);
+      open  = (PetscBool)!PenetrationHasForce(report, p);
     }
     if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(sim, p));
     if (depth <= PENETRATION_SHARE * motion) continue;

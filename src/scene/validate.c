@@ -93,6 +93,21 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, const char file[
   PetscFunctionReturn(0);
 }
 
+/* A rigid surface has no volume; the cells that show it have one */
+static PetscErrorCode SceneValidateBodyForces(MPI_Comm comm, const char file[], Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < scene->nforces; ++f) {
+    const SceneBodyForce *force = &scene->forces[f];
+
+    SceneRequire(force->body < 0 || !SceneBodyIsSurface(&scene->bodies[force->body]),
+      "%s: body force \"%s\" acts on the body \"%s\", which is a rigid surface and has no volume: list its weight "
+      "under forces",
+      file, force->name, scene->bodies[force->body].name);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidatePressures(MPI_Comm comm, const char file[], Scene scene)
 {
   PetscFunctionBegin;
@@ -221,6 +236,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, const char file[], Scene scene)
   PetscCall(SceneValidateBodies(comm, file, scene));
   PetscCall(SceneValidateDisplacements(comm, file, scene));
   PetscCall(SceneValidateRigid(comm, file, scene));
+  PetscCall(SceneValidateBodyForces(comm, file, scene));
   PetscCall(SceneValidatePressures(comm, file, scene));
   PetscCall(SceneValidateSprings(comm, file, scene));
   PetscCall(SceneValidateBolts(comm, file, scene));

@@ -157,7 +157,8 @@ INTRODUCTION = """If a scene names no element, the program chooses one (`element
 chosen element with all others on scenes that were not used to find the rule of `auto`. Errors are
 those of the contact force, or of the energy if there is no contact. The reference is the mean of
 `full` and `bbar` of order 2 on the mesh refined once; half of their difference is its uncertainty.
-Times are user seconds on one core, the least of several runs if a run takes less than 0.5 s. `refused`: the element does not exist for the law of the body.
+Times are user seconds on one core, the least of several runs if a run takes less than 0.5 s.
+`refused`: the element does not exist for the law of the body.
 Two criteria say whether the choice was good:
 
 | column | meaning |

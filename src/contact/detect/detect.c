@@ -25,14 +25,14 @@ static PetscErrorCode ModelAddRigidSurfaces(PetscInt nbodies, DetectModel *m)
 }
 
 /* Computes the masses of the bodies from their volumes, and the size of the box of all bodies */
-static void ModelWeigh(PetscInt nbodies, DetectModel *m)
+static void ModelWeigh(PetscInt nbodies, const PetscReal volume[], DetectModel *m)
 {
   PetscReal diagonal[3];
 
   for (PetscInt b = 0; b < nbodies; ++b) {
     const SceneBody *body = &m->bodies[b];
 
-    m->mass[b] = SceneBodyIsSurface(body) ? body->own[SURFACE_MASS] : body->material.density * m->volume[b];
+    m->mass[b] = SceneBodyIsSurface(body) ? body->own[SURFACE_MASS] : body->material.density * volume[b];
   }
   for (PetscInt c = 0; c < 3; ++c) {
     PetscReal lower = PETSC_MAX_REAL, upper = PETSC_MIN_REAL;
@@ -50,6 +50,7 @@ static void ModelWeigh(PetscInt nbodies, DetectModel *m)
 static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 {
   MeshSurfaces *s = &m->surfaces;
+  PetscReal    *volume;
 
   PetscFunctionBegin;
   m->comm   = comm;
@@ -59,7 +60,8 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
   PetscCall(PetscMalloc1(12 * s->n, &m->normal));
   PetscCall(DetectNormals(s, m->normal));
   PetscCall(PetscCalloc3(scene->nbodies, &m->thickness, 6 * scene->nbodies, &m->box, scene->nbodies, &m->fine));
-  PetscCall(PetscCalloc2(scene->nbodies, &m->volume, scene->nbodies, &m->mass));
+  PetscCall(PetscCalloc1(scene->nbodies, &volume));
+  PetscCall(PetscCalloc1(scene->nbodies, &m->mass));
   for (PetscInt i = 0; i < 6 * scene->nbodies; ++i) m->box[i] = i % 6 < 3 ? PETSC_MAX_REAL : PETSC_MIN_REAL;
   for (PetscInt f = 0; f < s->n; ++f) {
     const PetscReal *x    = &s->x[12 * f];
@@ -70,7 +72,7 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
 
     ContactFacetAreaVector(x, n);
     for (PetscInt c = 0; c < 3; ++c)
-      m->volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
+      volume[body] += n[c] * (x[c] + x[3 + c] + x[6 + c] + x[9 + c] - 4.0 * origin[c]) / 12.0;
     m->thickness[body] += ContactFacetMass(x, mass); /* the sum of the areas, converted to a thickness below */
     m->area[s->surface[f]] += ContactFacetMass(x, mass);
     ++m->nfacets[s->surface[f]];
@@ -83,8 +85,9 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
     }
   }
   PetscCall(ModelAddRigidSurfaces(scene->nbodies, m));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * m->volume[b] / m->thickness[b];
-  ModelWeigh(scene->nbodies, m);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) m->thickness[b] = 2.0 * volume[b] / m->thickness[b];
+  ModelWeigh(scene->nbodies, volume, m);
+  PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }
 
@@ -95,7 +98,7 @@ static PetscErrorCode ModelDestroy(DetectModel *m)
   PetscCall(PetscFree3(m->area, m->nfacets, m->bulge));
   PetscCall(PetscFree(m->normal));
   PetscCall(PetscFree3(m->thickness, m->box, m->fine));
-  PetscCall(PetscFree2(m->volume, m->mass));
+  PetscCall(PetscFree(m->mass));
   PetscCall(PetscFree(m->tool));
   PetscFunctionReturn(0);
 }

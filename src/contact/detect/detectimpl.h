@@ -25,7 +25,6 @@ typedef struct {
   PetscReal   *thickness; /* [bodies] mean thickness of each body: 2 volume / area [length] */
   PetscReal   *box;       /* [6 bodies] bounding box of each undeformed body */
   PetscReal    size;      /* diagonal of the box of all bodies [length] */
-  PetscReal   *volume;    /* [bodies] volume of each body inside its facets [length^3] */
   PetscReal   *mass;      /* [bodies] mass of each body; 0 if it has no density */
   PetscReal   *fine; /* [bodies] area of a facet's parts in the contact search relative to the facet: 1/4 if the body
                         has order 2, or unspecified order and triangular facets; else 1 */

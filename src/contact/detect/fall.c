@@ -78,8 +78,8 @@ PetscErrorCode DetectFall(const DetectModel *model, Scene scene, PetscReal time,
 
     PetscCall(FallIntegrate(scene, f->ramp, time, &shift));
     for (PetscInt b = 0; b < scene->nbodies; ++b) {
-      if (f->body == b || f->body == PETSC_DECIDE)
-        FallAdd(f->value, model->mass[b] / model->volume[b], shift, &moves[b]);
+      if ((f->body == b || f->body == PETSC_DECIDE) && !SceneBodyIsSurface(&scene->bodies[b]))
+        FallAdd(f->value, scene->bodies[b].material.density, shift, &moves[b]);
     }
   }
   for (PetscInt i = 0; i < scene->ntractions; ++i) {

@@ -288,7 +288,11 @@ static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[],
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < keys->nasked; ++i) {
+    PetscBool before = PETSC_FALSE; /* a key may have been asked for more than once */
+
     if (strncasecmp(keys->asked[i], unknown, length) || keys->asked[i][length] != '_') continue;
+    for (PetscInt j = 0; j < i; ++j) before = (PetscBool)(before || !strcasecmp(keys->asked[i], keys->asked[j]));
+    if (before) continue;
     PetscCall(PetscStrlcat(below, below[0] ? ", " : "", sizeof(below)));
     PetscCall(PetscStrlcat(below, keys->asked[i] + length + 1, sizeof(below)));
   }
