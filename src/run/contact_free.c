@@ -3,6 +3,32 @@
 #include <petsctime.h>
 #include "src/state/path.h"
 
+/*
+   Gets the stiffness matrix in the optimizer's format: with both triangles if an option names another AMG than that of
+   PCAMGF, which needs only one
+*/
+static PetscErrorCode ContactFreeMatrix(Simulation sim, KSP ksp, Mat *K)
+{
+  PC          pc, amg;
+  const char *prefix;
+  PetscBool   amgf, given = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (amgf) {
+    PetscCall(PCAMGFGetAMGPC(pc, &amg));
+    PetscCall(PCGetOptionsPrefix(amg, &prefix));
+    PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_type", &given));
+  }
+  if (given) PetscCall(StiffnessGetWhole(sim, MATBAIJ, K));
+  else {
+    PetscCall(PetscObjectReference((PetscObject)sim->K));
+    *K = sim->K;
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Creates a solver like the optimizer's, with its options. PCAMGF without a subspace is its AMG alone. */
 static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
 {
@@ -18,7 +44,7 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
-  PetscCall(StiffnessGetWhole(sim, MATBAIJ, &K)); /* the format of the optimizer's matrix */
+  PetscCall(ContactFreeMatrix(sim, *ksp, &K));
   PetscCall(StiffnessSetModes(sim, *ksp, K));
   PetscCall(KSPSetOperators(*ksp, K, K));
   PetscCall(MatDestroy(&K));
